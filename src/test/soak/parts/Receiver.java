@@ -1,6 +1,6 @@
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 import com.sun.net.httpserver.HttpServer;
 
@@ -10,9 +10,9 @@ class Receiver {
         InetSocketAddress address = new InetSocketAddress(InetAddress.getLoopbackAddress(), Integer.parseInt(arguments[0]));
         HttpServer server = HttpServer.create(address, 0);
         server.createContext("/", exchange -> {
-            String body = new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8);
+            String body = new String(exchange.getRequestBody().readAllBytes(), UTF_8);
             System.out.println(exchange.getRequestMethod() + " " + exchange.getRequestURI() + " " + body);
-            byte[] answer = exchange.getRequestURI().getPath().endsWith("/query") ? "[]".getBytes(StandardCharsets.UTF_8) : null;
+            byte[] answer = exchange.getRequestURI().getPath().endsWith("/query") ? "[]".getBytes(UTF_8) : null;
             exchange.sendResponseHeaders(answer == null ? 204 : 200, answer == null ? -1 : answer.length);
             if (answer != null) {
                 exchange.getResponseBody().write(answer);

@@ -17,6 +17,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.FreePort;
+import io.furrow.process.TestProcess;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -172,12 +173,7 @@ class ContainerScriptsTest {
     }
 
     private static int run(String... arguments) throws Exception {
-        Process process = new ProcessBuilder(arguments)
-                .redirectErrorStream(true)
-                .redirectOutput(ProcessBuilder.Redirect.DISCARD)
-                .start();
-        assertThat(process.waitFor(1, TimeUnit.MINUTES)).isTrue();
-        return process.exitValue();
+        return TestProcess.run(new ProcessBuilder(arguments)).status();
     }
 
     private String submit(String... arguments) throws Exception {

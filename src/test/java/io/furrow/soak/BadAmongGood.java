@@ -1,7 +1,6 @@
 package io.furrow.soak;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -30,6 +29,7 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import io.furrow.cli.dead.Redrive;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.files.Folders;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.ingest.IngestJob;
@@ -38,6 +38,8 @@ import io.furrow.ingest.normalize.NormalizeJob;
 import io.furrow.ingest.normalize.NormalizeOptions;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * Bad records of every kind among good ones, through {@code normalize} and {@code ingest} on a Kafka and a Flink of their own:
@@ -89,10 +91,7 @@ public final class BadAmongGood implements AutoCloseable {
             faults = run.faults(good, bad, Duration.ofMinutes(20));
             faults.addAll(run.faultsAfterRedriveing(good, bad, Duration.ofMinutes(5)));
         } finally {
-            try (var files = Files.walk(directory)) {
-                files.sorted(java.util.Comparator.reverseOrder())
-                        .forEach(file -> file.toFile().delete());
-            }
+            Folders.delete(directory);
         }
         faults.forEach(System.out::println);
         System.exit(faults.isEmpty() ? 0 : 1);
@@ -144,13 +143,13 @@ public final class BadAmongGood implements AutoCloseable {
                 notification ? Topics.NOTIFICATIONS : Topics.RAW,
                 null,
                 TIME + number,
-                id.getBytes(StandardCharsets.UTF_8),
-                value.getBytes(StandardCharsets.UTF_8));
+                id.getBytes(UTF_8),
+                value.getBytes(UTF_8));
     }
 
     private static ProducerRecord<byte[], byte[]> bad(BadRecord kind) {
         var record = new ProducerRecord<>(kind.topic(), null, TIME, kind.key(), kind.value());
-        record.headers().add(KIND, kind.kind().getBytes(StandardCharsets.UTF_8));
+        record.headers().add(KIND, kind.kind().getBytes(UTF_8));
         return record;
     }
 
@@ -249,8 +248,7 @@ public final class BadAmongGood implements AutoCloseable {
                         && deadLetter.topic().equals(Topics.dead(kind.get().topic()));
         // Of a notification of several entities each bad one is a letter of its own.
         boolean whole = Arrays.equals(deadLetter.value(), kind.get().value())
-                || new String(kind.get().value(), StandardCharsets.UTF_8)
-                        .contains(new String(deadLetter.value(), StandardCharsets.UTF_8));
+                || new String(kind.get().value(), UTF_8).contains(new String(deadLetter.value(), UTF_8));
         return asItShould && whole
                 ? Optional.empty()
                 : Optional.of(kind.get().kind() + " became " + header(deadLetter, DeadLetter.REASON) + " on "
@@ -275,7 +273,7 @@ public final class BadAmongGood implements AutoCloseable {
 
     private static String header(ConsumerRecord<byte[], byte[]> record, String name) {
         Header header = record.headers().lastHeader(name);
-        return header == null ? "" : new String(header.value(), StandardCharsets.UTF_8);
+        return header == null ? "" : new String(header.value(), UTF_8);
     }
 
     @Override

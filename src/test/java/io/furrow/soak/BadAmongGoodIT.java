@@ -14,11 +14,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 @Timeout(180)
 @Tag("soak")
 class BadAmongGoodIT {
-    @TempDir
-    Path directory;
-
     @Test
-    void setsAsideEveryBadRecordWithItsReasonPassesEveryGoodOneAndTakesTheBadOnesBack() throws Exception {
+    void setsAsideEveryBadRecordWithItsReasonPassesEveryGoodOneAndTakesTheBadOnesBack(@TempDir Path directory)
+            throws Exception {
         assertThat(BadRecord.all()).hasSizeGreaterThanOrEqualTo(20);
         try (BadAmongGood run = BadAmongGood.start(directory)) {
             run.write(10_000, 240);

@@ -4,10 +4,11 @@ import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.io.InputStream;
 import java.io.UncheckedIOException;
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * A kind of bad record, as a line of {@code bad-records.txt} has it.
@@ -21,7 +22,7 @@ record BadRecord(String kind, String topic, String reason, byte[] key, byte[] va
 
     static List<BadRecord> all() {
         try (InputStream lines = BadRecord.class.getResourceAsStream("bad-records.txt")) {
-            return new String(lines.readAllBytes(), StandardCharsets.UTF_8)
+            return new String(lines.readAllBytes(), UTF_8)
                     .lines()
                     .filter(line -> !line.startsWith("#"))
                     .map(BadRecord::of)
@@ -34,7 +35,7 @@ record BadRecord(String kind, String topic, String reason, byte[] key, byte[] va
     private static BadRecord of(String line) {
         String[] parts = line.split("\\|", 4);
         String value = parts[3].strip();
-        byte[] key = value.equals("NULL WITHOUT KEY") ? null : "bad".getBytes(StandardCharsets.UTF_8);
+        byte[] key = value.equals("NULL WITHOUT KEY") ? null : "bad".getBytes(UTF_8);
         byte[] bytes = value.startsWith("NULL") ? null : bytes(repeated(value));
         return new BadRecord(parts[0].strip(), parts[1].strip(), parts[2].strip(), key, bytes);
     }
@@ -51,7 +52,7 @@ record BadRecord(String kind, String topic, String reason, byte[] key, byte[] va
                 bytes.write(Integer.parseInt(text.substring(i + 2, i + 4), 16));
                 i += 3;
             } else {
-                bytes.writeBytes(text.substring(i, i + 1).getBytes(StandardCharsets.UTF_8));
+                bytes.writeBytes(text.substring(i, i + 1).getBytes(UTF_8));
             }
         }
         return bytes.toByteArray();

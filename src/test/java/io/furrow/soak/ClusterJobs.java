@@ -39,8 +39,7 @@ public final class ClusterJobs {
         System.out.println(name + " is " + job.path("state").asText());
         expect(job.path("state").asText().equals("RUNNING"), name + " is not running");
 
-        JsonNode options =
-                get("/jobs/" + id + "/config").path("execution-config").path("user-config");
+        JsonNode options = get("/jobs/" + id + "/config").at("/execution-config/user-config");
         System.out.println("    options: " + NgsiJson.mapper().writeValueAsString(options));
         expect(options.has("--bootstrap-servers"), name + " does not show its options");
 
@@ -49,11 +48,10 @@ public final class ClusterJobs {
             System.out.println("    " + vertex.path("parallelism").asInt() + " × " + vertexName);
             expect(named(vertexName), name + " has a vertex without a name of its own: " + vertexName);
         }
-        JsonNode failures =
-                get("/jobs/" + id + "/exceptions").path("exceptionHistory").path("entries");
+        JsonNode failures = get("/jobs/" + id + "/exceptions").at("/exceptionHistory/entries");
         expect(
                 failures.isEmpty(),
-                name + " failed: " + failures.path(0).path("stacktrace").asText());
+                name + " failed: " + failures.at("/0/stacktrace").asText());
     }
 
     /** Flink calls an operator without a name by its kind, for instance {@code Map}. */

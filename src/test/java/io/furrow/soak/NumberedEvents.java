@@ -1,6 +1,5 @@
 package io.furrow.soak;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -25,6 +24,8 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * Makes {@code data.raw} and {@value #NATIVE}, and writes the reports of the {@link SoakFarm} to both, numbered from 1, at a steady
@@ -84,20 +85,17 @@ public final class NumberedEvents {
     }
 
     private static ProducerRecord<String, byte[]> notification(Entity entity, long time) {
-        String body =
-                "{\"subscriptionId\":\"soak\",\"data\":[" + new String(entity.toBytes(), StandardCharsets.UTF_8) + "]}";
-        var record = new ProducerRecord<>(NATIVE, null, time, entity.id(), body.getBytes(StandardCharsets.UTF_8));
-        record.headers().add(HeaderNames.SERVICE, SCOPE.service().getBytes(StandardCharsets.UTF_8));
+        String body = "{\"subscriptionId\":\"soak\",\"data\":[" + new String(entity.toBytes(), UTF_8) + "]}";
+        var record = new ProducerRecord<>(NATIVE, null, time, entity.id(), body.getBytes(UTF_8));
+        record.headers().add(HeaderNames.SERVICE, SCOPE.service().getBytes(UTF_8));
         return record;
     }
 
     private static ProducerRecord<String, byte[]> event(Entity entity, long time) {
         Instant now = Instant.ofEpochMilli(time);
-        EntityEvent event =
-                EntityEvent.of(entity, SCOPE, now, EventTimeRule.within(Duration.ZERO), Origin.NOTIFICATION);
+        var event = EntityEvent.of(entity, SCOPE, now, EventTimeRule.within(Duration.ZERO), Origin.NOTIFICATION);
         var record = new ProducerRecord<>(Topics.RAW, null, time, entity.id(), entity.toBytes());
-        event.headers("/soak")
-                .forEach((name, text) -> record.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));
+        event.headers("/soak").forEach((name, text) -> record.headers().add(name, text.getBytes(UTF_8)));
         return record;
     }
 }

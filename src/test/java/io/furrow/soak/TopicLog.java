@@ -1,22 +1,21 @@
 package io.furrow.soak;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Properties;
 import java.util.stream.LongStream;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.header.Header;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
 
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** All committed records of a topic from the beginning; grows with each reading. */
 public final class TopicLog implements AutoCloseable {
@@ -25,26 +24,17 @@ public final class TopicLog implements AutoCloseable {
     private final List<Long> ingestTimes = new ArrayList<>();
 
     public TopicLog(String bootstrapServers, String topic) {
-        Properties kafka = new Properties();
-        kafka.setProperty("bootstrap.servers", bootstrapServers);
-        kafka.setProperty("isolation.level", "read_committed");
-        kafka.setProperty("auto.offset.reset", "earliest");
-        kafka.setProperty("enable.auto.commit", "false");
-        kafka.setProperty("allow.auto.create.topics", "false");
-        consumer = new KafkaConsumer<>(kafka, new StringDeserializer(), new ByteArrayDeserializer());
-        consumer.assign(consumer.partitionsFor(topic).stream()
-                .map(partition -> new TopicPartition(topic, partition.partition()))
-                .toList());
+        consumer = CommittedState.consumer(bootstrapServers);
+        CommittedState.assign(consumer, List.of(topic));
     }
 
     /** How many records the topics whose names end so hold, transaction markers included. */
     static long count(String bootstrapServers, List<String> endings) {
-        try (TopicLog any = new TopicLog(bootstrapServers, io.furrow.model.topic.Topics.RAW)) {
-            List<TopicPartition> partitions = any.consumer.listTopics().entrySet().stream()
-                    .filter(topic -> endings.stream().anyMatch(topic.getKey()::endsWith))
-                    .flatMap(topic -> topic.getValue().stream())
-                    .map(info -> new TopicPartition(info.topic(), info.partition()))
+        try (TopicLog any = new TopicLog(bootstrapServers, Topics.RAW)) {
+            List<String> topics = any.consumer.listTopics().keySet().stream()
+                    .filter(topic -> endings.stream().anyMatch(topic::endsWith))
                     .toList();
+            List<TopicPartition> partitions = CommittedState.partitions(any.consumer, topics);
             return any.consumer.endOffsets(partitions).values().stream()
                     .mapToLong(Long::longValue)
                     .sum();
@@ -61,7 +51,7 @@ public final class TopicLog implements AutoCloseable {
                 entities.add(Entity.parse(record.value()));
                 Header ingested = record.headers().lastHeader(HeaderNames.TS_INGEST);
                 if (ingested != null) {
-                    ingestTimes.add(Long.parseLong(new String(ingested.value(), StandardCharsets.UTF_8)));
+                    ingestTimes.add(Long.parseLong(new String(ingested.value(), UTF_8)));
                 }
             }
         }

@@ -1,13 +1,13 @@
 package io.furrow.suite;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.TimeUnit;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** A program of the operating system, as a user would call it. */
@@ -33,7 +33,7 @@ final class Command implements AutoCloseable {
     static Command start(Map<String, String> variables, String... arguments) {
         try {
             Path output = Files.createTempFile("command", ".out");
-            ProcessBuilder builder =
+            var builder =
                     new ProcessBuilder(arguments).redirectErrorStream(true).redirectOutput(output.toFile());
             builder.environment().putAll(variables);
             return new Command(List.of(arguments), builder.start(), output);
@@ -61,7 +61,7 @@ final class Command implements AutoCloseable {
     }
 
     String printed() throws IOException {
-        return Files.readString(output, StandardCharsets.UTF_8);
+        return Files.readString(output, UTF_8);
     }
 
     @Override

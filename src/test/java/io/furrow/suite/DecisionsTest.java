@@ -8,10 +8,11 @@ import java.util.regex.MatchResult;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 import java.util.stream.Collectors;
-import java.util.stream.Stream;
 
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
+
+import io.furrow.files.Folders;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -50,11 +51,8 @@ class DecisionsTest {
     }
 
     private static List<String> decisions() throws IOException {
-        try (Stream<Path> files = Files.list(FOLDER)) {
-            return files.map(file -> file.getFileName().toString())
-                    .filter(name -> name.matches("\\d{4}-.*\\.md"))
-                    .sorted()
-                    .toList();
-        }
+        return Folders.list(FOLDER).stream().map(file -> file.getFileName().toString())
+                .filter(name -> name.matches("\\d{4}-.*\\.md"))
+                .toList();
     }
 }

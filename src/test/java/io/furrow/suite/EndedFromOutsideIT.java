@@ -10,6 +10,8 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
+import io.furrow.files.Folders;
+
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -41,10 +43,8 @@ class EndedFromOutsideIT {
             furrow.end(signal);
         }
 
-        try (Stream<Path> left = Files.list(temporary)) {
-            assertThat(left.filter(file -> file.getFileName().toString().startsWith("furrow-")))
-                    .isEmpty();
-        }
+        assertThat(Folders.list(temporary).stream().filter(file -> file.getFileName().toString().startsWith("furrow-")))
+                .isEmpty();
     }
 
     private static List<Path> kafkaFiles(Path temporary) throws Exception {

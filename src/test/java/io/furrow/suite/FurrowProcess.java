@@ -1,15 +1,13 @@
 package io.furrow.suite;
 
 import java.io.IOException;
-import java.lang.management.ManagementFactory;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
-import java.util.ArrayList;
-import java.util.List;
 import java.util.concurrent.TimeUnit;
 
 import io.furrow.bench.command.BenchCommand;
+import io.furrow.process.TestProcess;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -27,23 +25,10 @@ final class FurrowProcess implements AutoCloseable {
 
     /** @param temporary where the process makes its temporary files; what it prints is beside it */
     static FurrowProcess start(Path temporary, String... arguments) throws IOException {
-        List<String> command = new ArrayList<>();
-        command.add(Path.of(System.getProperty("java.home"), "bin", "java").toString());
-        // What Flink opens to reflection, as this JVM has it.
-        ManagementFactory.getRuntimeMXBean().getInputArguments().stream()
-                .filter(argument -> argument.startsWith("--add-"))
-                .forEach(command::add);
-        command.addAll(List.of(
-                "-Xmx1g",
-                "-XX:MaxDirectMemorySize=1g",
-                "-Djava.io.tmpdir=" + temporary,
-                "-Dfurrow.plugins=" + System.getProperty("furrow.plugins"),
-                "-cp",
-                System.getProperty("java.class.path"),
-                BenchCommand.class.getName()));
-        command.addAll(List.of(arguments));
+        String options = "-Xmx1g -XX:MaxDirectMemorySize=1g -Djava.io.tmpdir=%s -Dfurrow.plugins=%s"
+                .formatted(temporary, System.getProperty("furrow.plugins"));
         Path output = temporary.resolveSibling(temporary.getFileName() + ".out");
-        Process process = new ProcessBuilder(command)
+        Process process = TestProcess.java(options, BenchCommand.class, (Object[]) arguments)
                 .redirectErrorStream(true)
                 .redirectOutput(output.toFile())
                 .start();

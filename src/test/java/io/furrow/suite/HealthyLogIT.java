@@ -23,18 +23,8 @@ class HealthyLogIT {
     /** Windows of ten seconds, as many as it takes for several checkpoints of each job. */
     private static final long WINDOWS = 3;
 
-    private static final List<String> PORTS = List.of(
-            "kafka",
-            "connect",
-            "flink",
-            "notify",
-            "mqtt",
-            "orion",
-            "iot-agent",
-            "mongo",
-            "control",
-            "health",
-            "dashboard");
+    private static final List<String> PORTS =
+            List.of("kafka connect flink notify mqtt orion iot-agent mongo control health dashboard".split(" "));
 
     @TempDir
     Path directory;

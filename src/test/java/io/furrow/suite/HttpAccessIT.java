@@ -8,7 +8,7 @@ import java.util.Set;
 import java.util.TreeSet;
 import java.util.stream.Collectors;
 
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -22,19 +22,13 @@ import static org.assertj.core.api.Assertions.assertThat;
 class HttpAccessIT {
     private static final String BOUNDARY = "frontier";
     /** Paths that change something, or show something, on one of the servers. */
-    private static final List<String> PATHS = List.of(
-            "/",
-            "/config",
-            "/connectors",
-            "/jars/upload",
-            "/jobs",
-            "/v2/entities",
-            "/v2/notify",
-            "/iot/devices",
-            "/api/domains",
-            "/nothing-is-here");
+    private static final List<String> PATHS = List.of("""
+                    / /config /connectors /jars/upload /jobs /v2/entities /v2/notify /iot/devices /api/domains
+                    /nothing-is-here""".split("\\s+"));
 
+    @AutoClose
     private static RunningSuite running;
+
     private static Set<Integer> httpPorts;
 
     @BeforeAll
@@ -43,13 +37,6 @@ class HttpAccessIT {
         httpPorts = ListeningPorts.ofThisJvm().parallelStream()
                 .filter(RawHttp::isSpokenAt)
                 .collect(Collectors.toCollection(TreeSet::new));
-    }
-
-    @AfterAll
-    static void stop() {
-        if (running != null) {
-            running.close();
-        }
     }
 
     @Test

@@ -2,7 +2,6 @@ package io.furrow.suite;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
@@ -10,7 +9,10 @@ import java.util.Set;
 import java.util.TreeSet;
 import java.util.regex.Pattern;
 import java.util.stream.Collectors;
-import java.util.stream.Stream;
+
+import io.furrow.files.Folders;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** The TCP ports that this JVM itself listens on, as the operating system lists them. */
 final class ListeningPorts {
@@ -50,13 +52,11 @@ final class ListeningPorts {
     }
 
     private static Set<String> inodesOfThisProcess() throws IOException {
-        try (Stream<Path> descriptors = Files.list(PROC.resolve("fd"))) {
-            return descriptors
-                    .map(ListeningPorts::target)
-                    .filter(target -> target.startsWith("socket:["))
-                    .map(target -> target.substring("socket:[".length(), target.length() - 1))
-                    .collect(Collectors.toSet());
-        }
+        return Folders.list(PROC.resolve("fd")).stream()
+                .map(ListeningPorts::target)
+                .filter(target -> target.startsWith("socket:["))
+                .map(target -> target.substring("socket:[".length(), target.length() - 1))
+                .collect(Collectors.toSet());
     }
 
     /** Empty for a descriptor that was closed meanwhile. */
@@ -74,7 +74,7 @@ final class ListeningPorts {
     private static Set<Integer> fromLsof() throws IOException, InterruptedException {
         String pid = Long.toString(ProcessHandle.current().pid());
         Process lsof = new ProcessBuilder("lsof", "-a", "-p", pid, "-iTCP", "-sTCP:LISTEN", "-n", "-P", "-Fn").start();
-        String printed = new String(lsof.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+        String printed = new String(lsof.getInputStream().readAllBytes(), UTF_8);
         lsof.waitFor();
         return printed.lines()
                 .map(LSOF_NAME::matcher)

@@ -37,11 +37,9 @@ class MissionsIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final HttpClient HTTP = HttpClient.newHttpClient();
 
-    @TempDir
-    Path stored;
-
     @Test
-    void startsAMissionOfAHundredDevicesGoesOnAfterARestartAndStopsIt(TestReporter reporter) throws Exception {
+    void startsAMissionOfAHundredDevicesGoesOnAfterARestartAndStopsIt(TestReporter reporter, @TempDir Path stored)
+            throws Exception {
         try (RunningSuite running = RunningSuite.start(stored)) {
             Suite suite = running.suite();
             suite.kafka()
@@ -49,8 +47,7 @@ class MissionsIT {
                     .createTopics(List.of(new NewTopic(Topics.realtime("north"), Optional.empty(), Optional.empty())))
                     .all()
                     .get();
-            try (MissionStart start =
-                    new MissionStart(suite.control(), suite.kafka().clientProperties(), "north")) {
+            try (var start = new MissionStart(suite.control(), suite.kafka().clientProperties(), "north")) {
                 MissionStart.Delays delays =
                         start.run(new MissionStart.Plan("hoeing", DEVICES, Duration.ofSeconds(1)), TIMEOUT);
                 reporter.publishEntry("mission of 100 devices", delays.toString());
@@ -59,42 +56,35 @@ class MissionsIT {
         }
         try (RunningSuite running = RunningSuite.start(stored)) {
             Suite suite = running.suite();
-            await().atMost(TIMEOUT).until(() -> state(suite).equals("running"));
-            JsonNode thermometer = running.ngsi()
-                    .entities("id=urn:ngsi-ld:Thermometer:hoeing-1")
-                    .path(0);
-            await().atMost(TIMEOUT)
-                    .until(() -> running.ngsi()
-                                    .entities("id=urn:ngsi-ld:Thermometer:hoeing-1")
-                                    .at("/0/Time/value")
-                                    .asLong()
-                            > thermometer.at("/Time/value").asLong());
+            running.awaitState("hoeing", "running");
+            JsonNode thermometer = running.ngsi().entity("urn:ngsi-ld:Thermometer:hoeing-1");
+            await().until(() -> running.ngsi()
+                            .entity("urn:ngsi-ld:Thermometer:hoeing-1")
+                            .at("/Time/value")
+                            .asLong()
+                    > thermometer.at("/Time/value").asLong());
 
-            send(suite, "POST", "/api/missions/hoeing/stop", "{}");
+            running.post("/api/missions/hoeing/stop", "{}");
 
-            await().atMost(TIMEOUT).until(() -> state(suite).equals("stopped"));
-            await().atMost(TIMEOUT).until(() -> provisioned(suite) == 0);
+            running.awaitState("hoeing", "stopped");
+            await().until(() -> provisioned(suite) == 0);
         }
     }
 
     @Test
-    void goesOnReportingThroughARotationOfTheFarmsSecret() throws Exception {
+    void goesOnReportingThroughARotationOfTheFarmsSecret(@TempDir Path stored) throws Exception {
         try (RunningSuite running =
                 RunningSuite.start(stored, SuiteSettings.onFreePorts("2s").withoutSharedLogin())) {
             Suite suite = running.suite();
             assertThat(publish(suite, Suite.MQTT_USER, Suite.MQTT_PASSWORD, "/key/any/attrs", "{}"))
                     .contains("bad user name or password");
-            await().atMost(TIMEOUT)
-                    .until(() -> send(suite, "GET", "/ready", "")
-                            .path("status")
-                            .asText()
-                            .equals("ready"));
-            send(suite, "POST", "/api/domains", "{\"domain\":\"north\"}");
-            send(suite, "POST", "/api/missions/hoeing/start", """
+            running.awaitReady();
+            running.post("/api/domains", "{\"domain\":\"north\"}");
+            running.post("/api/missions/hoeing/start", """
                     {"domain": "north", "devices": [
                       {"type": "Thermometer", "count": 3, "period": "PT0.2S", "path": [[-3.48, 40.31]]}]}
                     """);
-            await().atMost(TIMEOUT).until(() -> state(suite).equals("running"));
+            running.awaitState("hoeing", "running");
 
             Instant over = Instant.now().plusSeconds(5);
             Path file = stored.resolve("farm-secret");
@@ -103,15 +93,12 @@ class MissionsIT {
 
             for (int number = 1; number <= 3; number++) {
                 String entity = "id=urn:ngsi-ld:Thermometer:hoeing-" + number;
-                await().atMost(TIMEOUT)
-                        .until(() -> running.ngsi()
-                                        .entities(entity)
-                                        .at("/0/Time/value")
-                                        .asLong()
+                await().until(() ->
+                        running.ngsi().entities(entity).at("/0/Time/value").asLong()
                                 > over.plusSeconds(3).toEpochMilli());
             }
-            assertThat(state(suite)).isEqualTo("running");
-            assertThat(send(suite, "GET", "/api/devices/urn:ngsi-ld:Thermometer:hoeing-1/credentials", "")
+            assertThat(running.mission("hoeing").at("/status/state").asText()).isEqualTo("running");
+            assertThat(running.get("/api/devices/urn:ngsi-ld:Thermometer:hoeing-1/credentials")
                             .path("user")
                             .asText())
                     .isEqualTo(rotated.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")
@@ -121,25 +108,20 @@ class MissionsIT {
 
     /** As somebody who sets up a device by hand, and errs. */
     @Test
-    void reportsWhyADeviceIsSilent() throws Exception {
+    void reportsWhyADeviceIsSilent(@TempDir Path stored) throws Exception {
         try (RunningSuite running =
                 RunningSuite.start(stored, SuiteSettings.onFreePorts("2s").withoutSharedLogin())) {
             Suite suite = running.suite();
             String device = "urn:ngsi-ld:Thermometer:own";
-            await().atMost(TIMEOUT)
-                    .until(() -> send(suite, "GET", "/ready", "")
-                            .path("status")
-                            .asText()
-                            .equals("ready"));
-            send(suite, "POST", "/api/domains", "{\"domain\":\"north\"}");
-            send(suite, "POST", "/api/missions/hoeing/start", """
+            running.awaitReady();
+            running.post("/api/domains", "{\"domain\":\"north\"}");
+            running.post("/api/missions/hoeing/start", """
                     {"domain": "north", "devices": [{"type": "Thermometer", "id": "%s", "simulated": false}]}
                     """.formatted(device));
-            await().atMost(TIMEOUT)
-                    .until(() -> send(suite, "GET", "/api/devices/" + device, "")
-                            .at("/connection/registered")
-                            .asBoolean());
-            JsonNode login = send(suite, "GET", "/api/devices/" + device + "/credentials", "");
+            await().until(() -> running.get("/api/devices/" + device)
+                    .at("/connection/registered")
+                    .asBoolean());
+            JsonNode login = running.get("/api/devices/" + device + "/credentials");
             String user = login.path("user").asText();
             String password = login.path("password").asText();
             String topic = "/" + login.path("apiKey").asText() + "/" + device + "/attrs";
@@ -150,9 +132,8 @@ class MissionsIT {
             assertThat(publish(suite, user, password, topic, "{\"temp\": 21.5}"))
                     .isEmpty();
 
-            await().atMost(TIMEOUT).untilAsserted(() -> {
-                JsonNode connection =
-                        send(suite, "GET", "/api/devices/" + device, "").path("connection");
+            await().untilAsserted(() -> {
+                JsonNode connection = running.get("/api/devices/" + device).path("connection");
                 assertThat(connection.at("/refusedLogin/reason").asText()).isEqualTo("wrong-password");
                 assertThat(connection.at("/foreignTopic/topic").asText()).isEqualTo("/key/other/attrs");
                 assertThat(connection.at("/unreadablePayload/payload").asText()).isEqualTo("21.5 degrees");
@@ -168,20 +149,13 @@ class MissionsIT {
             throws Exception {
         URI broker = suite.devices().mqtt();
         String port = Integer.toString(broker.getPort());
-        List<String> arguments =
-                List.of("mosquitto_pub", "-h", broker.getHost(), "-p", port, "-u", user, "-P", password);
+        var arguments = List.of("mosquitto_pub", "-h", broker.getHost(), "-p", port, "-u", user, "-P", password);
         List<String> about = List.of("-q", "1", "-t", topic, "-m", message);
         try (Command publisher =
                 Command.start(Stream.concat(arguments.stream(), about.stream()).toArray(String[]::new))) {
             publisher.exitCode();
             return publisher.printed();
         }
-    }
-
-    private static String state(Suite suite) throws Exception {
-        return send(suite, "GET", "/api/missions/hoeing", "")
-                .at("/status/state")
-                .asText();
     }
 
     private static int provisioned(Suite suite) throws Exception {
@@ -193,14 +167,5 @@ class MissionsIT {
                         .body())
                 .path("count")
                 .asInt();
-    }
-
-    private static JsonNode send(Suite suite, String method, String path, String body) throws Exception {
-        HttpRequest request = HttpRequest.newBuilder(URI.create(suite.control() + path))
-                .header("Content-Type", "application/json")
-                .method(method, HttpRequest.BodyPublishers.ofString(body))
-                .build();
-        return NgsiJson.read(
-                HTTP.send(request, HttpResponse.BodyHandlers.ofByteArray()).body());
     }
 }

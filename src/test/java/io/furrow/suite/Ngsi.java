@@ -33,6 +33,10 @@ public final class Ngsi {
                         .body());
     }
 
+    JsonNode entity(String id) throws IOException, InterruptedException {
+        return entities("id=" + id).path(0);
+    }
+
     /** Sends a notification to the NGSI source and returns the status of its answer. */
     int notify(byte[] body) throws IOException, InterruptedException {
         return send(suite.listener(), body);

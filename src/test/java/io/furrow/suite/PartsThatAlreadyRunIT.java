@@ -1,7 +1,6 @@
 package io.furrow.suite;
 
 import java.nio.file.Path;
-import java.time.Duration;
 
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -19,11 +18,6 @@ import static org.awaitility.Awaitility.await;
 
 @Tag("full")
 class PartsThatAlreadyRunIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
-
-    @TempDir
-    Path directory;
-
     @TempDir
     Path documents;
 
@@ -31,7 +25,7 @@ class PartsThatAlreadyRunIT {
     Path stored;
 
     @Test
-    void usesTheContextBrokerTheKafkaAndTheMongoThatItIsGiven() throws Exception {
+    void usesTheContextBrokerTheKafkaAndTheMongoThatItIsGiven(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory);
                 EmbeddedMongo mongo = EmbeddedMongo.start(documents);
                 FiwareStandIn orion = FiwareStandIn.start(FiwareSettings.httpOnly());
@@ -58,7 +52,7 @@ class PartsThatAlreadyRunIT {
                     .append(
                             "{\"id\":\"probe\",\"type\":\"Probe\",\"Domain\":{\"type\":\"String\",\"value\":\"elsewhere\"}}");
 
-            await().atMost(TIMEOUT).untilAsserted(() -> {
+            await().untilAsserted(() -> {
                 try (TopicLog topic = running.topic("data.elsewhere.realtime")) {
                     assertThat(topic.of("probe")).hasSize(1);
                 }

@@ -7,10 +7,11 @@ import java.net.InetSocketAddress;
 import java.net.Socket;
 import java.net.SocketException;
 import java.net.SocketTimeoutException;
-import java.nio.charset.StandardCharsets;
 import java.util.Optional;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
+
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
 
 /** Requests written byte by byte, because HTTP clients let nobody choose {@code Host} and {@code Origin}. */
 final class RawHttp {
@@ -43,9 +44,9 @@ final class RawHttp {
         try (Socket socket = new Socket()) {
             socket.connect(new InetSocketAddress(InetAddress.getLoopbackAddress(), port), timeoutMs);
             socket.setSoTimeout(timeoutMs);
-            socket.getOutputStream().write(request.getBytes(StandardCharsets.ISO_8859_1));
+            socket.getOutputStream().write(request.getBytes(ISO_8859_1));
             socket.getOutputStream().flush();
-            String text = new String(socket.getInputStream().readAllBytes(), StandardCharsets.ISO_8859_1);
+            String text = new String(socket.getInputStream().readAllBytes(), ISO_8859_1);
             Matcher status = STATUS.matcher(text);
             return status.matches()
                     ? Optional.of(new Answer(Integer.parseInt(status.group(1)), text))

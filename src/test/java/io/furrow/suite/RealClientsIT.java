@@ -1,12 +1,11 @@
 package io.furrow.suite;
 
 import java.net.URI;
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -20,7 +19,6 @@ import static org.awaitility.Awaitility.await;
 /** The thermometer of the README, with the clients that a user would take. */
 @Tag("full")
 class RealClientsIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final String ENTITY = "urn:ngsi-ld:Thermometer:mine";
     private static final String GROUP = """
             {"services": [{"apikey": "secret", "resource": "/iot/json", "entity_type": "Thing"}]}""";
@@ -33,6 +31,7 @@ class RealClientsIT {
               "static_attributes": [{"name": "Domain", "type": "String", "value": "farm"}]}]}
             """;
 
+    @AutoClose
     private static RunningSuite running;
 
     @BeforeAll
@@ -42,23 +41,14 @@ class RealClientsIT {
         curl("POST", running.suite().devices().iotAgent().resolve("/iot/devices"), DEVICE);
     }
 
-    @AfterAll
-    static void stop() {
-        if (running != null) {
-            running.close();
-        }
-    }
-
     @Test
     void takesAMeasureOfMosquittoPubToTheDomainsTopic() throws Exception {
         report();
         try (TopicLog topic = running.topic("data.farm.realtime")) {
-            await().atMost(TIMEOUT)
-                    .untilAsserted(() -> assertThat(topic.of(ENTITY))
-                            .extracting(record -> Entity.parse(record.value())
-                                    .number("Temperature")
-                                    .orElse(0.0))
-                            .contains(21.5));
+            await().untilAsserted(() -> assertThat(topic.of(ENTITY))
+                    .extracting(record ->
+                            Entity.parse(record.value()).number("Temperature").orElse(0.0))
+                    .contains(21.5));
         }
     }
 
@@ -68,7 +58,7 @@ class RealClientsIT {
         URI attributes = running.suite().contextBroker().resolve("/v2/entities/" + ENTITY + "/attrs");
         try (Command device =
                 Command.start(mosquitto("mosquitto_sub", Suite.MQTT_PASSWORD, "/secret/mine/cmd", "-C", "1", "-d"))) {
-            await().atMost(TIMEOUT).until(() -> device.printed().contains("SUBACK"));
+            await().until(() -> device.printed().contains("SUBACK"));
 
             curl("PATCH", attributes, "{\"on\": {\"type\": \"command\", \"value\": \"now\"}}");
 
@@ -80,7 +70,7 @@ class RealClientsIT {
         Command.run(
                 mosquitto("mosquitto_pub", Suite.MQTT_PASSWORD, "/secret/mine/cmdexe", "-m", "{\"on\": \"is on\"}"));
 
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             assertThat(entity().at("/on_status/value").asText()).isEqualTo("OK");
             assertThat(entity().at("/on_info/value").asText()).isEqualTo("is on");
         });
@@ -104,13 +94,12 @@ class RealClientsIT {
                 "-m",
                 "{\"temp\": 21.5, \"lat\": 40.3134, \"lon\": -3.483}"));
 
-        await().atMost(TIMEOUT)
-                .untilAsserted(() ->
-                        assertThat(entity().at("/Temperature/value").asDouble()).isEqualTo(21.5));
+        await().untilAsserted(() ->
+                assertThat(entity().at("/Temperature/value").asDouble()).isEqualTo(21.5));
     }
 
     private static JsonNode entity() throws Exception {
-        return running.ngsi().entities("id=" + ENTITY).path(0);
+        return running.ngsi().entity(ENTITY);
     }
 
     private static void curl(String method, URI uri, String body) throws Exception {

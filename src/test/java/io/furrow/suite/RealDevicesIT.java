@@ -1,9 +1,5 @@
 package io.furrow.suite;
 
-import java.net.URI;
-import java.net.http.HttpClient;
-import java.net.http.HttpRequest;
-import java.net.http.HttpResponse;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.LinkedHashMap;
@@ -11,26 +7,24 @@ import java.util.Map;
 import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.http.AllowedNames;
 import io.furrow.launcher.suite.SuiteSettings;
-import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 /** Devices that have nothing but their credentials and an MQTT client, beside simulated ones. */
 class RealDevicesIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
-    private static final HttpClient HTTP = HttpClient.newHttpClient();
     private static final String PLACE = "{\"latitude\": 40.3134, \"longitude\": -3.4831}";
 
     private static final String PLACE_REPORT = "'{\"lat\": 40.3134, \"lon\": -3.4831}'";
 
+    @AutoClose
     private static RunningSuite running;
 
     @BeforeAll
@@ -60,16 +54,8 @@ class RealDevicesIT {
                         SuiteSettings.Watch.DEFAULT,
                         AllowedNames.NONE,
                         false));
-        await().atMost(TIMEOUT)
-                .until(() -> send("GET", "/ready", "").path("status").asText().equals("ready"));
-        send("POST", "/api/domains", "{\"domain\":\"home\"}");
-    }
-
-    @AfterAll
-    static void stop() {
-        if (running != null) {
-            running.close();
-        }
+        running.awaitReady();
+        running.post("/api/domains", "{\"domain\":\"home\"}");
     }
 
     @Test
@@ -77,58 +63,49 @@ class RealDevicesIT {
         start("first", """
                 {"type": "Thermometer", "count": 2, "period": "PT15M", "at": [%1$s, %1$s], "attributes": [
                   {"object_id": "t", "name": "Temperature", "unit": "CEL"}]}""".formatted(PLACE));
-        await().atMost(TIMEOUT)
-                .until(() -> mission("first").at("/status/reason").asText().startsWith("2 of 2 devices are not up"));
-        await().atMost(TIMEOUT)
-                .until(() -> send("GET", "/api/alarms", "")
-                        .findValuesAsText("text")
-                        .contains("mission first: "
-                                + mission("first").at("/status/reason").asText()));
-        JsonNode logins = send("GET", "/api/missions/first/credentials", "");
+        await().until(() ->
+                running.mission("first").at("/status/reason").asText().startsWith("2 of 2 devices are not up"));
+        await().until(() -> running.get("/api/alarms")
+                .findValuesAsText("text")
+                .contains("mission first: "
+                        + running.mission("first").at("/status/reason").asText()));
+        JsonNode logins = running.get("/api/missions/first/credentials");
         assertThat(logins).hasSize(2);
 
-        String example = logins.path(0).path("example").asText();
+        String example = logins.at("/0/example").asText();
         Command.run("sh", "-c", example);
 
-        await().atMost(TIMEOUT)
-                .until(() -> mission("first").at("/status/state").asText().equals("running"));
-        await().atMost(TIMEOUT)
-                .until(() -> mission("first")
-                        .at("/status/missing/0/reason")
-                        .asText()
-                        .startsWith("it has not connected to the MQTT broker since "));
-        JsonNode entity = running.ngsi()
-                .entities("id=" + logins.path(0).path("device").asText())
-                .path(0);
+        running.awaitState("first", "running");
+        await().until(() -> running.mission("first")
+                .at("/status/missing/0/reason")
+                .asText()
+                .startsWith("it has not connected to the MQTT broker since "));
+        JsonNode entity = running.ngsi().entity(logins.at("/0/device").asText());
         assertThat(entity.at("/Temperature/value").asInt()).isEqualTo(21);
         assertThat(entity.at("/Temperature/metadata/unitCode/value").asText()).isEqualTo("CEL");
         assertThat(entity.at("/Latitude/value").asDouble()).isEqualTo(40.3134);
         // A window ends when later measures arrive.
-        await().atMost(TIMEOUT).pollInterval(Duration.ofSeconds(1)).untilAsserted(() -> {
+        await().pollInterval(Duration.ofSeconds(1)).untilAsserted(() -> {
             Command.run("sh", "-c", example);
             assertThat(running.ngsi()
-                            .entities("id=Analytics:FieldTemperature:field-1")
-                            .at("/0/averageTemperature/value")
+                            .entity("Analytics:FieldTemperature:field-1")
+                            .at("/averageTemperature/value")
                             .asInt())
                     .isEqualTo(21);
         });
-        send("POST", "/api/missions/first/stop", "{}");
-        await().atMost(TIMEOUT)
-                .until(() -> mission("first").at("/status/state").asText().equals("stopped"));
-        send("DELETE", "/api/missions/first", "");
-        await().atMost(TIMEOUT)
-                .until(() ->
-                        running.ngsi().entities("id=urn:ngsi-ld:Mission:first").isEmpty());
+        running.post("/api/missions/first/stop", "{}");
+        running.awaitState("first", "stopped");
+        running.send("DELETE", "/api/missions/first", "");
+        await().until(() ->
+                running.ngsi().entities("id=urn:ngsi-ld:Mission:first").isEmpty());
     }
 
     @Tag("full")
     @Test
     void runsTheProgramOfTheDocumentationAndAnswersItsCommands() throws Exception {
         start("program", "{\"type\": \"Thermometer\", \"at\": %s}".formatted(PLACE));
-        await().atMost(TIMEOUT)
-                .until(() ->
-                        send("GET", "/api/missions/program/credentials", "").size() == 1);
-        JsonNode login = send("GET", "/api/missions/program/credentials", "").path(0);
+        await().until(() -> running.get("/api/missions/program/credentials").size() == 1);
+        JsonNode login = running.get("/api/missions/program/credentials").path(0);
         Map<String, String> variables = new LinkedHashMap<>();
         Map.of(
                         "MQTT_HOST", "host",
@@ -145,18 +122,16 @@ class RealDevicesIT {
         String device = login.path("device").asText();
         String program = Path.of("..", "docs", "examples", "thermometer.py").toString();
         try (Command thermometer = Command.start(variables, "python3", program)) {
-            await().atMost(TIMEOUT)
-                    .until(() -> mission("program").at("/status/state").asText().equals("running"));
-            send("POST", "/api/devices/" + device + "/commands", "{\"command\":\"off\"}");
-            await().atMost(TIMEOUT).until(() -> thermometer.printed().contains("asked: {'off'"));
-            await().atMost(TIMEOUT)
-                    .until(() -> running.ngsi()
-                            .entities("id=" + device)
-                            .at("/0/off_status/value")
-                            .asText()
-                            .equals("OK"));
+            running.awaitState("program", "running");
+            running.post("/api/devices/" + device + "/commands", "{\"command\":\"off\"}");
+            await().until(() -> thermometer.printed().contains("asked: {'off'"));
+            await().until(() -> running.ngsi()
+                    .entity(device)
+                    .at("/off_status/value")
+                    .asText()
+                    .equals("OK"));
         }
-        send("POST", "/api/missions/program/stop", "{}");
+        running.post("/api/missions/program/stop", "{}");
     }
 
     @Tag("full")
@@ -166,9 +141,8 @@ class RealDevicesIT {
                 {"type": "Thermometer", "count": 40, "simulated": true, "period": "PT1S", "area": "field-1"},
                 {"name": "real", "type": "WeatherStation", "count": 39, "at": %s},
                 {"type": "Robot"}""".formatted(PLACE));
-        await().atMost(TIMEOUT)
-                .until(() -> mission("mixed").at("/status/confirmed").asInt() == 40);
-        JsonNode logins = send("GET", "/api/missions/mixed/credentials", "");
+        await().until(() -> running.mission("mixed").at("/status/confirmed").asInt() == 40);
+        JsonNode logins = running.get("/api/missions/mixed/credentials");
         assertThat(logins).hasSize(40);
         for (JsonNode login : logins) {
             String device = login.path("device").asText();
@@ -177,43 +151,27 @@ class RealDevicesIT {
             Command.run(
                     "sh", "-c", device.contains("Robot") ? example.replaceFirst("'\\{.*}'", PLACE_REPORT) : example);
         }
-        await().atMost(TIMEOUT)
-                .untilAsserted(() ->
-                        assertThat(mission("mixed").path("status").toString()).contains("\"confirmed\":80"));
+        await().untilAsserted(() ->
+                assertThat(running.mission("mixed").path("status").toString()).contains("\"confirmed\":80"));
         JsonNode stations = running.ngsi().entities("type=WeatherStation&idPattern=.*mixed.*");
         assertThat(stations)
                 .hasSize(39)
                 .allMatch(each -> each.at("/Temperature/value").asInt() == 21
                         && each.path("Humidity").isMissingNode());
-        await().atMost(TIMEOUT).until(() -> texts().anyMatch(text -> text.matches(".*Robot.* and .*Station.* apart")));
+        await().until(() -> texts().anyMatch(text -> text.matches(".*Robot.* and .*Station.* apart")));
         assertThat(texts()).noneMatch(text -> text.matches(".*Station.* and .*Station.* apart"));
-        send("POST", "/api/missions/mixed/stop", "{}");
+        running.post("/api/missions/mixed/stop", "{}");
     }
 
     private static Stream<String> texts() throws Exception {
-        return send("GET", "/api/alarms", "").findValuesAsText("text").stream();
+        return running.get("/api/alarms").findValuesAsText("text").stream();
     }
 
     private static void start(String mission, String devices) throws Exception {
         String body = "{\"domain\":\"home\",\"devices\":[%s]}".formatted(devices);
-        assertThat(send("POST", "/api/missions/" + mission + "/start", body)
+        assertThat(running.post("/api/missions/" + mission + "/start", body)
                         .path("status")
                         .asText())
                 .isEqualTo("created");
-    }
-
-    private static JsonNode mission(String name) throws Exception {
-        return send("GET", "/api/missions/" + name, "");
-    }
-
-    private static JsonNode send(String method, String path, String body) throws Exception {
-        HttpRequest.BodyPublisher content =
-                method.equals("GET") ? HttpRequest.BodyPublishers.noBody() : HttpRequest.BodyPublishers.ofString(body);
-        HttpRequest request = HttpRequest.newBuilder(URI.create(running.suite().control() + path))
-                .header("Content-Type", "application/json")
-                .method(method, content)
-                .build();
-        return NgsiJson.read(
-                HTTP.send(request, HttpResponse.BodyHandlers.ofByteArray()).body());
     }
 }

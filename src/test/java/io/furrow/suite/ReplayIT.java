@@ -2,12 +2,6 @@ package io.furrow.suite;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.net.URI;
-import java.net.http.HttpClient;
-import java.net.http.HttpRequest;
-import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
-import java.time.Duration;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -19,7 +13,6 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.launcher.suite.Suite;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.Recording;
@@ -29,29 +22,26 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 /** A mission on a whole suite, kept, and played back: what its topic had, its replay has. */
 @Tag("full")
 class ReplayIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
-    private static final HttpClient HTTP = HttpClient.newHttpClient();
     private static final int REPORTS = 30;
 
     @Test
     void playsWhatTheMissionReported() throws Exception {
         try (RunningSuite running = RunningSuite.start(null);
                 TopicLog live = running.topic(Topics.realtime("north", "hoeing"))) {
-            Suite suite = running.suite();
-            runMission(suite, live);
-            await().atMost(TIMEOUT)
-                    .until(() -> stored(suite, "hoeing") == live.records().size());
-            awaitListed(suite, "hoeing");
+            runMission(running, live);
+            await().until(() -> stored(running, "hoeing") == live.records().size());
+            awaitListed(running, "hoeing");
 
-            JsonNode replay = send(suite, "POST", "/api/replays", "{\"mission\":\"hoeing\",\"speed\":\"max\"}");
+            JsonNode replay = running.post("/api/replays", "{\"mission\":\"hoeing\",\"speed\":\"max\"}");
             try (TopicLog played = running.topic(replay.path("topic").asText())) {
-                await().atMost(TIMEOUT).until(() -> played.records().stream().anyMatch(record -> kind(record, "end")));
+                await().until(() -> played.records().stream().anyMatch(record -> kind(record, "end")));
 
                 assertThat(byId(played.records(), "event", HeaderNames.REPLAY_CE_ID))
                         .isEqualTo(byId(live.records(), null, HeaderNames.CE_ID))
@@ -65,49 +55,40 @@ class ReplayIT {
     }
 
     private static void playsAgainFromItsEnd(RunningSuite running, String replay, String topic) throws Exception {
-        Suite suite = running.suite();
         String path = "/api/replays/" + replay;
         await("rests when its end is settled")
-                .atMost(TIMEOUT)
-                .until(() -> send(suite, "GET", path, "").at("/status/settled").asBoolean());
-        JsonNode rested = send(suite, "GET", path, "");
+                .until(() -> running.get(path).at("/status/settled").asBoolean());
+        JsonNode rested = running.get(path);
         assertThat(rested.at("/status/state").asText()).isEqualTo("ended");
         long last = rested.at("/status/progress/to").asLong();
 
-        send(suite, "POST", path + "/seek", "{\"to\":" + last + "}");
+        running.post(path + "/seek", "{\"to\":" + last + "}");
         try (TopicLog played = running.topic(topic)) {
-            await().atMost(TIMEOUT)
-                    .until(() -> played.records().stream()
-                            .anyMatch(record -> kind(record, "end")
-                                    && "1".equals(TopicLog.headers(record).get(HeaderNames.REPLAY_EPOCH))));
+            await().until(() -> played.records().stream()
+                    .anyMatch(record -> kind(record, "end")
+                            && "1".equals(TopicLog.headers(record).get(HeaderNames.REPLAY_EPOCH))));
         }
-        send(suite, "DELETE", path, "");
+        running.send("DELETE", path, "");
         await("forgotten when it is stopped")
-                .atMost(TIMEOUT)
-                .until(() -> send(suite, "GET", "/api/replays", "").size() == 0);
+                .until(() -> running.get("/api/replays").size() == 0);
     }
 
-    private static void runMission(Suite suite, TopicLog live) throws Exception {
-        await().atMost(TIMEOUT)
-                .until(() ->
-                        send(suite, "GET", "/ready", "").path("status").asText().equals("ready"));
-        send(suite, "POST", "/api/domains", "{\"domain\":\"north\"}");
-        send(suite, "POST", "/api/missions/hoeing/start", """
+    private static void runMission(RunningSuite running, TopicLog live) throws Exception {
+        running.awaitReady();
+        running.post("/api/domains", "{\"domain\":\"north\"}");
+        running.post("/api/missions/hoeing/start", """
                 {"domain": "north", "devices": [
                   {"type": "Thermometer", "count": 3, "period": "PT0.2S", "path": [[-3.48, 40.31]]}]}
                 """);
-        await().atMost(TIMEOUT).until(() -> live.records().size() >= REPORTS);
-        send(suite, "POST", "/api/missions/hoeing/stop", "{}");
-        await().atMost(TIMEOUT)
-                .until(() -> send(suite, "GET", "/api/missions/hoeing", "")
-                        .at("/status/state")
-                        .asText()
-                        .equals("stopped"));
+        await().until(() -> live.records().size() >= REPORTS);
+        running.post("/api/missions/hoeing/stop", "{}");
+        running.awaitState("hoeing", "stopped");
     }
 
     /** How many events of a mission are kept. */
-    static long stored(Suite suite, String mission) throws Exception {
-        Optional<Recording> recording = new MongoRecordings(suite.mongo(), MongoAccess.DATABASE).open(mission);
+    static long stored(RunningSuite running, String mission) throws Exception {
+        Optional<Recording> recording =
+                new MongoRecordings(running.suite().mongo(), MongoAccess.DATABASE).open(mission);
         if (recording.isEmpty()) {
             return 0;
         }
@@ -119,9 +100,9 @@ class ReplayIT {
     }
 
     /** Until the catalog of recordings, which is polled, has the mission: only then a replay of it is accepted. */
-    static void awaitListed(Suite suite, String mission) {
-        await("listed among the recordings").atMost(TIMEOUT).until(() -> {
-            List<String> listed = send(suite, "GET", "/api/recordings", "").findValuesAsText("mission");
+    static void awaitListed(RunningSuite running, String mission) {
+        await("listed among the recordings").until(() -> {
+            List<String> listed = running.get("/api/recordings").findValuesAsText("mission");
             return listed.contains(mission);
         });
     }
@@ -135,7 +116,7 @@ class ReplayIT {
         Map<String, String> byId = new TreeMap<>();
         for (ConsumerRecord<byte[], byte[]> record : records) {
             if (kind == null || kind(record, kind)) {
-                String value = record.value() == null ? "" : new String(record.value(), StandardCharsets.UTF_8);
+                String value = record.value() == null ? "" : new String(record.value(), UTF_8);
                 byId.put(TopicLog.headers(record).get(id), record.timestamp() + " " + sorted(value));
             }
         }
@@ -153,18 +134,5 @@ class ReplayIT {
         } catch (IOException e) {
             throw new UncheckedIOException(e);
         }
-    }
-
-    private static JsonNode send(Suite suite, String method, String path, String body) throws Exception {
-        HttpRequest request = HttpRequest.newBuilder(URI.create(suite.control() + path))
-                .header("Content-Type", "application/json")
-                .method(method, HttpRequest.BodyPublishers.ofString(body))
-                .build();
-        HttpResponse<byte[]> response = HTTP.send(request, HttpResponse.BodyHandlers.ofByteArray());
-        JsonNode answer = NgsiJson.read(response.body());
-        assertThat(response.statusCode())
-                .as("%s %s: %s", method, path, answer)
-                .isLessThan(method.equals("GET") ? 600 : 300);
-        return answer;
     }
 }

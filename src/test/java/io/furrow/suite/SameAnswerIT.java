@@ -1,10 +1,5 @@
 package io.furrow.suite;
 
-import java.net.URI;
-import java.net.http.HttpClient;
-import java.net.http.HttpRequest;
-import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
@@ -20,11 +15,11 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 
-import io.furrow.launcher.suite.Suite;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -33,7 +28,6 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class SameAnswerIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
-    private static final HttpClient HTTP = HttpClient.newHttpClient();
     private static final List<String> RESULTS = List.of(Topics.COLLISION, Topics.TEMPERATURE, Topics.PRESENCE);
 
     @Test
@@ -41,19 +35,14 @@ class SameAnswerIT {
         try (RunningSuite running = RunningSuite.start(null);
                 TopicLog live = running.topic(Topics.realtime("farm", "weeding"));
                 TopicLog collisions = running.topic(Topics.COLLISION)) {
-            Suite suite = running.suite();
-            await().atMost(TIMEOUT)
-                    .until(() -> send(suite, "GET", "/ready", "")
-                            .path("status")
-                            .asText()
-                            .equals("ready"));
-            send(suite, "POST", "/api/domains", "{\"domain\":\"farm\"}");
+            running.awaitReady();
+            running.post("/api/domains", "{\"domain\":\"farm\"}");
             // off the fields, and still reporting when the mission is over: event time goes on
-            send(suite, "POST", "/api/domains", "{\"domain\":\"canary\"}");
-            send(suite, "POST", "/api/missions/dummy/start", """
+            running.post("/api/domains", "{\"domain\":\"canary\"}");
+            running.post("/api/missions/dummy/start", """
                     {"domain": "canary", "devices": [{"type": "Thermometer", "period": "PT1S", "path": [[-3.482, 40.3092]]}]}
                     """);
-            send(suite, "POST", "/api/missions/weeding/start", """
+            running.post("/api/missions/weeding/start", """
                     {"domain": "farm", "devices": [
                       {"type": "Thermometer", "period": "PT1S", "path": [[-3.4836, 40.3134]]},
                       {"type": "Thermometer", "period": "PT1S", "path": [[-3.4825, 40.31325]]},
@@ -66,19 +55,15 @@ class SameAnswerIT {
                        "path": [[-3.4836, 40.31281], [-3.484, 40.31281]]}]}
                     """);
             await().atMost(TIMEOUT).until(() -> phases(collisions).contains("ended"));
-            send(suite, "POST", "/api/missions/weeding/stop", "{}");
-            await().atMost(TIMEOUT)
-                    .until(() -> send(suite, "GET", "/api/missions/weeding", "")
-                            .at("/status/state")
-                            .asText()
-                            .equals("stopped"));
+            running.post("/api/missions/weeding/stop", "{}");
+            running.awaitState("weeding", "stopped");
 
             await().atMost(TIMEOUT)
-                    .until(() ->
-                            ReplayIT.stored(suite, "weeding") == live.records().size());
-            ReplayIT.awaitListed(suite, "weeding");
+                    .until(() -> ReplayIT.stored(running, "weeding")
+                            == live.records().size());
+            ReplayIT.awaitListed(running, "weeding");
 
-            List<String> topics = List.of(replay(suite, "1"), replay(suite, "10"), replay(suite, "\"max\""));
+            List<String> topics = List.of(replay(running, "1"), replay(running, "10"), replay(running, "\"max\""));
             for (String result : RESULTS) {
                 for (String topic : topics) {
                     // windows and encounters that the live run left open close as its event time goes on
@@ -96,9 +81,9 @@ class SameAnswerIT {
     /** From its end back to its first event: an epoch whose results are by themselves. */
     private static void findsTheSameAgainAfterASeek(RunningSuite running, String topic) throws Exception {
         String path = "/api/replays/weeding" + topic.substring(topic.lastIndexOf('.'));
-        JsonNode replay = send(running.suite(), "GET", path, "");
+        JsonNode replay = running.get(path);
         long first = replay.at("/status/progress/from").asLong();
-        send(running.suite(), "POST", path + "/seek", "{\"to\":" + first + "}");
+        running.post(path + "/seek", "{\"to\":" + first + "}");
         for (String result : RESULTS) {
             await().atMost(TIMEOUT)
                     .untilAsserted(() -> assertSame(
@@ -123,12 +108,12 @@ class SameAnswerIT {
 
     private static List<String> phases(TopicLog collisions) {
         return collisions.records().stream()
-                .map(record -> entity(record).path("phase").path("value").asText())
+                .map(record -> entity(record).at("/phase/value").asText())
                 .toList();
     }
 
-    private static String replay(Suite suite, String speed) throws Exception {
-        JsonNode answer = send(suite, "POST", "/api/replays", """
+    private static String replay(RunningSuite running, String speed) throws Exception {
+        JsonNode answer = running.post("/api/replays", """
                 {"mission": "weeding", "speed": %s, "analytics": ["collision", "temperature", "presence"]}
                 """.formatted(speed));
         assertThat(answer.path("topic").asText()).as(answer.toString()).isNotEmpty();
@@ -147,7 +132,7 @@ class SameAnswerIT {
                 Map<String, Object> entity = NgsiJson.mapper()
                         .convertValue(
                                 ofEpochZero(entity(record), epoch), new TypeReference<TreeMap<String, Object>>() {});
-                String key = new String(record.key(), StandardCharsets.UTF_8);
+                String key = new String(record.key(), UTF_8);
                 answers.add(record.timestamp() + " " + key + " " + entity);
             }
             return answers;
@@ -171,14 +156,5 @@ class SameAnswerIT {
         } catch (io.furrow.model.ngsi.UnreadableException e) {
             throw new AssertionError(e);
         }
-    }
-
-    private static JsonNode send(Suite suite, String method, String path, String body) throws Exception {
-        HttpRequest request = HttpRequest.newBuilder(URI.create(suite.control() + path))
-                .header("Content-Type", "application/json")
-                .method(method, HttpRequest.BodyPublishers.ofString(body))
-                .build();
-        return NgsiJson.read(
-                HTTP.send(request, HttpResponse.BodyHandlers.ofByteArray()).body());
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.suite;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -9,7 +8,7 @@ import java.util.stream.Stream;
 
 import org.apache.kafka.clients.producer.internals.BuiltInPartitioner;
 import org.awaitility.core.ConditionFactory;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -18,6 +17,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -29,18 +29,12 @@ class SlowClockIT {
     private static final String SLOW = ids("slow", 0).findFirst().orElseThrow();
     private static final List<String> ROBOTS = ids("robot", 1).limit(2).toList();
 
+    @AutoClose
     private static RunningSuite running;
 
     @BeforeAll
     static void start() throws Exception {
         running = RunningSuite.start(null);
-    }
-
-    @AfterAll
-    static void stop() {
-        if (running != null) {
-            running.close();
-        }
     }
 
     @Test
@@ -101,7 +95,7 @@ class SlowClockIT {
     /** Ids whose records go to the first partition, or to another. */
     private static Stream<String> ids(String prefix, int from) {
         return IntStream.range(0, 100).mapToObj(i -> prefix + i).filter(id -> {
-            int partition = BuiltInPartitioner.partitionForKey(id.getBytes(StandardCharsets.UTF_8), PARTITIONS);
+            int partition = BuiltInPartitioner.partitionForKey(id.getBytes(UTF_8), PARTITIONS);
             return from == 0 ? partition == 0 : partition >= from;
         });
     }

@@ -11,7 +11,8 @@ import java.util.TreeMap;
 import java.util.TreeSet;
 import java.util.regex.MatchResult;
 import java.util.regex.Pattern;
-import java.util.stream.Stream;
+
+import io.furrow.files.Folders;
 
 /** Finds words in the identifiers of a module's sources, locals and parameters included. */
 final class SourceWords {
@@ -28,15 +29,13 @@ final class SourceWords {
     /** The files by identifier that has one of the words, in singular or plural. */
     static Map<String, Set<String>> identifiersWith(Set<String> words, Path module) throws IOException {
         Map<String, Set<String>> found = new TreeMap<>();
-        try (Stream<Path> files = Files.walk(module.resolve("src"))) {
-            files.filter(file -> file.toString().endsWith(".java"))
-                    .forEach(file -> TOKEN.matcher(text(file))
-                            .results()
-                            .map(MatchResult::group)
-                            .filter(token -> Character.isLetter(token.charAt(0)) && has(words, token))
-                            .forEach(token -> found.computeIfAbsent(token, each -> new TreeSet<>())
-                                    .add(file.getFileName().toString())));
-        }
+        Folders.walk(module.resolve("src")).stream().filter(file -> file.toString().endsWith(".java"))
+                .forEach(file -> TOKEN.matcher(text(file))
+                        .results()
+                        .map(MatchResult::group)
+                        .filter(token -> Character.isLetter(token.charAt(0)) && has(words, token))
+                        .forEach(token -> found.computeIfAbsent(token, each -> new TreeSet<>())
+                                .add(file.getFileName().toString())));
         return found;
     }
 

@@ -1,14 +1,12 @@
 package io.furrow.suite;
 
 import java.io.ByteArrayOutputStream;
-import java.nio.charset.StandardCharsets;
-import java.time.Duration;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 
@@ -19,15 +17,15 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.Entity;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 class WholePathIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
-
     /** With characters that the context broker refuses in most types of attributes. */
     private static final String NAME = "O'Brien's = \"the\" <field>; (north)";
 
+    @AutoClose
     private static RunningSuite running;
 
     @BeforeAll
@@ -36,20 +34,11 @@ class WholePathIT {
         DemoFarm.start(running.suite().control());
     }
 
-    @AfterAll
-    static void stop() {
-        if (running != null) {
-            running.close();
-        }
-    }
-
     @Test
     void writesTheAverageOfAFieldIntoTheContextBrokerAndNamesTheDefectiveThermometer() {
-        await().atMost(TIMEOUT).untilAsserted(() -> {
-            JsonNode average = running.ngsi()
-                    .entities("id=Analytics:FieldTemperature:field-1")
-                    .path(0);
-            assertThat(average.path("suspects").path("value")).hasSize(1);
+        await().untilAsserted(() -> {
+            JsonNode average = running.ngsi().entity("Analytics:FieldTemperature:field-1");
+            assertThat(average.at("/suspects/value")).hasSize(1);
             assertThat(average.at("/suspects/value/0").asText()).isEqualTo("urn:ngsi-ld:Thermometer:4");
             assertThat(average.at("/quality/value").asText()).isEqualTo("robust");
             assertThat(average.at("/averageTemperature/value").asDouble())
@@ -59,7 +48,7 @@ class WholePathIT {
 
     @Test
     void showsEachDomainAndMissionInTheContextBroker() {
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             JsonNode missions = running.ngsi().entities("type=Mission");
             assertThat(missions)
                     .hasSize(3)
@@ -81,10 +70,8 @@ class WholePathIT {
                 existing.properties().deepCopy().put("name", NAME).put("Domain", "farm (north)");
         fields.write(List.of(new FieldVersion("imported", 0, existing.geometry(), properties)));
 
-        await().atMost(TIMEOUT).untilAsserted(() -> {
-            JsonNode average = running.ngsi()
-                    .entities("id=Analytics:FieldTemperature:imported")
-                    .path(0);
+        await().untilAsserted(() -> {
+            JsonNode average = running.ngsi().entity("Analytics:FieldTemperature:imported");
             assertThat(average.at("/quality/value").asText()).isEqualTo("robust");
             assertThat(average.at("/Domain/value").asText()).isEqualTo("farm (north)");
             assertThat(running.ngsi().entities("type=Analytics:Presence"))
@@ -95,7 +82,7 @@ class WholePathIT {
 
     @Test
     void writesTheEncounterOfTwoRobotsIntoTheContextBroker() {
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             JsonNode collision =
                     running.ngsi().entities("type=Analytics:Collision").path(0);
             assertThat(collision.at("/Device1_ID/value").asText()).isEqualTo("urn:ngsi-ld:Robot:1");
@@ -108,7 +95,7 @@ class WholePathIT {
     void routesEachMissionToItsOwnTopicWithEveryHopStamped() {
         try (TopicLog weeding = running.topic("data.farm.realtime.weeding");
                 TopicLog dummy = running.topic("data.canary.realtime.dummy")) {
-            await().atMost(TIMEOUT).untilAsserted(() -> {
+            await().untilAsserted(() -> {
                 assertThat(weeding.records())
                         .filteredOn(record -> origin(record).equals("notification"))
                         .hasSizeGreaterThan(10);
@@ -117,7 +104,7 @@ class WholePathIT {
             assertThat(weeding.records()).allSatisfy(record -> {
                 Entity entity = Entity.parse(record.value());
                 assertThat(entity.text("Mission")).contains("weeding");
-                assertThat(new String(record.key(), StandardCharsets.UTF_8)).isEqualTo(entity.id());
+                assertThat(new String(record.key(), UTF_8)).isEqualTo(entity.id());
                 // On a slow machine the query of a repair may overtake a notification.
                 assertThat(origin(record)).isIn("notification", "repair");
                 assertThat(TopicLog.headers(record))
@@ -138,28 +125,25 @@ class WholePathIT {
     void storesEveryEventOfAMissionInMongo() {
         try (TopicLog weeding = running.topic("data.farm.realtime.weeding");
                 StoredMissions missions = StoredMissions.open(running.suite().mongo())) {
-            await().atMost(TIMEOUT)
-                    .untilAsserted(() -> assertThat(weeding.records()).hasSizeGreaterThan(10));
-            await().atMost(TIMEOUT).untilAsserted(() -> {
+            await().untilAsserted(() -> assertThat(weeding.records()).hasSizeGreaterThan(10));
+            await().untilAsserted(() -> {
                 ByteArrayOutputStream lines = new ByteArrayOutputStream();
                 missions.export("weeding", lines, ignored -> {});
-                String stored = lines.toString(StandardCharsets.UTF_8);
+                String stored = lines.toString(UTF_8);
                 assertThat(weeding.records().subList(0, 10))
                         .allSatisfy(record -> assertThat(stored)
                                 .contains(TopicLog.headers(record).get(HeaderNames.CE_ID))
-                                .contains("\"entity\":" + new String(record.value(), StandardCharsets.UTF_8)));
+                                .contains("\"entity\":" + new String(record.value(), UTF_8)));
             });
         }
     }
 
     @Test
     void doesNotTakeItsOwnResultsForNews() {
-        await().atMost(TIMEOUT)
-                .untilAsserted(() -> assertThat(running.ngsi().entities("typePattern=Analytics:.*"))
-                        .isNotEmpty());
+        await().untilAsserted(() ->
+                assertThat(running.ngsi().entities("typePattern=Analytics:.*")).isNotEmpty());
         try (TopicLog raw = running.topic("data.raw")) {
-            await().atMost(TIMEOUT)
-                    .untilAsserted(() -> assertThat(raw.records()).hasSizeGreaterThan(50));
+            await().untilAsserted(() -> assertThat(raw.records()).hasSizeGreaterThan(50));
             assertThat(raw.records())
                     .extracting(record -> Entity.parse(record.value()).type())
                     .doesNotContain("Analytics:FieldTemperature", "Analytics:Collision")

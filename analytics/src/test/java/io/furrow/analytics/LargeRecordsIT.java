@@ -1,6 +1,5 @@
 package io.furrow.analytics;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -12,12 +11,9 @@ import java.util.stream.Stream;
 
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.header.Header;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -34,6 +30,7 @@ import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobOptions;
+import io.furrow.kafka.CommittedReader;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.OriginalReference;
@@ -41,6 +38,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -153,21 +151,11 @@ class LargeRecordsIT {
 
     /** All records of a topic, as soon as it is there with so many. */
     private static List<ConsumerRecord<byte[], byte[]>> awaitRecords(EmbeddedKafka kafka, String topic, int atLeast) {
-        Map<String, Object> settings = Map.of(
-                "bootstrap.servers", kafka.bootstrapServers(),
-                "auto.offset.reset", "earliest",
-                "allow.auto.create.topics", "false");
         List<ConsumerRecord<byte[], byte[]>> records = new ArrayList<>();
-        try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
-            await().alias(topic).pollInSameThread().until(() -> {
-                List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
-                        .map(info -> new TopicPartition(topic, info.partition()))
-                        .toList();
-                if (consumer.assignment().size() != partitions.size()) {
-                    consumer.assign(partitions);
-                }
-                if (!partitions.isEmpty()) {
-                    consumer.poll(Duration.ofMillis(100)).forEach(records::add);
+        try (CommittedReader<byte[]> reader = CommittedReader.openBytes(kafka.client(), topic)) {
+            await().alias(topic).until(() -> {
+                if (reader.assign(List.of(topic))) {
+                    reader.poll(Duration.ofMillis(100)).forEach(records::add);
                 }
                 return records.size() >= atLeast;
             });
@@ -178,12 +166,12 @@ class LargeRecordsIT {
     private static Map<String, String> headers(ConsumerRecord<byte[], byte[]> record) {
         Map<String, String> headers = new java.util.TreeMap<>();
         for (Header header : record.headers()) {
-            headers.put(header.key(), new String(header.value(), StandardCharsets.UTF_8));
+            headers.put(header.key(), new String(header.value(), UTF_8));
         }
         return headers;
     }
 
     private static byte[] utf8(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

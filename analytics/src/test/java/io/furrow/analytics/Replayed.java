@@ -1,6 +1,5 @@
 package io.furrow.analytics;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -18,6 +17,7 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** A replay of a mission in four epochs, and what a job writes of each beside what it writes of that alone. */
@@ -91,8 +91,7 @@ public final class Replayed {
      * @param kind {@code event}, {@code prime} or {@code end}
      */
     public static TopicRecord record(TopicRecord live, int epoch, long offset, String kind) {
-        TopicRecord stamped =
-                new TopicRecord(TOPIC, 0, 7, live.timestamp() + offset, live.key(), live.value(), live.headers());
+        var stamped = new TopicRecord(TOPIC, 0, 7, live.timestamp() + offset, live.key(), live.value(), live.headers());
         return stamped.with(Map.of(
                 HeaderNames.REPLAY_EPOCH,
                 Integer.toString(epoch),
@@ -140,6 +139,6 @@ public final class Replayed {
     }
 
     private static String text(byte[] bytes) {
-        return new String(bytes, StandardCharsets.UTF_8);
+        return new String(bytes, UTF_8);
     }
 }

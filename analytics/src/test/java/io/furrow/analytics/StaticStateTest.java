@@ -3,15 +3,15 @@ package io.furrow.analytics;
 import java.lang.reflect.Field;
 import java.lang.reflect.Modifier;
 import java.net.URI;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Collection;
 import java.util.List;
 import java.util.Map;
-import java.util.stream.Stream;
 
 import org.junit.jupiter.api.Test;
+
+import io.furrow.files.Folders;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -27,15 +27,13 @@ class StaticStateTest {
                 .getResource("io/furrow/analytics/AnalyticsJobs.class")
                 .toURI();
         Path classes = Path.of(root).getParent();
-        try (Stream<Path> files = Files.walk(classes)) {
-            for (Path file :
-                    files.filter(each -> each.toString().endsWith(".class")).toList()) {
-                String name = "io.furrow.analytics."
-                        + classes.relativize(file).toString().replace('/', '.').replaceAll("[.]class$", "");
-                for (Field field : Class.forName(name).getDeclaredFields()) {
-                    if (Modifier.isStatic(field.getModifiers()) && holdsMuch(field)) {
-                        held.add(name + "." + field.getName());
-                    }
+        for (Path file :
+                Folders.walk(classes).stream().filter(each -> each.toString().endsWith(".class")).toList()) {
+            String name = "io.furrow.analytics."
+                    + classes.relativize(file).toString().replace('/', '.').replaceAll("[.]class$", "");
+            for (Field field : Class.forName(name).getDeclaredFields()) {
+                if (Modifier.isStatic(field.getModifiers()) && holdsMuch(field)) {
+                    held.add(name + "." + field.getName());
                 }
             }
         }

@@ -88,8 +88,7 @@ class ControlPlaneProxyTest {
         URI uri = URI.create("http://127.0.0.1:" + connector.getLocalPort() + "/api/domains");
         HttpRequest.BodyPublisher content =
                 body.isEmpty() ? HttpRequest.BodyPublishers.noBody() : HttpRequest.BodyPublishers.ofString(body);
-        HttpRequest request =
-                HttpRequest.newBuilder(uri).method(method, content).build();
+        var request = HttpRequest.newBuilder(uri).method(method, content).build();
         return http.sendAsync(request, HttpResponse.BodyHandlers.discarding()).thenApply(HttpResponse::statusCode);
     }
 

@@ -129,8 +129,7 @@ class DashboardCommandsIT extends DashboardFixture {
     }
 
     private static ConsumerRecord<String, String> last(String topic) {
-        try (KafkaConsumer<String, String> consumer =
-                new KafkaConsumer<>(client(), new StringDeserializer(), new StringDeserializer())) {
+        try (var consumer = new KafkaConsumer<>(kafka.client(), new StringDeserializer(), new StringDeserializer())) {
             List<TopicPartition> all = consumer.partitionsFor(topic).stream()
                     .map(each -> new TopicPartition(each.topic(), each.partition()))
                     .toList();

@@ -10,7 +10,6 @@ import java.nio.file.Path;
 import java.time.Clock;
 import java.util.List;
 import java.util.Optional;
-import java.util.Properties;
 import java.util.concurrent.CompletionException;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -23,7 +22,7 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringDeserializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.apache.kafka.common.utils.Utils;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.extension.BeforeAllCallback;
 import org.junit.jupiter.api.extension.ExtendWith;
@@ -56,6 +55,8 @@ abstract class DashboardFixture {
     static KafkaProducer<String, byte[]> producer;
 
     final HttpClient http = HttpClient.newHttpClient();
+
+    @AutoClose
     Dashboard dashboard;
 
     /** Keeps them from the first class of tests to the last of a JVM. */
@@ -77,7 +78,7 @@ abstract class DashboardFixture {
             Path tokens = directory.resolve("tokens");
             Files.writeString(tokens, "vera %s viewer%nolga %s operator%nanna %s admin%n".formatted(VERA, OLGA, ANNA));
             api = RestApi.start(
-                    ControlSettings.of(client()),
+                    ControlSettings.of(kafka.client()),
                     RestSettings.on(0).withTokens(tokens),
                     new Readiness(Clock.systemUTC()));
             kafka.createTopics(topics(TOPIC, "data.farm.realtime", REPLAY));
@@ -107,24 +108,13 @@ abstract class DashboardFixture {
         dashboard = Dashboard.start(settings());
     }
 
-    @AfterEach
-    void stop() {
-        dashboard.close();
-    }
-
     static DashboardSettings settings() {
-        return DashboardSettings.of(0, client(), api.uri());
+        return DashboardSettings.of(0, kafka.client(), api.uri());
     }
 
     void restart(DashboardSettings other) throws Exception {
         dashboard.close();
         dashboard = Dashboard.start(other);
-    }
-
-    static Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
     }
 
     HttpResponse<String> get(String path, String token, String... headers) throws Exception {
@@ -202,8 +192,7 @@ abstract class DashboardFixture {
     }
 
     static long ends(String topic) {
-        try (KafkaConsumer<String, String> consumer =
-                new KafkaConsumer<>(client(), new StringDeserializer(), new StringDeserializer())) {
+        try (var consumer = new KafkaConsumer<>(kafka.client(), new StringDeserializer(), new StringDeserializer())) {
             List<TopicPartition> all = consumer.partitionsFor(topic).stream()
                     .map(each -> new TopicPartition(each.topic(), each.partition()))
                     .toList();

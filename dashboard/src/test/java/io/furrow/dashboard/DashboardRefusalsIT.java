@@ -129,7 +129,7 @@ class DashboardRefusalsIT extends DashboardFixture {
     @Tag("full")
     @Test
     void reportsThatTheControlPlaneIsUnavailable() throws Exception {
-        restart(DashboardSettings.of(0, client(), URI.create("http://127.0.0.1:1")));
+        restart(DashboardSettings.of(0, kafka.client(), URI.create("http://127.0.0.1:1")));
 
         assertThat(error("/api/missions", VERA)).isEqualTo("502 control-plane-away");
         assertThat(error("/api/register/" + TOPIC, VERA)).isEqualTo("503 control-plane-away");

@@ -81,7 +81,7 @@ class DashboardStatusIT extends DashboardFixture {
     void reportsLagAndTheDeadLettersThatAreStillThere() throws Exception {
         String topic = "counted";
         String dead = "counted.dead";
-        try (Admin admin = Admin.create(client())) {
+        try (Admin admin = Admin.create(kafka.client())) {
             kafka.createTopics(topics(topic, dead));
             for (int i = 0; i < 5; i++) {
                 producer.send(new ProducerRecord<>(topic, "k", new byte[] {1})).get();
@@ -153,7 +153,7 @@ class DashboardStatusIT extends DashboardFixture {
     @Tag("full")
     @Test
     void isNotReadyWithoutTheControlPlane() throws Exception {
-        restart(DashboardSettings.of(0, client(), URI.create("http://127.0.0.1:1")));
+        restart(DashboardSettings.of(0, kafka.client(), URI.create("http://127.0.0.1:1")));
 
         await().until(() ->
                 json(get("/ready", null)).at("/parts/kafka/state").asText().equals("up"));
@@ -169,7 +169,7 @@ class DashboardStatusIT extends DashboardFixture {
     @Test
     void reportsHowItIsAndGivesThePageOutWhileTheControlPlaneIsSilent() throws Exception {
         try (ServerSocket silent = new ServerSocket(0, 500, InetAddress.getLoopbackAddress())) {
-            restart(DashboardSettings.of(0, client(), URI.create("http://127.0.0.1:" + silent.getLocalPort())));
+            restart(DashboardSettings.of(0, kafka.client(), URI.create("http://127.0.0.1:" + silent.getLocalPort())));
             await().until(() -> {
                 List<CompletableFuture<HttpResponse<String>>> waiting = IntStream.range(0, 150)
                         .mapToObj(i -> http.sendAsync(

@@ -249,7 +249,7 @@ class DashboardStreamsIT extends DashboardFixture {
         kafka.createTopics(topics(topic));
         SocketClient client = open(topic);
 
-        try (Admin admin = Admin.create(client())) {
+        try (Admin admin = Admin.create(kafka.client())) {
             admin.deleteTopics(List.of(topic)).all().get();
             await().until(client::isOver);
             assertThat(client.reason()).isEqualTo("topic 'data.m.replay.1a2b3c4d' is not there any more");

@@ -45,9 +45,6 @@ class LongEventStreamIT {
     /** A comment each 15 s; the server closes a connection on which nothing is sent for 30 s. */
     private static final int LONGER_THAN_IDLE = 3;
 
-    @TempDir
-    Path directory;
-
     private final HttpClient http = HttpClient.newHttpClient();
 
     /** What was read of a stream. */
@@ -94,12 +91,11 @@ class LongEventStreamIT {
     }
 
     @Test
-    void lastWithoutARecordAndEndWhenTheirTokenIsTakenBack() throws Exception {
+    void lastWithoutARecordAndEndWhenTheirTokenIsTakenBack(@TempDir Path directory) throws Exception {
         Path tokens = directory.resolve("tokens");
         Files.writeString(tokens, "vera %s viewer%nolga %s operator%n".formatted(VERA, OLGA));
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory.resolve("kafka"))) {
-            Properties client = new Properties();
-            client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+            Properties client = kafka.client();
             kafka.createTopics(List.of(new NewTopic(TOPIC, Optional.of(1), Optional.empty())));
 
             try (RestApi api = RestApi.start(

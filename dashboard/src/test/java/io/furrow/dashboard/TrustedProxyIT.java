@@ -11,12 +11,11 @@ import java.time.Duration;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
-import java.util.Properties;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.junit.jupiter.api.AfterAll;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -59,6 +58,8 @@ class TrustedProxyIT {
     private static RestApi open;
 
     private final HttpClient http = HttpClient.newHttpClient();
+
+    @AutoClose
     private Dashboard dashboard;
 
     @BeforeAll
@@ -72,8 +73,10 @@ class TrustedProxyIT {
                 other %s admin
                 """.formatted(OLGA, DASHBOARD, LIMITED, NOT_FOR_USERS));
         api = RestApi.start(
-                ControlSettings.of(client()), RestSettings.on(0).withTokens(tokens), new Readiness(Clock.systemUTC()));
-        open = RestApi.start(ControlSettings.of(client()), RestSettings.on(0), new Readiness(Clock.systemUTC()));
+                ControlSettings.of(kafka.client()),
+                RestSettings.on(0).withTokens(tokens),
+                new Readiness(Clock.systemUTC()));
+        open = RestApi.start(ControlSettings.of(kafka.client()), RestSettings.on(0), new Readiness(Clock.systemUTC()));
         kafka.createTopics(List.of(new NewTopic(TOPIC, Optional.of(1), Optional.empty())));
 
         await().atMost(TIMEOUT).until(() -> api.isReady() && open.isReady());
@@ -86,24 +89,13 @@ class TrustedProxyIT {
         kafka.close();
     }
 
-    @AfterEach
-    void stop() {
-        dashboard.close();
-    }
-
-    private static Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
-    }
-
     private void start(String proxy, String token) throws Exception {
         start(api.uri(), proxy, token);
     }
 
     private void start(URI controlPlane, String proxy, String token) throws Exception {
         StreamLimits usual = StreamLimits.DEFAULT;
-        dashboard = Dashboard.start(DashboardSettings.of(0, client(), controlPlane)
+        dashboard = Dashboard.start(DashboardSettings.of(0, kafka.client(), controlPlane)
                 .withLimits(new StreamLimits(
                         10, 10, 3, usual.ticketLife(), 100, 1_000_000, 10_000, 10_000, 5, usual.primeRecords()))
                 .withProxy(new TrustedProxy(

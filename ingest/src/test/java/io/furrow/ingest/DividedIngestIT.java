@@ -1,11 +1,8 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
-import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
-import java.util.Set;
 
 import com.mongodb.MongoCommandException;
 import com.mongodb.client.MongoClient;
@@ -15,7 +12,7 @@ import org.apache.flink.api.common.JobStatus;
 import org.apache.kafka.clients.admin.OffsetSpec;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.TopicPartition;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -26,6 +23,7 @@ import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.embedded.FreePort;
 import io.furrow.model.event.HeaderNames;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -37,16 +35,12 @@ class DividedIngestIT {
 
     private static final long TIME = System.currentTimeMillis() - 60_000;
 
+    @AutoClose
     private static KafkaSuite suite;
 
     @BeforeAll
     static void start() {
         suite = KafkaSuite.start(directory.resolve("kafka"));
-    }
-
-    @AfterAll
-    static void stop() {
-        suite.close();
     }
 
     @Test
@@ -69,7 +63,8 @@ class DividedIngestIT {
         await().until(() -> suite.status(missions) == JobStatus.RESTARTING);
         report("in-away", 100, 200, "away");
 
-        assertThat(ids(suite.awaitRecords("data.away.realtime.m", 200))).hasSize(200);
+        assertThat(KafkaSuite.ids(suite.awaitRecords("data.away.realtime.m", 200)))
+                .hasSize(200);
         await().until(() -> newest("away").size() >= 200);
         assertThat(suite.status(others)).isEqualTo(JobStatus.RUNNING);
         try (EmbeddedMongo server = EmbeddedMongo.start(directory.resolve("mongo"), port);
@@ -104,7 +99,7 @@ class DividedIngestIT {
         suite.cancel(routes);
         suite.cancel(latest);
 
-        assertThat(ids(routed)).hasSize(1000).hasSameSizeAs(routed);
+        assertThat(KafkaSuite.ids(routed)).hasSize(1000).hasSameSizeAs(routed);
         assertThat(suite.awaitRecords("data.parted.realtime", 1001)).hasSize(1001);
         assertThat(newest("parted")).doesNotHaveDuplicates().hasSize(1001);
     }
@@ -128,15 +123,9 @@ class DividedIngestIT {
                 .get()
                 .offset();
         return suite.awaitRecords("data.latest", all).stream()
-                .filter(record -> new String(record.key(), StandardCharsets.UTF_8).startsWith(domain))
+                .filter(record -> new String(record.key(), UTF_8).startsWith(domain))
                 .map(record -> KafkaSuite.headers(record).get(HeaderNames.CE_ID))
                 .toList();
-    }
-
-    private static Set<String> ids(List<ConsumerRecord<byte[], byte[]>> records) {
-        Set<String> ids = new HashSet<>();
-        records.forEach(record -> ids.add(KafkaSuite.headers(record).get(HeaderNames.CE_ID)));
-        return ids;
     }
 
     private static void report(String topic, int from, int to, String domain) {

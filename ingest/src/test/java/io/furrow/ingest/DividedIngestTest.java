@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -11,7 +10,6 @@ import java.util.Map;
 import java.util.TreeMap;
 import java.util.stream.Stream;
 
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
@@ -20,6 +18,8 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import picocli.CommandLine.ParameterException;
 
+import io.furrow.files.Folders;
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.image.Pictures;
@@ -28,15 +28,14 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class DividedIngestTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     private static final long TIME = 1_700_000_000_000L;
 
@@ -141,8 +140,8 @@ class DividedIngestTest {
         for (TopicRecord record : written) {
             Map<String, String> headers = new TreeMap<>(record.headers());
             headers.remove(HeaderNames.TS_INGEST);
-            String key = new String(record.key(), StandardCharsets.UTF_8);
-            String value = record.value() == null ? "" : new String(record.value(), StandardCharsets.UTF_8);
+            String key = new String(record.key(), UTF_8);
+            String value = record.value() == null ? "" : new String(record.value(), UTF_8);
             String line = record.topic() + " " + key + " "
                     + value.replace(images.toString(), "").replaceAll("-[0-9a-f]{64}[.]", ".") + " " + headers;
             if (record.topic().equals(Topics.CATALOG)) {
@@ -170,11 +169,9 @@ class DividedIngestTest {
         if (!Files.exists(folder)) {
             return List.of();
         }
-        try (Stream<Path> all = Files.walk(folder)) {
-            return contents(all.filter(Files::isRegularFile)).stream()
-                    .map(bytes -> new String(bytes, StandardCharsets.ISO_8859_1))
-                    .toList();
-        }
+        return contents(Folders.walk(folder).stream().filter(Files::isRegularFile)).stream()
+                .map(bytes -> new String(bytes, ISO_8859_1))
+                .toList();
     }
 
     private static TopicRecord camera(String eventId, int time, String tenant, byte[] image) {
@@ -199,6 +196,6 @@ class DividedIngestTest {
     }
 
     private static byte[] utf8(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -9,6 +8,8 @@ import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Devices as they stand on {@code service.devices}, in the order of the topic. */
 record FixedDevices(ArrayList<byte[]> values) implements TopicSnapshot {
@@ -24,7 +25,7 @@ record FixedDevices(ArrayList<byte[]> values) implements TopicSnapshot {
     public List<TopicRecord> read() {
         List<TopicRecord> records = new ArrayList<>();
         for (byte[] value : values) {
-            byte[] key = "ignored".getBytes(StandardCharsets.UTF_8);
+            byte[] key = "ignored".getBytes(UTF_8);
             records.add(new TopicRecord(Topics.DEVICES, 0, records.size(), 0, key, value, Map.of()));
         }
         return records;

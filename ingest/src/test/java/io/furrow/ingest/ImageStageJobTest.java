@@ -2,7 +2,6 @@ package io.furrow.ingest;
 
 import java.awt.image.BufferedImage;
 import java.io.ByteArrayOutputStream;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -16,45 +15,33 @@ import java.util.stream.Stream;
 import javax.imageio.ImageIO;
 import javax.imageio.stream.MemoryCacheImageOutputStream;
 
-import org.apache.flink.api.common.eventtime.WatermarkStrategy;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
-import org.apache.flink.streaming.api.datastream.DataStream;
-import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine.ParameterException;
 
+import io.furrow.files.Folders;
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.job.JobCommandLine;
-import io.furrow.flink.job.JobEnvironment;
-import io.furrow.flink.kafka.KafkaConnectors;
-import io.furrow.flink.kafka.TopicNames;
-import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 /** Images within the whole job. */
 class ImageStageJobTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     private static final long TIME = 1_700_000_000_000L;
 
-    @TempDir
-    Path folder;
-
     @Test
-    void sendsAReferenceToDomainAndMissionAndAManifest() throws Exception {
+    void sendsAReferenceToDomainAndMissionAndAManifest(@TempDir Path folder) throws Exception {
         byte[] image = png();
         TopicRecord camera = camera("c1", 0, image);
 
@@ -64,12 +51,10 @@ class ImageStageJobTest {
                 .extracting(TopicRecord::topic)
                 .containsExactlyInAnyOrder("data.farm.realtime", "data.farm.realtime.m", "data.images");
         String manifest = value(written, "data.images");
-        String url = NgsiJson.read(manifest.getBytes(StandardCharsets.UTF_8))
-                .path("url")
-                .textValue();
+        String url = NgsiJson.read(manifest.getBytes(UTF_8)).path("url").textValue();
         assertThat(Path.of(java.net.URI.create(url))).hasBinaryContent(image);
         for (String topic : List.of("data.farm.realtime", "data.farm.realtime.m")) {
-            Entity entity = Entity.parse(value(written, topic).getBytes(StandardCharsets.UTF_8));
+            Entity entity = Entity.parse(value(written, topic).getBytes(UTF_8));
             assertThat(entity.value("Image").orElseThrow().path("url").textValue())
                     .isEqualTo(url);
             assertThat(entity.text("Domain")).hasValue("farm");
@@ -88,7 +73,7 @@ class ImageStageJobTest {
     }
 
     @Test
-    void storesEveryImageOfManyCameras() throws Exception {
+    void storesEveryImageOfManyCameras(@TempDir Path folder) throws Exception {
         List<TopicRecord> records = new ArrayList<>();
         byte[] image = png();
         for (int i = 0; i < 500; i++) {
@@ -110,20 +95,18 @@ class ImageStageJobTest {
                 .forEach(record -> {
                     assertThat(events.add(record.headers().get(HeaderNames.CE_ID)))
                             .isTrue();
-                    String key = new String(record.key(), StandardCharsets.UTF_8);
+                    String key = new String(record.key(), UTF_8);
                     assertThat(record.timestamp()).isGreaterThan(last.getOrDefault(key, -1L));
                     last.put(key, record.timestamp());
                 });
         assertThat(events).hasSize(500);
-        try (Stream<Path> all = Files.walk(folder)) {
-            assertThat(all.filter(Files::isRegularFile))
-                    .hasSize(490)
-                    .allSatisfy(file -> assertThat(file).hasBinaryContent(image));
-        }
+        assertThat(Folders.walk(folder).stream().filter(Files::isRegularFile))
+                .hasSize(490)
+                .allSatisfy(file -> assertThat(file).hasBinaryContent(image));
     }
 
     @Test
-    void keepsACatalogueOfWhatPassed() throws Exception {
+    void keepsACatalogueOfWhatPassed(@TempDir Path folder) throws Exception {
         List<TopicRecord> records = new ArrayList<>();
         byte[] image = png();
         for (int i = 0; i < 60; i++) {
@@ -142,8 +125,7 @@ class ImageStageJobTest {
         assertThat(last.path("events").asInt()).isEqualTo(60);
         assertThat(last.path("images").asInt()).isEqualTo(60);
         assertThat(last.path("imageBytes").asInt()).isEqualTo(60 * image.length);
-        assertThat(last.path("attributes").path("Image").path("kind").textValue())
-                .isEqualTo("image");
+        assertThat(last.at("/attributes/Image/kind").textValue()).isEqualTo("image");
     }
 
     @Test
@@ -158,43 +140,13 @@ class ImageStageJobTest {
     private static String value(List<TopicRecord> written, String topic) {
         return written.stream()
                 .filter(record -> record.topic().equals(topic))
-                .map(record -> new String(record.value(), StandardCharsets.UTF_8))
+                .map(record -> new String(record.value(), UTF_8))
                 .findFirst()
                 .orElseThrow();
     }
 
     private static List<TopicRecord> run(IngestOptions options, TopicRecord... records) throws Exception {
-        StreamExecutionEnvironment env = JobEnvironment.create(options);
-        env.setParallelism(2);
-        DataStream<TopicRecord> source = env.fromData(List.of(records))
-                .setParallelism(1)
-                .uid("records")
-                .assignTimestampsAndWatermarks(WatermarkStrategy.<TopicRecord>forMonotonousTimestamps()
-                        .withTimestampAssigner((record, ignored) -> record.timestamp()))
-                .uid("timestamps")
-                .keyBy(record -> new String(record.key(), StandardCharsets.UTF_8)); // as a topic's partitions do
-
-        DataStream<TopicRecord> noDevices = env.fromData(List.of(new TopicRecord(
-                        Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(StandardCharsets.UTF_8), null, Map.of())))
-                .setParallelism(1)
-                .uid("devices")
-                .assignTimestampsAndWatermarks(KafkaConnectors.alwaysIdle())
-                .uid("no-hindrance")
-                .setParallelism(1);
-
-        CollectedOutput out = new CollectedOutput();
-        IngestJob.define(
-                new IngestInputs(
-                        source,
-                        noDevices,
-                        FixedDevices.of(),
-                        TopicSnapshot.NONE,
-                        TopicSnapshot.NONE,
-                        TopicSnapshot.NONE,
-                        TopicNames.NONE),
-                out,
-                options);
-        return out.run();
+        return IngestRun.of(options, FixedDevices.of(), records);
     }
 
     private static IngestOptions options(String... args) {
@@ -216,7 +168,7 @@ class ImageStageJobTest {
                 0,
                 i,
                 TIME + i,
-                id.getBytes(StandardCharsets.UTF_8),
+                id.getBytes(UTF_8),
                 entity.toBytes(),
                 new HashMap<>(Map.of(HeaderNames.CE_ID, "e" + i)));
     }

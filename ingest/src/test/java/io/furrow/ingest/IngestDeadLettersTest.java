@@ -3,11 +3,11 @@ package io.furrow.ingest;
 import java.time.Duration;
 import java.util.List;
 
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 
@@ -20,10 +20,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class IngestDeadLettersTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     @Test
     void setsAsideWhatIsNoEntityAndRoutesTheRest() throws Exception {

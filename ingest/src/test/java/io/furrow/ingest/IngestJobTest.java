@@ -1,16 +1,15 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import picocli.CommandLine.ParameterException;
 
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.HeaderNames;
@@ -24,15 +23,13 @@ import static io.furrow.ingest.ReportedRecords.options;
 import static io.furrow.ingest.ReportedRecords.record;
 import static io.furrow.ingest.ReportedRecords.run;
 import static io.furrow.ingest.ReportedRecords.thermometer;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class IngestJobTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     @Test
     void bringsAnEventToItsDomainAndItsMissionUnchanged() throws Exception {
@@ -179,7 +176,7 @@ class IngestJobTest {
 
         assertThat(written)
                 .filteredOn(record -> record.topic().equals(Topics.LATEST))
-                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8)
+                .extracting(record -> new String(record.key(), UTF_8)
                         + (record.value() == null
                                 ? ""
                                 : " is " + Entity.parse(record.value()).type()))
@@ -197,7 +194,7 @@ class IngestJobTest {
 
         assertThat(IngestRun.of(options(), FixedDevices.of(), valve, pump, deletion("d", "e-13", TIME + 1)))
                 .filteredOn(record -> record.value() == null)
-                .extracting(record -> record.topic() + " " + new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(record -> record.topic() + " " + new String(record.key(), UTF_8))
                 .containsExactlyInAnyOrder(
                         "data.farm.realtime e-13",
                         "data.yard.realtime e-13",
@@ -227,7 +224,7 @@ class IngestJobTest {
         TopicRecord newest = written.get(2);
         Entity entity = Entity.parse(newest.value());
         assertThat(newest.timestamp()).isEqualTo(TIME + 2);
-        assertThat(newest.key()).isEqualTo("t".getBytes(StandardCharsets.UTF_8));
+        assertThat(newest.key()).isEqualTo("t".getBytes(UTF_8));
         assertThat(entity.type()).isEqualTo("Thermometer");
         assertThat(entity.number("Temperature")).contains(20.0);
         assertThat(entity.number("Latitude")).contains(40.0);

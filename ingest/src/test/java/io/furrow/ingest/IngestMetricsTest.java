@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.Base64;
 import java.util.HashMap;
@@ -13,12 +12,12 @@ import org.apache.flink.metrics.Histogram;
 import org.apache.flink.metrics.Metric;
 import org.apache.flink.metrics.MetricGroup;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.image.Pictures;
@@ -26,17 +25,14 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class IngestMetricsTest {
     private static final InMemoryReporter METRICS = InMemoryReporter.createWithRetainedMetrics();
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setConfiguration(METRICS.addToConfiguration(new Configuration()))
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2, METRICS.addToConfiguration(new Configuration()));
 
     private static final long TIME = 1_700_000_000_000L;
 
@@ -46,8 +42,7 @@ class IngestMetricsTest {
         JobCommandLine.of(options).parseArgs("--images", images.toUri().toString());
         TopicRecord weeding = report("a", 0, "weeding");
         TopicRecord sowing = report("b", 0, "sowing");
-        TopicRecord garbage =
-                new TopicRecord("data.raw", 0, 7, TIME, new byte[] {1}, new byte[] {'{'}, new HashMap<>());
+        var garbage = new TopicRecord("data.raw", 0, 7, TIME, new byte[] {1}, new byte[] {'{'}, new HashMap<>());
 
         TopicRecord broken = camera("c", "sowing", "no picture");
         TopicRecord whole = camera("d", "weeding", Base64.getEncoder().encodeToString(Pictures.png(1)));
@@ -94,7 +89,7 @@ class IngestMetricsTest {
                 HeaderNames.CE_ID, id,
                 HeaderNames.TS_DEVICE, Long.toString(TIME),
                 HeaderNames.TS_SOURCE, Long.toString(TIME + 250));
-        byte[] key = "t".getBytes(StandardCharsets.UTF_8);
+        byte[] key = "t".getBytes(UTF_8);
         return new TopicRecord("data.raw", 0, 0, time, key, entity.build().toBytes(), new HashMap<>(headers));
     }
 

@@ -1,17 +1,14 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
-import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
-import java.util.Set;
 
 import org.apache.flink.api.common.JobID;
 import org.apache.kafka.clients.admin.Config;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.config.ConfigResource;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -23,6 +20,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.HeaderNames;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 @Timeout(180)
@@ -37,16 +35,12 @@ class IngestOnKafkaIT {
     private static final String ONE = "{\"type\":\"Number\",\"value\":1,\"metadata\":{}}";
     private static final String TWO = "{\"type\":\"Number\",\"value\":2,\"metadata\":{}}";
 
+    @AutoClose
     private static KafkaSuite suite;
 
     @BeforeAll
     static void start() {
         suite = KafkaSuite.start(directory.resolve("kafka"));
-    }
-
-    @AfterAll
-    static void stop() {
-        suite.close();
     }
 
     @Tag("full")
@@ -90,15 +84,8 @@ class IngestOnKafkaIT {
         suite.makeTopic("in-devices", 1);
         suite.makeTopic("own.devices", 2);
         for (int sequence = 1; sequence <= 500; sequence++) {
-            DeviceVersion version =
-                    new DeviceVersion("robot", "", "/", "d" + sequence, "", sequence, null, sequence, null);
-            suite.write(
-                    "own.devices",
-                    null,
-                    sequence,
-                    version.key(),
-                    new String(version.toBytes(), StandardCharsets.UTF_8),
-                    Map.of());
+            var version = new DeviceVersion("robot", "", "/", "d" + sequence, "", sequence, null, sequence, null);
+            suite.write("own.devices", null, sequence, version.key(), new String(version.toBytes(), UTF_8), Map.of());
         }
         suite.write("in-devices", null, TIME, "robot", "{\"id\":\"robot\",\"type\":\"ROBOT\"}", Map.of());
 
@@ -130,11 +117,8 @@ class IngestOnKafkaIT {
 
     /** What was written of the entity, the newest last. */
     private static List<String> latest(String id, int atLeast) {
-        return suite
-                .awaitRecords(
-                        "data.latest", record -> new String(record.key(), StandardCharsets.UTF_8).equals(id), atLeast)
-                .stream()
-                .map(record -> new String(record.value(), StandardCharsets.UTF_8))
+        return suite.awaitRecords("data.latest", record -> new String(record.key(), UTF_8).equals(id), atLeast).stream()
+                .map(record -> new String(record.value(), UTF_8))
                 .toList();
     }
 
@@ -164,8 +148,8 @@ class IngestOnKafkaIT {
         report(in, 6000, 6001, domain); // comes behind whatever might have come too often
         suite.awaitRecords("data." + domain + ".realtime", 6001);
         suite.cancel(job);
-        assertThat(ids(all)).hasSize(6000).hasSameSizeAs(all);
-        assertThat(ids(mission)).isEqualTo(ids(all)).hasSameSizeAs(mission);
+        assertThat(KafkaSuite.ids(all)).hasSize(6000).hasSameSizeAs(all);
+        assertThat(KafkaSuite.ids(mission)).isEqualTo(KafkaSuite.ids(all)).hasSameSizeAs(mission);
         assertThat(suite.awaitRecords("data." + domain + ".realtime", 6001)).hasSize(6001);
     }
 
@@ -188,12 +172,6 @@ class IngestOnKafkaIT {
                         + number + ",'metadata':{}}}")
                 .replace('\'', '"');
         suite.write(topic, null, TIME + number, "t" + number % 50, entity, Map.of(HeaderNames.CE_ID, domain + number));
-    }
-
-    private static Set<String> ids(List<ConsumerRecord<byte[], byte[]>> records) {
-        Set<String> ids = new HashSet<>();
-        records.forEach(record -> ids.add(KafkaSuite.headers(record).get(HeaderNames.CE_ID)));
-        return ids;
     }
 
     private static Config config(String topic) throws Exception {

@@ -1,25 +1,14 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
-import java.nio.file.Path;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.Random;
 import java.util.Set;
-import java.util.concurrent.TimeUnit;
 
 import org.apache.flink.api.common.typeinfo.TypeInformation;
-import org.apache.flink.runtime.minicluster.MiniCluster;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
-import org.apache.flink.test.junit5.InjectMiniCluster;
-import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Tag;
-import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.Timeout;
-import org.junit.jupiter.api.extension.RegisterExtension;
-import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobOptions;
@@ -28,38 +17,28 @@ import io.furrow.flink.kafka.TopicNames;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.restart.JobCase;
+import io.furrow.flink.restart.RestartContract;
 import io.furrow.flink.restart.Restarts;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
-@Timeout(value = 10, unit = TimeUnit.HOURS)
+import static java.nio.charset.StandardCharsets.UTF_8;
+
 @Tag("full")
-class IngestRestartTest {
-    @RegisterExtension
-    static final MiniClusterExtension FLINK = Restarts.cluster();
-
-    @Test
-    void writesWhatAnUndisturbedRunWritesWhereverItIsRestarted(
-            @InjectMiniCluster MiniCluster flink, @TempDir Path folder) throws Exception {
-        new Restarts(flink, folder).changeNothing(3, Case::new);
-    }
-
-    @Test
-    void goesOnFromTheSavepointsOfReleases(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
-            throws Exception {
-        new Restarts(flink, folder).goOnFromReleases("ingest", new Case(1));
+class IngestRestartTest extends RestartContract {
+    IngestRestartTest() {
+        super("ingest", Case::new);
     }
 
     /**
      * Events of a few entities with deletions, garbage and late events. What comes again under the id of an event says something
      * else, so that it would show if it passed.
      */
-    private static final class Case implements JobCase {
+    private static final class Case extends JobCase {
         private static final int STEP = 100;
         private static final long START = 1_700_000_000_000L;
 
-        private final List<Arrival> arrivals = new ArrayList<>();
         private final Random random;
 
         Case(long seed) {
@@ -80,7 +59,7 @@ class IngestRestartTest {
 
         private void again(Arrival arrival) {
             TopicRecord first = arrival.record();
-            String key = new String(first.key(), StandardCharsets.UTF_8);
+            String key = new String(first.key(), UTF_8);
             String id = first.headers().get(HeaderNames.CE_ID);
             arrivals.add(new Arrival(entity(id, key, first.timestamp()), true));
         }
@@ -93,7 +72,7 @@ class IngestRestartTest {
                             key,
                             time,
                             null);
-                case 1 -> record(Map.of(HeaderNames.CE_ID, id), key, time, "{no json".getBytes(StandardCharsets.UTF_8));
+                case 1 -> record(Map.of(HeaderNames.CE_ID, id), key, time, "{no json".getBytes(UTF_8));
                 default -> entity(id, key, time);
             };
         }
@@ -108,12 +87,7 @@ class IngestRestartTest {
         }
 
         private static TopicRecord record(Map<String, String> headers, String key, long time, byte[] value) {
-            return new TopicRecord(Topics.RAW, 0, 7, time, key.getBytes(StandardCharsets.UTF_8), value, headers);
-        }
-
-        @Override
-        public List<Arrival> arrivals() {
-            return arrivals;
+            return new TopicRecord(Topics.RAW, 0, 7, time, key.getBytes(UTF_8), value, headers);
         }
 
         @Override
@@ -138,8 +112,7 @@ class IngestRestartTest {
                     .assignTimestampsAndWatermarks(KafkaConnectors.alwaysIdle())
                     .uid("no-hindrance")
                     .setParallelism(1);
-            DataStream<TopicRecord> asInPartitions =
-                    records.keyBy(record -> new String(record.key(), StandardCharsets.UTF_8));
+            DataStream<TopicRecord> asInPartitions = records.keyBy(record -> new String(record.key(), UTF_8));
             CollectedOutput out = new CollectedOutput();
             IngestJob.define(
                     new IngestInputs(
@@ -169,7 +142,7 @@ class IngestRestartTest {
         @Override
         public String identity(TopicRecord record) {
             return Set.of(Topics.LATEST, Topics.CATALOG).contains(record.topic())
-                    ? record.topic() + " " + new String(record.key(), StandardCharsets.UTF_8)
+                    ? record.topic() + " " + new String(record.key(), UTF_8)
                     : Restarts.text(record);
         }
     }

@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Map;
@@ -16,6 +15,8 @@ import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
+
 /** The job {@code ingest} over records that a test has, at parallelism 2, to their end. */
 final class IngestRun {
     private IngestRun() {}
@@ -30,9 +31,9 @@ final class IngestRun {
                 .assignTimestampsAndWatermarks(WatermarkStrategy.<TopicRecord>forMonotonousTimestamps()
                         .withTimestampAssigner((record, ignored) -> record.timestamp()))
                 .uid("timestamps")
-                .keyBy(record -> new String(record.key(), StandardCharsets.UTF_8)); // as a topic's partitions do
-        DataStream<TopicRecord> deviceRecords = env.fromData(List.of(new TopicRecord(
-                        Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(StandardCharsets.UTF_8), null, Map.of())))
+                .keyBy(record -> new String(record.key(), UTF_8)); // as a topic's partitions do
+        DataStream<TopicRecord> deviceRecords = env.fromData(List.of(
+                        new TopicRecord(Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(UTF_8), null, Map.of())))
                 .setParallelism(1)
                 .uid("devices")
                 .assignTimestampsAndWatermarks(KafkaConnectors.alwaysIdle())

@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -8,8 +7,10 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
+import java.util.Set;
 import java.util.concurrent.TimeUnit;
 import java.util.function.Predicate;
+import java.util.stream.Collectors;
 
 import org.apache.flink.api.common.JobID;
 import org.apache.flink.api.common.JobStatus;
@@ -20,19 +21,19 @@ import org.apache.flink.streaming.api.graph.StreamGraph;
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.header.Header;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.awaitility.core.ConditionTimeoutException;
 
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.flink.job.JobCommandLine;
+import io.furrow.kafka.CommittedReader;
+import io.furrow.model.event.HeaderNames;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -51,10 +52,9 @@ final class KafkaSuite implements AutoCloseable {
     private KafkaSuite(EmbeddedKafka kafka, EmbeddedFlink flink) {
         this.kafka = kafka;
         this.flink = flink;
-        Map<String, Object> client = Map.of("bootstrap.servers", kafka.bootstrapServers());
         this.producer =
                 new KafkaProducer<>(kafka.producerSettings(), new ByteArraySerializer(), new ByteArraySerializer());
-        this.admin = Admin.create(client);
+        this.admin = Admin.create(kafka.client());
     }
 
     static KafkaSuite start(Path directory) {
@@ -134,25 +134,13 @@ final class KafkaSuite implements AutoCloseable {
         producer.flush();
         assertThat(unwritten).as("a record that was not written").isNull();
         List<ConsumerRecord<byte[], byte[]>> records = new ArrayList<>();
-        Map<String, Object> settings = Map.of(
-                "bootstrap.servers", kafka.bootstrapServers(),
-                "auto.offset.reset", "earliest",
-                "allow.auto.create.topics", "false",
-                "isolation.level", "read_committed");
-        try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
+        try (CommittedReader<byte[]> reader = CommittedReader.openBytes(kafka.client(), topic)) {
             await().atMost(TIMEOUT).until(() -> {
-                List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
-                        .map(info -> new TopicPartition(topic, info.partition()))
-                        .toList();
-                if (partitions.isEmpty()) {
-                    return false;
-                }
-                if (consumer.assignment().size() != partitions.size()) {
-                    consumer.assign(partitions);
-                }
-                for (ConsumerRecord<byte[], byte[]> record : consumer.poll(Duration.ofMillis(100))) {
-                    if (counts.test(record)) {
-                        records.add(record);
+                if (reader.assign(List.of(topic))) {
+                    for (ConsumerRecord<byte[], byte[]> record : reader.poll(Duration.ofMillis(100))) {
+                        if (counts.test(record)) {
+                            records.add(record);
+                        }
                     }
                 }
                 return records.size() >= atLeast;
@@ -170,16 +158,23 @@ final class KafkaSuite implements AutoCloseable {
                 .toList();
     }
 
+    /** The ids of the events. */
+    static Set<String> ids(List<ConsumerRecord<byte[], byte[]>> records) {
+        return records.stream()
+                .map(record -> headers(record).get(HeaderNames.CE_ID))
+                .collect(Collectors.toSet());
+    }
+
     static Map<String, String> headers(ConsumerRecord<byte[], byte[]> record) {
         Map<String, String> headers = new HashMap<>();
         for (Header header : record.headers()) {
-            headers.put(header.key(), new String(header.value(), StandardCharsets.UTF_8));
+            headers.put(header.key(), new String(header.value(), UTF_8));
         }
         return headers;
     }
 
     private static byte[] utf8(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 
     @Override

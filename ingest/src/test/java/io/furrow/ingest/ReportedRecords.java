@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
@@ -14,6 +13,8 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Records of {@code data.raw}, and the job over a few of them. */
 final class ReportedRecords {
@@ -46,13 +47,12 @@ final class ReportedRecords {
 
     static TopicRecord deletion(String eventId, String key, long time) {
         Map<String, String> headers = Map.of(HeaderNames.CE_ID, eventId, HeaderNames.CE_TYPE, HeaderNames.TYPE_DELETED);
-        return new TopicRecord(
-                "data.raw", 0, 9, time, key.getBytes(StandardCharsets.UTF_8), null, new HashMap<>(headers));
+        return new TopicRecord("data.raw", 0, 9, time, key.getBytes(UTF_8), null, new HashMap<>(headers));
     }
 
     static TopicRecord record(String eventId, EntityBuilder entity) {
         Entity built = entity.build();
-        return record(eventId, built.id(), new String(built.toBytes(), StandardCharsets.UTF_8));
+        return record(eventId, built.id(), new String(built.toBytes(), UTF_8));
     }
 
     static TopicRecord record(String eventId, String key, String value) {
@@ -61,8 +61,8 @@ final class ReportedRecords {
                 0,
                 7,
                 TIME,
-                key.getBytes(StandardCharsets.UTF_8),
-                value.getBytes(StandardCharsets.UTF_8),
+                key.getBytes(UTF_8),
+                value.getBytes(UTF_8),
                 new HashMap<>(Map.of(HeaderNames.CE_ID, eventId)));
     }
 }

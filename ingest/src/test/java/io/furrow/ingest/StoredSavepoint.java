@@ -2,18 +2,18 @@ package io.furrow.ingest;
 
 import java.io.IOException;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.Comparator;
 import java.util.Map;
-import java.util.stream.Stream;
 
 import org.apache.flink.api.common.JobID;
 
+import io.furrow.files.Folders;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Stores a savepoint of what the job is now, for every later build to restore; and says what comes before and after it. */
 final class StoredSavepoint {
@@ -34,7 +34,7 @@ final class StoredSavepoint {
         try (KafkaSuite suite = KafkaSuite.start(work.resolve("kafka"))) {
             store(write(suite, work), target);
         } finally {
-            delete(work);
+            Folders.delete(work);
         }
         System.out.println("stored " + target.toAbsolutePath());
         System.exit(0);
@@ -49,21 +49,11 @@ final class StoredSavepoint {
     }
 
     private static void store(Path written, Path target) throws IOException {
-        try (Stream<Path> files = Files.list(written)) {
-            if (files.count() != 1) {
-                throw new IllegalStateException("the savepoint should be small enough to be one file: " + written);
-            }
+        if (Folders.list(written).size() != 1) {
+            throw new IllegalStateException("the savepoint should be small enough to be one file: " + written);
         }
         Files.createDirectories(target);
         Files.copy(written.resolve("_metadata"), target.resolve("_metadata"));
-    }
-
-    private static void delete(Path folder) throws IOException {
-        try (Stream<Path> files = Files.walk(folder)) {
-            for (Path file : files.sorted(Comparator.reverseOrder()).toList()) {
-                Files.delete(file);
-            }
-        }
     }
 
     static void makeTopics(KafkaSuite suite) throws Exception {
@@ -73,7 +63,7 @@ final class StoredSavepoint {
 
     static void reportBefore(KafkaSuite suite) {
         DeviceVersion robot = new DeviceVersion("robot", "", "/", "farm", "weeding", 0, null, 1, null);
-        suite.write(Topics.DEVICES, 0, 0, robot.key(), new String(robot.toBytes(), StandardCharsets.UTF_8), Map.of());
+        suite.write(Topics.DEVICES, 0, 0, robot.key(), new String(robot.toBytes(), UTF_8), Map.of());
         report(suite, TIME, "first", "camera", attribute("Latitude", "40") + "," + named());
         report(suite, TIME, "first", "thermometer", named());
         report(suite, TIME, "first", "robot", attribute("n", "1"));

@@ -1,45 +1,37 @@
 package io.furrow.ingest;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.stream.Stream;
 
 import org.apache.flink.api.common.JobID;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
+import io.furrow.files.Folders;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Savepoints of released states of the job, as {@link StoredSavepoint} writes them, each restored by what the job is now. */
 @Timeout(120)
 class StoredSavepointIT {
-    @TempDir
-    Path directory;
-
+    @AutoClose
     private KafkaSuite suite;
 
     @BeforeEach
-    void start() throws Exception {
+    void start(@TempDir Path directory) throws Exception {
         suite = KafkaSuite.start(directory.resolve("kafka"));
         StoredSavepoint.makeTopics(suite);
-    }
-
-    @AfterEach
-    void stop() {
-        suite.close();
     }
 
     @ParameterizedTest
@@ -65,15 +57,13 @@ class StoredSavepointIT {
     }
 
     private static List<Path> releases() throws IOException {
-        try (Stream<Path> folders = Files.list(StoredSavepoint.FOLDER)) {
-            return folders.sorted().toList();
-        }
+        return Folders.list(StoredSavepoint.FOLDER);
     }
 
     private static List<String> told(List<ConsumerRecord<byte[], byte[]>> records) {
         List<String> told = new ArrayList<>();
-        records.forEach(record -> told.add(KafkaSuite.headers(record).get(HeaderNames.CE_ID) + " "
-                + new String(record.key(), StandardCharsets.UTF_8)));
+        records.forEach(record ->
+                told.add(KafkaSuite.headers(record).get(HeaderNames.CE_ID) + " " + new String(record.key(), UTF_8)));
         return told;
     }
 }

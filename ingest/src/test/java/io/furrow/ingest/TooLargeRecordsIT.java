@@ -8,7 +8,7 @@ import java.util.Random;
 
 import org.apache.flink.api.common.JobID;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Timeout;
@@ -33,16 +33,12 @@ class TooLargeRecordsIT {
     /** Not long ago: the broker's retention goes by the record timestamp. */
     private static final long TIME = System.currentTimeMillis() - 60_000;
 
+    @AutoClose
     private static KafkaSuite suite;
 
     @BeforeAll
     static void start() {
         suite = KafkaSuite.start(directory.resolve("kafka"));
-    }
-
-    @AfterAll
-    static void stop() {
-        suite.close();
     }
 
     @ParameterizedTest

@@ -13,7 +13,6 @@ import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.Comparator;
 import java.util.HashMap;
 import java.util.List;
@@ -37,8 +36,6 @@ import static org.awaitility.Awaitility.await;
 
 /** A real broker and a real worker that knows the connectors from the packaged plugin folder. */
 public final class ConnectRig implements AutoCloseable {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
-
     private final Path directory;
     private final HttpClient client =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
@@ -141,9 +138,7 @@ public final class ConnectRig implements AutoCloseable {
                 send(HttpRequest.newBuilder(worker.uri().resolve("/connectors/" + name + "/stop"))
                         .PUT(BodyPublishers.noBody()));
         assertThat(stopped.statusCode()).as(stopped.body()).isEqualTo(204);
-        await().atMost(TIMEOUT)
-                .until(() ->
-                        get("/connectors/" + name + "/status").path("tasks").isEmpty());
+        await().until(() -> get("/connectors/" + name + "/status").path("tasks").isEmpty());
     }
 
     /** The opposite of {@link #stop}; returns when the first task runs. */
@@ -181,9 +176,9 @@ public final class ConnectRig implements AutoCloseable {
     }
 
     private void awaitState(String name, String state) {
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             JsonNode status = get("/connectors/" + name + "/status");
-            assertThat(status.path("tasks").path(0).path("state").asText())
+            assertThat(status.at("/tasks/0/state").asText())
                     .as(status.toString())
                     .isEqualTo(state);
         });

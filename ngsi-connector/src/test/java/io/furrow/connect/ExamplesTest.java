@@ -7,7 +7,6 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.regex.Pattern;
-import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.connect.connector.Connector;
@@ -18,6 +17,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.connect.sink.NgsiSinkConnector;
 import io.furrow.connect.source.NgsiSourceConnector;
+import io.furrow.files.Folders;
 import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -29,9 +29,7 @@ class ExamplesTest {
             + "|exactly\\.once\\.support|offsets\\.storage\\.topic");
 
     static List<Path> examples() throws IOException {
-        try (Stream<Path> files = Files.list(Path.of("config"))) {
-            return files.sorted().toList();
-        }
+        return Folders.list(Path.of("config"));
     }
 
     @Test

@@ -13,7 +13,9 @@ import org.apache.logging.log4j.core.config.Configurator;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
-import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.Arguments;
+import org.junit.jupiter.params.provider.MethodSource;
 
 import io.furrow.connect.journal.FuzzJournal;
 import io.furrow.connect.repair.FuzzPages;
@@ -21,6 +23,7 @@ import io.furrow.connect.sink.api.FuzzAnswers;
 import io.furrow.connect.source.FuzzBodies;
 import io.furrow.connect.source.http.FuzzGzip;
 import io.furrow.connect.source.journal.FuzzRecords;
+import io.furrow.files.Folders;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -34,38 +37,22 @@ class FuzzRegressionTest {
     private static final List<String> LOGGERS =
             List.of("io.furrow.connect.journal", "io.furrow.connect.repair", "io.furrow.connect.sink");
 
-    private interface Target {
+    interface Target {
         void accept(byte[] input) throws Exception;
     }
 
-    @Test
-    void readsAnyBody() throws Exception {
-        run("bodies", FuzzBodies::fuzzerTestOneInput, 500);
+    static Stream<Arguments> targets() {
+        return Stream.of(
+                target("bodies", FuzzBodies::fuzzerTestOneInput, 500),
+                target("records", FuzzRecords::fuzzerTestOneInput, 500),
+                target("journal", FuzzJournal::fuzzerTestOneInput, 50),
+                target("pages", FuzzPages::fuzzerTestOneInput, 100),
+                target("answers", FuzzAnswers::fuzzerTestOneInput, 300),
+                target("gzip", FuzzGzip::fuzzerTestOneInput, 100));
     }
 
-    @Test
-    void readsAnyPayload() throws Exception {
-        run("records", FuzzRecords::fuzzerTestOneInput, 500);
-    }
-
-    @Test
-    void readsAnyJournal() throws Exception {
-        run("journal", FuzzJournal::fuzzerTestOneInput, 50);
-    }
-
-    @Test
-    void readsAnyPageOfARepair() throws Exception {
-        run("pages", FuzzPages::fuzzerTestOneInput, 100);
-    }
-
-    @Test
-    void readsAnyAnswerToTheSink() throws Exception {
-        run("answers", FuzzAnswers::fuzzerTestOneInput, 300);
-    }
-
-    @Test
-    void inflatesAnyBody() throws Exception {
-        run("gzip", FuzzGzip::fuzzerTestOneInput, 100);
+    private static Arguments target(String corpus, Target target, int changes) {
+        return Arguments.of(corpus, target, changes);
     }
 
     /** What is wrong with the inputs is no news. */
@@ -80,7 +67,9 @@ class FuzzRegressionTest {
         FuzzGzip.close();
     }
 
-    private static void run(String corpus, Target target, int changes) throws Exception {
+    @ParameterizedTest(name = "{0}")
+    @MethodSource("targets")
+    void readsAny(String corpus, Target target, int changes) throws Exception {
         long seed = System.nanoTime();
         Random random = new Random(seed);
         for (byte[] input : inputs(corpus)) {
@@ -102,14 +91,12 @@ class FuzzRegressionTest {
     }
 
     private static List<byte[]> inputs(String corpus) throws IOException {
-        try (Stream<Path> files = Files.list(FUZZ.resolve(corpus))) {
-            List<Path> sorted = files.sorted().toList();
-            assertThat(sorted).isNotEmpty();
-            List<byte[]> inputs = new java.util.ArrayList<>();
-            for (Path file : sorted) {
-                inputs.add(Files.readAllBytes(file));
-            }
-            return inputs;
+        List<Path> sorted = Folders.list(FUZZ.resolve(corpus));
+        assertThat(sorted).isNotEmpty();
+        List<byte[]> inputs = new java.util.ArrayList<>();
+        for (Path file : sorted) {
+            inputs.add(Files.readAllBytes(file));
         }
+        return inputs;
     }
 }

@@ -4,11 +4,11 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
-import java.util.regex.MatchResult;
 import java.util.regex.Pattern;
-import java.util.stream.Stream;
 
 import org.junit.jupiter.api.Test;
+
+import io.furrow.files.Folders;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -19,8 +19,7 @@ class MigratingPageTest {
 
     @Test
     void namesTestsThatExist() throws IOException {
-        List<MatchResult> named =
-                NAMED.matcher(Files.readString(PAGE)).results().toList();
+        var named = NAMED.matcher(Files.readString(PAGE)).results().toList();
 
         assertThat(named)
                 .hasSizeGreaterThan(20)
@@ -41,12 +40,10 @@ class MigratingPageTest {
 
     private static String source(String test) throws IOException {
         for (Path root : List.of(Path.of("src/test/java"), Path.of("../kit/model/src/test/java"))) {
-            try (Stream<Path> files = Files.walk(root)) {
-                List<Path> found =
-                        files.filter(file -> file.endsWith(test + ".java")).toList();
-                if (!found.isEmpty()) {
-                    return Files.readString(found.get(0));
-                }
+            List<Path> found =
+                    Folders.walk(root).stream().filter(file -> file.endsWith(test + ".java")).toList();
+            if (!found.isEmpty()) {
+                return Files.readString(found.get(0));
             }
         }
         return "";

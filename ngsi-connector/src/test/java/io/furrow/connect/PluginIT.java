@@ -8,7 +8,7 @@ import java.util.stream.StreamSupport;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -29,16 +29,12 @@ class PluginIT {
     @TempDir
     static Path directory;
 
+    @AutoClose
     private static ConnectRig rig;
 
     @BeforeAll
     static void startWorker() {
         rig = ConnectRig.start(directory);
-    }
-
-    @AfterAll
-    static void stopWorker() {
-        rig.close();
     }
 
     @Test
@@ -78,8 +74,8 @@ class PluginIT {
 
         Set<String> wrong = new TreeSet<>();
         for (JsonNode each : answer.path("configs")) {
-            if (!each.path("value").path("errors").isEmpty()) {
-                wrong.add(each.path("value").path("name").asText());
+            if (!each.at("/value/errors").isEmpty()) {
+                wrong.add(each.at("/value/name").asText());
             }
         }
         assertThat(wrong).as(answer.toString()).containsExactly(option);
@@ -108,7 +104,7 @@ class PluginIT {
 
     private static JsonNode value(JsonNode answer, String option) {
         for (JsonNode each : answer.path("configs")) {
-            if (each.path("value").path("name").asText().equals(option)) {
+            if (each.at("/value/name").asText().equals(option)) {
                 return each.path("value");
             }
         }

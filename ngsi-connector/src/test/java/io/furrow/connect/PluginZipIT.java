@@ -1,7 +1,6 @@
 package io.furrow.connect;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -13,6 +12,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.model.ngsi.NgsiJson;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** The zip is a component archive as Confluent's hub has them, and brings nothing that the worker has. */
@@ -41,7 +41,7 @@ class PluginZipIT {
     void saysInItsManifestWhatItIs() throws Exception {
         JsonNode manifest = NgsiJson.read(read("manifest.json"));
 
-        String owner = manifest.path("owner").path("username").textValue();
+        String owner = manifest.at("/owner/username").textValue();
         String version = manifest.path("version").textValue();
         assertThat(owner + "-" + manifest.path("name").textValue() + "-" + version)
                 .isEqualTo(folder);
@@ -59,7 +59,7 @@ class PluginZipIT {
 
     @Test
     void namesTheLicenceOfEveryJar() throws Exception {
-        String licenses = new String(read("doc/licenses.md"), StandardCharsets.UTF_8);
+        String licenses = new String(read("doc/licenses.md"), UTF_8);
 
         assertThat(jars())
                 .allSatisfy(

@@ -3,9 +3,7 @@ package io.furrow.connect;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.List;
-import java.util.concurrent.TimeUnit;
 import java.util.regex.MatchResult;
 import java.util.regex.Pattern;
 
@@ -16,6 +14,7 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.embedded.FreePort;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
+import io.furrow.process.TestProcess;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -55,9 +54,8 @@ class ReadmeIT {
                         .singleElement()
                         .satisfies(record -> assertThat(record.key()).isEqualTo("urn:ngsi-ld:Thermometer:1"));
             }
-            await().atMost(Duration.ofSeconds(60))
-                    .untilAsserted(() -> assertThat(run("curl http://127.0.0.1:" + port + "/health"))
-                            .contains("\"produced\":1"));
+            await().untilAsserted(() ->
+                    assertThat(run("curl http://127.0.0.1:" + port + "/health")).contains("\"produced\":1"));
         }
     }
 
@@ -72,13 +70,10 @@ class ReadmeIT {
     }
 
     private String run(String command) throws IOException, InterruptedException {
-        Process shell = new ProcessBuilder("sh", "-c", command.replaceFirst("curl", "curl -sS --fail-with-body"))
-                .directory(directory.toFile())
-                .redirectErrorStream(true)
-                .start();
-        String said = new String(shell.getInputStream().readAllBytes());
-        assertThat(shell.waitFor(120, TimeUnit.SECONDS)).isTrue();
-        assertThat(shell.exitValue()).as(command + "\n" + said).isZero();
-        return said;
+        ProcessBuilder shell =
+                new ProcessBuilder("sh", "-c", command.replaceFirst("curl", "curl -sS --fail-with-body"));
+        TestProcess.Ended ended = TestProcess.run(shell.directory(directory.toFile()));
+        assertThat(ended.status()).as(command + "\n" + ended.output()).isZero();
+        return ended.output();
     }
 }

@@ -39,7 +39,7 @@ public final class TopicReader implements AutoCloseable {
 
     /** All records so far, as soon as there are at least {@code count}. */
     public List<ConsumerRecord<String, byte[]>> atLeast(int count) {
-        await().atMost(Duration.ofSeconds(60)).until(() -> {
+        await().until(() -> {
             consumer.poll(Duration.ofMillis(200)).forEach(seen::add);
             return seen.size() >= count;
         });
@@ -48,7 +48,7 @@ public final class TopicReader implements AutoCloseable {
 
     /** All records up to the end that the topics have now; waits for a topic that is not there yet. */
     public List<ConsumerRecord<String, byte[]>> toTheEnd() {
-        await().atMost(Duration.ofSeconds(60)).until(() -> {
+        await().until(() -> {
             consumer.poll(Duration.ofMillis(200)).forEach(seen::add);
             Set<TopicPartition> partitions = consumer.assignment();
             return !partitions.isEmpty()

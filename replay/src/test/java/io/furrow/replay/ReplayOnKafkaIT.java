@@ -11,7 +11,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import org.apache.flink.api.common.JobID;
 import org.apache.flink.api.common.JobStatus;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -42,16 +42,12 @@ class ReplayOnKafkaIT {
     @TempDir
     Path directory;
 
+    @AutoClose
     private ReplaySuite suite;
 
     @BeforeEach
     void start() throws Exception {
         suite = ReplaySuite.start(directory);
-    }
-
-    @AfterEach
-    void stop() {
-        suite.close();
     }
 
     private void awaitStatus(String mission, State state, long sequence) {

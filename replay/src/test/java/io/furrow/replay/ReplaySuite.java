@@ -1,12 +1,10 @@
 package io.furrow.replay;
 
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
 import java.util.ArrayList;
-import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -23,11 +21,8 @@ import org.apache.flink.streaming.api.graph.StreamGraph;
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.bson.RawBsonDocument;
 
@@ -36,6 +31,7 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.embedded.FreePort;
 import io.furrow.flink.job.JobCommandLine;
+import io.furrow.kafka.CommittedReader;
 import io.furrow.mission.StoredEvent;
 import io.furrow.mission.mongo.EventDocumentCodec;
 import io.furrow.mission.mongo.MissionCollections;
@@ -46,6 +42,8 @@ import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.ReplayStatus.State;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Kafka, Flink and MongoDB's stand-in for the time of a test, and the job {@code replay} on them. */
 final class ReplaySuite implements AutoCloseable {
@@ -65,7 +63,7 @@ final class ReplaySuite implements AutoCloseable {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
         flink = EmbeddedFlink.start(SLOTS, 0);
         documents = directory.resolve("mongo");
-        producer = new KafkaProducer<>(client(), new ByteArraySerializer(), new ByteArraySerializer());
+        producer = new KafkaProducer<>(kafka.client(), new ByteArraySerializer(), new ByteArraySerializer());
         startMongo();
         NewTopic topic = new NewTopic(Topics.REPLAYS, Optional.of(1), Optional.empty())
                 .configs(Map.of("cleanup.policy", "compact"));
@@ -74,10 +72,6 @@ final class ReplaySuite implements AutoCloseable {
 
     static ReplaySuite start(Path directory) throws Exception {
         return new ReplaySuite(directory);
-    }
-
-    private Map<String, Object> client() {
-        return Map.of("bootstrap.servers", kafka.bootstrapServers());
     }
 
     void startMongo() {
@@ -96,8 +90,7 @@ final class ReplaySuite implements AutoCloseable {
     /** Events of four devices, one after the other, so many ms apart. */
     void store(String mission, int count, long apart) throws Exception {
         try (MongoClient client = new MongoAccess(mongo.uri(), MongoAccess.Waits.of(TIMEOUT)).open()) {
-            MissionCollections missions =
-                    new MissionCollections(client, Retention.of(null, Map.of()), Clock.systemUTC());
+            var missions = new MissionCollections(client, Retention.of(null, Map.of()), Clock.systemUTC());
             List<RawBsonDocument> events = new ArrayList<>();
             for (int i = 0; i < count; i++) {
                 String id = "urn:d" + i % 4;
@@ -117,8 +110,7 @@ final class ReplaySuite implements AutoCloseable {
     }
 
     void want(DesiredReplay desired) throws Exception {
-        producer.send(new ProducerRecord<>(
-                        Topics.REPLAYS, desired.replay().getBytes(StandardCharsets.UTF_8), desired.toBytes()))
+        producer.send(new ProducerRecord<>(Topics.REPLAYS, desired.replay().getBytes(UTF_8), desired.toBytes()))
                 .get();
     }
 
@@ -139,7 +131,7 @@ final class ReplaySuite implements AutoCloseable {
     }
 
     void delete(String topic) throws Exception {
-        try (Admin admin = Admin.create(client())) {
+        try (Admin admin = Admin.create(kafka.client())) {
             admin.deleteTopics(List.of(topic)).all().get();
         }
     }
@@ -156,19 +148,9 @@ final class ReplaySuite implements AutoCloseable {
 
     /** The committed records of a topic that is there, in the order of each partition. */
     List<ConsumerRecord<byte[], byte[]>> records(String topic) {
-        Map<String, Object> settings = new HashMap<>(client());
-        settings.putAll(Map.of("allow.auto.create.topics", "false", "isolation.level", "read_committed"));
         List<ConsumerRecord<byte[], byte[]>> records = new ArrayList<>();
-        try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
-            List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
-                    .map(info -> new TopicPartition(topic, info.partition()))
-                    .toList();
-            consumer.assign(partitions);
-            consumer.seekToBeginning(partitions);
-            Map<TopicPartition, Long> ends = consumer.endOffsets(partitions);
-            while (ends.entrySet().stream().anyMatch(end -> consumer.position(end.getKey()) < end.getValue())) {
-                consumer.poll(Duration.ofMillis(100)).forEach(records::add);
-            }
+        try (CommittedReader<byte[]> reader = CommittedReader.openBytes(kafka.client(), topic)) {
+            reader.readToEnd(records::add);
         }
         return records;
     }
@@ -189,7 +171,7 @@ final class ReplaySuite implements AutoCloseable {
     }
 
     static String text(byte[] bytes) {
-        return new String(bytes, StandardCharsets.UTF_8);
+        return new String(bytes, UTF_8);
     }
 
     @Override

@@ -1,7 +1,5 @@
 package io.furrow.replay;
 
-import java.nio.charset.StandardCharsets;
-
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -13,6 +11,7 @@ import io.furrow.flink.JobUids;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.replay.source.DesiredReplays;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -44,19 +43,14 @@ class ReplayUidsTest {
                                 .split(" "))
                 .desired();
 
-        assertThat(new String(((DesiredReplays.One) once).desired(), StandardCharsets.UTF_8))
-                .contains("\"from\":1000", "\"to\":2000");
+        assertThat(new String(((DesiredReplays.One) once).desired(), UTF_8)).contains("\"from\":1000", "\"to\":2000");
     }
 
     @ParameterizedTest
     @ValueSource(
             strings = {
-                "--input",
-                "--out-of-orderness",
-                "--idle-timeout",
-                "--idle-advance",
-                "--clock-skew",
-                "--max-ahead",
+                "--input", "--out-of-orderness", "--idle-timeout",
+                "--idle-advance", "--clock-skew", "--max-ahead",
                 "--max-behind"
             })
     void hasNoOptionThatDoesNothing(String option) {

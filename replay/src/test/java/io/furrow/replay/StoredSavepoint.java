@@ -3,10 +3,10 @@ package io.furrow.replay;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.stream.Stream;
 
 import org.apache.flink.api.common.JobID;
 
+import io.furrow.files.Folders;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.ReplayStatus.State;
@@ -45,10 +45,8 @@ final class StoredSavepoint {
     }
 
     private static void requireOneFile(Path savepoint) throws IOException {
-        try (Stream<Path> files = Files.list(savepoint)) {
-            if (files.count() != 1) {
-                throw new IllegalStateException("the savepoint should be small enough to be one file: " + savepoint);
-            }
+        if (Folders.list(savepoint).size() != 1) {
+            throw new IllegalStateException("the savepoint should be small enough to be one file: " + savepoint);
         }
     }
 

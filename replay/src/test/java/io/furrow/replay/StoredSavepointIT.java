@@ -1,13 +1,11 @@
 package io.furrow.replay;
 
 import java.io.IOException;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.stream.IntStream;
-import java.util.stream.Stream;
 
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -16,6 +14,7 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
+import io.furrow.files.Folders;
 import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.ReplayStatus.State;
@@ -31,16 +30,12 @@ class StoredSavepointIT {
     @TempDir
     Path directory;
 
+    @AutoClose
     private ReplaySuite suite;
 
     @BeforeEach
     void start() throws Exception {
         suite = ReplaySuite.start(directory.resolve("suite"));
-    }
-
-    @AfterEach
-    void stop() {
-        suite.close();
     }
 
     /** {@code -Dstore.savepoint=0.2.0} writes that of a release. */
@@ -80,8 +75,6 @@ class StoredSavepointIT {
     }
 
     private static List<Path> releases() throws IOException {
-        try (Stream<Path> folders = Files.list(StoredSavepoint.FOLDER)) {
-            return folders.sorted().toList();
-        }
+        return Folders.list(StoredSavepoint.FOLDER);
     }
 }

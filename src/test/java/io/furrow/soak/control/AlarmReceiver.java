@@ -1,41 +1,29 @@
 package io.furrow.soak.control;
 
 import java.io.IOException;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.URI;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
-import java.util.concurrent.ExecutorService;
-import java.util.concurrent.Executors;
 import java.util.concurrent.atomic.AtomicLong;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.sun.net.httpserver.HttpExchange;
-import com.sun.net.httpserver.HttpServer;
 
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.stub.StubServer;
 
 /** A webhook that remembers which alarms it took in which states, and answers 503 where it is told to. */
 final class AlarmReceiver implements AutoCloseable {
-    private final ExecutorService threads = Executors.newCachedThreadPool();
     private final Map<String, Set<Long>> taken = new ConcurrentHashMap<>();
     private final Map<String, JsonNode> newest = new ConcurrentHashMap<>();
     private final AtomicLong count = new AtomicLong();
-    private final HttpServer server;
+    private final StubServer server = new StubServer(this::take);
     private volatile boolean refuses;
 
-    AlarmReceiver() throws IOException {
-        server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        server.createContext("/", this::take);
-        server.setExecutor(threads);
-        server.start();
-    }
-
     URI uri() {
-        return URI.create("http://127.0.0.1:" + server.getAddress().getPort());
+        return server.uri("");
     }
 
     void refuse(boolean whether) {
@@ -85,7 +73,6 @@ final class AlarmReceiver implements AutoCloseable {
 
     @Override
     public void close() {
-        server.stop(0);
-        threads.shutdownNow();
+        server.close();
     }
 }

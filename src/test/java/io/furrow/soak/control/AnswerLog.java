@@ -12,6 +12,7 @@ import org.apache.kafka.clients.consumer.KafkaConsumer;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
+import io.furrow.soak.CommittedState;
 
 /** Follows the committed answers of all managers from the beginning, also over outages of Kafka. */
 final class AnswerLog implements AutoCloseable {

@@ -19,6 +19,7 @@ import io.furrow.model.device.FarmSecret;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
+import io.furrow.soak.CommittedState;
 
 /** What differs between what was asked for and what there is. */
 final class ChaosChecks {
@@ -35,7 +36,7 @@ final class ChaosChecks {
     /** Parts of the control planes that are not up. */
     List<String> parts() {
         List<String> faults = new ArrayList<>();
-        for (ControlProcess control : farm.controls()) {
+        for (ControlProcess control : farm.controls) {
             JsonNode page = control.readiness();
             if (!page.path("status").asText().equals("ready")) {
                 faults.add("%s is %s: %s".formatted(control.name(), page.path("status"), page.path("parts")));
@@ -52,7 +53,7 @@ final class ChaosChecks {
     /** Missions as both APIs show them. */
     List<String> missions() {
         List<String> faults = new ArrayList<>();
-        for (ControlProcess control : farm.controls()) {
+        for (ControlProcess control : farm.controls) {
             Map<String, JsonNode> shown = new TreeMap<>();
             Http.get(control.api().resolve("/api/missions"))
                     .body()
@@ -100,15 +101,14 @@ final class ChaosChecks {
                 expected.keySet(),
                 agent("/iot/devices?limit=1000", "devices", "device_id"),
                 faults);
-        FarmSecret secret = farm.secret();
-        Set<String> keys =
-                expected.values().stream().map(secret::apiKey).collect(Collectors.toCollection(TreeSet::new));
+        FarmSecret secret = farm.secret;
+        var keys = expected.values().stream().map(secret::apiKey).collect(Collectors.toCollection(TreeSet::new));
         compare("the IoT Agent's groups", keys, agent("/iot/services", "services", "apikey"), faults);
         Set<String> users = new TreeSet<>();
         desired.forEach((id, device) ->
                 users.add(secret.device(device.version().mission(), device.device(), device.generation())
                         .user()));
-        compare("the MQTT users", users, farm.mosquitto().users(), faults);
+        compare("the MQTT users", users, farm.mosquitto.users(), faults);
         for (MissionActor each : missions) {
             each.generations().forEach((id, generation) -> {
                 DesiredDevice device = desired.get(id);
@@ -123,7 +123,7 @@ final class ChaosChecks {
 
     private Map<String, DesiredDevice> desired(List<String> faults) {
         Map<String, DesiredDevice> running = new HashMap<>();
-        CommittedState.table(farm.kafka().bootstrapServers(), Topics.DEVICES).forEach((key, value) -> {
+        CommittedState.table(farm.kafka.bootstrapServers(), Topics.DEVICES).forEach((key, value) -> {
             try {
                 DesiredDevice device = DesiredDevice.read(value);
                 if (device.running()) {
@@ -173,9 +173,9 @@ final class ChaosChecks {
         List<String> faults = new ArrayList<>();
         Map<String, List<JsonNode>> bySubject = new HashMap<>();
         Map<String, JsonNode> listed = new HashMap<>();
-        URI all = farm.controls().get(0).api().resolve("/api/alarms?limit=10000");
+        URI all = farm.controls.get(0).api().resolve("/api/alarms?limit=10000");
         Http.get(all).body().forEach(alarm -> listed.put(alarm.path("alarm").asText(), alarm));
-        for (byte[] value : CommittedState.table(farm.kafka().bootstrapServers(), Topics.ALARMS)
+        for (byte[] value : CommittedState.table(farm.kafka.bootstrapServers(), Topics.ALARMS)
                 .values()) {
             JsonNode alarm = NgsiJson.read(value);
             bySubject
@@ -207,7 +207,7 @@ final class ChaosChecks {
         String id = alarm.path("alarm").asText();
         boolean suppressed = alarm.hasNonNull("mutedUntil") || alarm.hasNonNull("inhibitedBy");
         boolean closed = alarm.path("state").asText().equals("closed");
-        boolean needed = closed ? farm.receiver().has(id) || !suppressed : !suppressed;
-        return needed && !farm.receiver().has(id, alarm.path("sequence").asLong());
+        boolean needed = closed ? farm.receiver.has(id) || !suppressed : !suppressed;
+        return needed && !farm.receiver.has(id, alarm.path("sequence").asLong());
     }
 }

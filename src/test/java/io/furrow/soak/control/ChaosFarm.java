@@ -25,15 +25,17 @@ final class ChaosFarm implements AutoCloseable {
     private static final Duration START_TIMEOUT = Duration.ofSeconds(120);
 
     private final Deque<AutoCloseable> parts = new ArrayDeque<>();
-    private final KafkaProcess kafka;
-    private final MosquittoProcess mosquitto;
+    final KafkaProcess kafka;
+    final MosquittoProcess mosquitto;
     private final FiwareStandIn fiware;
-    private final FaultProxy contextBroker;
-    private final FaultProxy iotAgent;
-    private final AlarmReceiver receiver;
-    private final FaultProxy webhook;
-    private final FarmSecret secret;
-    private final List<ControlProcess> controls = new ArrayList<>();
+    final FaultProxy contextBroker;
+    final FaultProxy iotAgent;
+    /** Behind {@link #webhook}. */
+    final AlarmReceiver receiver;
+
+    final FaultProxy webhook;
+    final FarmSecret secret;
+    final List<ControlProcess> controls = new ArrayList<>();
 
     /** Starts all; returns when both control planes are ready. */
     static ChaosFarm start(Path folder) throws Exception {
@@ -93,42 +95,9 @@ final class ChaosFarm implements AutoCloseable {
         part(DeviceHost.start(HostSettings.of(client, mqtt, fiware.contextBroker(), () -> secret)));
     }
 
-    KafkaProcess kafka() {
-        return kafka;
-    }
-
-    MosquittoProcess mosquitto() {
-        return mosquitto;
-    }
-
-    FaultProxy contextBroker() {
-        return contextBroker;
-    }
-
-    FaultProxy iotAgent() {
-        return iotAgent;
-    }
-
-    FaultProxy webhook() {
-        return webhook;
-    }
-
-    /** Behind {@link #webhook()}. */
-    AlarmReceiver receiver() {
-        return receiver;
-    }
-
-    /** Behind {@link #iotAgent()}, without the proxy. */
+    /** Behind {@link #iotAgent}, without the proxy. */
     URI agentItself() {
         return fiware.iotAgent();
-    }
-
-    FarmSecret secret() {
-        return secret;
-    }
-
-    List<ControlProcess> controls() {
-        return controls;
     }
 
     @Override

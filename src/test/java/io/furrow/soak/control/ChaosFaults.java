@@ -18,14 +18,14 @@ final class ChaosFaults {
         this.supervisors = supervisors;
         int times = brief ? 1 : 0;
         for (int i = 0; i < supervisors.size(); i++) {
-            String name = farm.controls().get(i).name();
+            String name = farm.controls.get(i).name();
             add(name, pace(brief, i == 0 ? 6 : 20, 3, 90, 15, times), control(supervisors.get(i)), random);
         }
         add("kafka", pace(brief, 13, 3, 300, 25, times), kafka(), random);
-        add("iot-agent", pace(brief, 5, 8, 120, 40, times), proxy(farm.iotAgent()), random);
-        add("context-broker", pace(brief, 5, 8, 120, 40, times), proxy(farm.contextBroker()), random);
+        add("iot-agent", pace(brief, 5, 8, 120, 40, times), proxy(farm.iotAgent), random);
+        add("context-broker", pace(brief, 5, 8, 120, 40, times), proxy(farm.contextBroker), random);
         add("mosquitto", pace(brief, 9, 4, 150, 20, times), mosquitto(), random);
-        add("webhook", pace(brief, 8, 6, 90, 30, times), proxy(farm.webhook()), random);
+        add("webhook", pace(brief, 8, 6, 90, 30, times), proxy(farm.webhook), random);
         add("webhook-refuses", pace(brief, 18, 4, 120, 20, times), refusals(), random);
     }
 
@@ -91,12 +91,12 @@ final class ChaosFaults {
             @Override
             public void begin(Random random) throws Exception {
                 supervisors.forEach(Supervisor::kafkaIsAway);
-                farm.kafka().kill();
+                farm.kafka.kill();
             }
 
             @Override
             public void end() throws Exception {
-                farm.kafka().start();
+                farm.kafka.start();
                 supervisors.forEach(Supervisor::kafkaIsAway);
             }
         };
@@ -106,12 +106,12 @@ final class ChaosFaults {
         return new RecurringFault.Action() {
             @Override
             public void begin(Random random) throws Exception {
-                farm.mosquitto().kill();
+                farm.mosquitto.kill();
             }
 
             @Override
             public void end() throws Exception {
-                farm.mosquitto().start();
+                farm.mosquitto.start();
             }
         };
     }
@@ -120,12 +120,12 @@ final class ChaosFaults {
         return new RecurringFault.Action() {
             @Override
             public void begin(Random random) {
-                farm.receiver().refuse(true);
+                farm.receiver.refuse(true);
             }
 
             @Override
             public void end() {
-                farm.receiver().refuse(false);
+                farm.receiver.refuse(false);
             }
         };
     }

@@ -50,18 +50,16 @@ public final class ControlChaos {
         this.settings = settings;
         this.farm = farm;
         this.random = new Random(settings.seed());
-        String bootstrapServers = farm.kafka().bootstrapServers();
+        String bootstrapServers = farm.kafka.bootstrapServers();
         sender = new RequestSender(bootstrapServers);
         answers = new AnswerLog(bootstrapServers);
         requester = new Requester(
-                sender,
-                answers,
-                farm.controls().stream().map(ControlProcess::api).toList());
+                sender, answers, farm.controls.stream().map(ControlProcess::api).toList());
         for (int i = 0; i < MISSIONS; i++) {
             Random own = new Random(random.nextLong());
             missions.add(new MissionActor("m" + i, "d" + i % 2, requester, own, faults));
         }
-        encounters = new EncounterActor(sender, requester, farm.receiver(), new Random(random.nextLong()));
+        encounters = new EncounterActor(sender, requester, farm.receiver, new Random(random.nextLong()));
         reports = new DeviceReports(sender, missions);
         silences = new Random(random.nextLong());
         checks = new ChaosChecks(farm, missions);
@@ -93,7 +91,7 @@ public final class ControlChaos {
     }
 
     private List<String> run() throws Exception {
-        List<Supervisor> supervisors = farm.controls().stream()
+        List<Supervisor> supervisors = farm.controls.stream()
                 .map(control -> new Supervisor(control, faults))
                 .toList();
         ChaosFaults outages = new ChaosFaults(farm, supervisors, settings.brief(), random);
@@ -106,7 +104,7 @@ public final class ControlChaos {
                             JsonNodeFactory.instance.objectNode().put("domain", domain)),
                     random);
         }
-        RecoveryTime recovery = new RecoveryTime(outages::stopsServing, farm.controls());
+        RecoveryTime recovery = new RecoveryTime(outages::stopsServing, farm.controls);
         startActors();
         repeat("recovery", STEP, () -> reporting, () -> {
             recovery.step();
@@ -126,7 +124,7 @@ public final class ControlChaos {
                                 requester.sent().size(),
                                 requester.repeated(),
                                 encounters.pairs().size(),
-                                farm.receiver().count(),
+                                farm.receiver.count(),
                                 missions.stream().mapToInt(MissionActor::failed).sum(),
                                 supervisors.stream()
                                         .mapToInt(Supervisor::restarts)
@@ -194,7 +192,7 @@ public final class ControlChaos {
                             requester.answered(),
                             requester.repeated(),
                             encounters.pairs().size(),
-                            farm.receiver().count(),
+                            farm.receiver.count(),
                             faults.size()));
         }
     }
@@ -242,7 +240,7 @@ public final class ControlChaos {
         for (MissionActor mission : missions) {
             String path = "/api/missions/" + mission.mission();
             boolean failed = mission.isRunning()
-                    && Http.get(farm.controls().get(0).api().resolve(path))
+                    && Http.get(farm.controls.get(0).api().resolve(path))
                             .body()
                             .at("/status/state")
                             .asText()

@@ -15,11 +15,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 @Timeout(900)
 @Tag("soak")
 class ControlChaosIT {
-    @TempDir
-    Path folder;
-
     @Test
-    void agreesWithAllRequestsAfterEverythingFailedOnce(TestReporter reporter) throws Exception {
+    void agreesWithAllRequestsAfterEverythingFailedOnce(TestReporter reporter, @TempDir Path folder) throws Exception {
         long seed = Long.getLong("furrow.seed", System.nanoTime());
         reporter.publishEntry("seed", Long.toString(seed));
 

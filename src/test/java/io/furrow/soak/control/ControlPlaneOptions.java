@@ -23,25 +23,18 @@ final class ControlPlaneOptions {
 
     static List<String> provisioning(Path folder, URI contextBroker, URI iotAgent) throws IOException {
         return new ArrayList<>(List.of(
-                "--orion",
-                contextBroker.toString(),
-                "--iot-agent",
-                iotAgent.toString(),
-                "--iot-agent-interval",
-                "5s",
-                "--farm-secret",
-                secret(folder).toString()));
+                "--orion", contextBroker.toString(),
+                "--iot-agent", iotAgent.toString(),
+                "--iot-agent-interval", "5s",
+                "--farm-secret", secret(folder).toString()));
     }
 
     /** MQTT accounts in a Mosquitto's files. */
     static List<String> accounts(MosquittoProcess mosquitto) {
         return List.of(
-                "--mqtt-password-file",
-                mosquitto.passwords().toString(),
-                "--mqtt-acl-file",
-                mosquitto.rules().toString(),
-                "--mqtt-reload",
-                mosquitto.reload());
+                "--mqtt-password-file", mosquitto.passwords().toString(),
+                "--mqtt-acl-file", mosquitto.rules().toString(),
+                "--mqtt-reload", mosquitto.reload());
     }
 
     static List<String> webhook(URI url) {

@@ -1,6 +1,5 @@
 package io.furrow.soak.control;
 
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
@@ -10,6 +9,8 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Reports of the devices of all missions that run, on {@code data.raw}, but of missions that are silent. */
 final class DeviceReports {
@@ -40,11 +41,10 @@ final class DeviceReports {
     }
 
     private void report(String id) {
-        Entity entity =
-                Entity.builder(id, "Thermometer").number("Temperature", 20).build();
+        var entity = Entity.builder(id, "Thermometer").number("Temperature", 20).build();
         ProducerRecord<String, byte[]> record = new ProducerRecord<>(Topics.RAW, id, entity.toBytes());
-        record.headers().add(HeaderNames.SERVICE, "farm".getBytes(StandardCharsets.UTF_8));
-        record.headers().add(HeaderNames.SERVICE_PATH, "/".getBytes(StandardCharsets.UTF_8));
+        record.headers().add(HeaderNames.SERVICE, "farm".getBytes(UTF_8));
+        record.headers().add(HeaderNames.SERVICE_PATH, "/".getBytes(UTF_8));
         sender.write(record);
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.soak.control;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -28,7 +27,9 @@ import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.Limits;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
+import io.furrow.soak.CommittedState;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -40,9 +41,6 @@ class ExtremeRequestsIT {
     private static final int UNDER_WAY = 50;
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
 
-    @TempDir
-    Path directory;
-
     private final Map<String, Http.Answer> overRest = new ConcurrentHashMap<>();
     private final List<AutoCloseable> parts = new ArrayList<>();
     private EmbeddedKafka kafka;
@@ -52,7 +50,7 @@ class ExtremeRequestsIT {
     private int ordinary;
 
     @BeforeEach
-    void start() throws Exception {
+    void start(@TempDir Path directory) throws Exception {
         kafka = part(EmbeddedKafka.start(directory.resolve("kafka")));
         FiwareStandIn fiware = part(FiwareStandIn.start(FiwareSettings.httpOnly()));
         control = part(new ControlProcess(
@@ -211,7 +209,7 @@ class ExtremeRequestsIT {
 
     /** @return the status in HTTP */
     private int ordinary(String topic, String command, String members) throws Exception {
-        ObjectNode json = (ObjectNode) NgsiJson.read(members.replace('\'', '"').getBytes(StandardCharsets.UTF_8));
+        ObjectNode json = (ObjectNode) NgsiJson.read(members.replace('\'', '"').getBytes(UTF_8));
         String id = "ordinary-" + ordinary++;
         return call(new ControlRequest(id, topic, command, json), 5).join().status();
     }

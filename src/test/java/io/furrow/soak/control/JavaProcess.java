@@ -1,11 +1,12 @@
 package io.furrow.soak.control;
 
-import java.io.File;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.HashMap;
 import java.util.List;
+import java.util.Map;
 import java.util.concurrent.TimeUnit;
 
 /** A JVM with this one's class path that can be killed and started again; its output is appended to one file. */
@@ -14,6 +15,7 @@ public final class JavaProcess implements AutoCloseable {
 
     private final List<String> command = new ArrayList<>();
     private final Path output;
+    private final Map<String, String> environment = new HashMap<>();
     private Process process;
 
     /** @param words options of the JVM, class and arguments */
@@ -25,12 +27,19 @@ public final class JavaProcess implements AutoCloseable {
         command.addAll(arguments);
     }
 
+    /** Further variables of its environment. */
+    public JavaProcess with(Map<String, String> variables) {
+        environment.putAll(variables);
+        return this;
+    }
+
     public void start() throws IOException {
         Files.createDirectories(output.toAbsolutePath().getParent());
-        process = new ProcessBuilder(command)
+        ProcessBuilder builder = new ProcessBuilder(command)
                 .redirectErrorStream(true)
-                .redirectOutput(ProcessBuilder.Redirect.appendTo(new File(output.toString())))
-                .start();
+                .redirectOutput(ProcessBuilder.Redirect.appendTo(output.toFile()));
+        builder.environment().putAll(environment);
+        process = builder.start();
     }
 
     public boolean isAlive() {
@@ -48,6 +57,9 @@ public final class JavaProcess implements AutoCloseable {
 
     /** Asks it to stop, and kills it where it does not. @return whether it stopped by itself in time */
     public boolean stop() throws InterruptedException {
+        if (process == null) {
+            return true;
+        }
         process.destroy();
         boolean stopped = process.waitFor(STOP_SECONDS, TimeUnit.SECONDS);
         process.destroyForcibly().waitFor();

@@ -1,8 +1,6 @@
 package io.furrow.soak.control;
 
 import java.io.IOException;
-import java.net.InetAddress;
-import java.net.Socket;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
@@ -38,15 +36,7 @@ public final class KafkaProcess implements AutoCloseable {
     /** Returns when it listens. */
     public void start() throws IOException {
         process.start();
-        Until.isTrue("Kafka listens", START_TIMEOUT, this::isListening);
-    }
-
-    private boolean isListening() {
-        try (Socket socket = new Socket(InetAddress.getLoopbackAddress(), port)) {
-            return socket.isConnected();
-        } catch (IOException e) {
-            return false;
-        }
+        Until.isTrue("Kafka listens", START_TIMEOUT, () -> Until.isListening(port));
     }
 
     void kill() throws InterruptedException {

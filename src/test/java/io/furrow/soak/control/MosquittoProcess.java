@@ -1,8 +1,6 @@
 package io.furrow.soak.control;
 
 import java.io.IOException;
-import java.net.InetAddress;
-import java.net.Socket;
 import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -88,15 +86,7 @@ public final class MosquittoProcess implements AutoCloseable {
                         folder.resolve("mosquitto.log").toFile()))
                 .start();
         Files.writeString(pidFile(), Long.toString(process.pid()));
-        Until.isTrue("Mosquitto listens", START_TIMEOUT, this::isListening);
-    }
-
-    private boolean isListening() {
-        try (Socket socket = new Socket(InetAddress.getLoopbackAddress(), port)) {
-            return socket.isConnected();
-        } catch (IOException e) {
-            return false;
-        }
+        Until.isTrue("Mosquitto listens", START_TIMEOUT, () -> Until.isListening(port));
     }
 
     public void kill() throws IOException, InterruptedException {

@@ -10,6 +10,7 @@ import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
+import io.furrow.soak.CommittedState;
 
 /** Reports each device at once as it is wanted, and runs none. */
 final class ObedientHost implements AutoCloseable {

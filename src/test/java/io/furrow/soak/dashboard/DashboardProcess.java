@@ -13,10 +13,9 @@ import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 import io.furrow.embedded.FreePort;
+import io.furrow.process.TestProcess;
 import io.furrow.soak.control.JavaProcess;
 import io.furrow.soak.control.Until;
-
-import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** {@code furrow dashboard} in a process of its own; its heap and threads are those of nothing else. */
 final class DashboardProcess implements AutoCloseable {
@@ -123,17 +122,12 @@ final class DashboardProcess implements AutoCloseable {
     }
 
     private String jcmd(String command) throws IOException, InterruptedException {
-        Process jcmd = new ProcessBuilder(
-                        Path.of(System.getProperty("java.home"), "bin", "jcmd").toString(),
-                        Long.toString(process.pid()),
-                        command)
-                .redirectErrorStream(true)
-                .start();
-        String output = new String(jcmd.getInputStream().readAllBytes(), UTF_8);
-        if (jcmd.waitFor() != 0) {
-            throw new IOException("jcmd %s: %s".formatted(command, output));
+        TestProcess.Ended jcmd = TestProcess.run(
+                new ProcessBuilder(TestProcess.program("jcmd"), Long.toString(process.pid()), command));
+        if (jcmd.status() != 0) {
+            throw new IOException("jcmd %s: %s".formatted(command, jcmd.output()));
         }
-        return output;
+        return jcmd.output();
     }
 
     boolean isAlive() {

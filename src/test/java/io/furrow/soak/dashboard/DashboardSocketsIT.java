@@ -14,11 +14,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 @Timeout(600)
 @Tag("soak")
 class DashboardSocketsIT {
-    @TempDir
-    Path folder;
-
     @Test
-    void servesEveryoneInTimeAndGivesEverythingBack() throws Exception {
+    void servesEveryoneInTimeAndGivesEverythingBack(@TempDir Path folder) throws Exception {
         assertThat(DashboardSockets.run(new DashboardSockets.Settings(
                         folder, Duration.ofSeconds(10), 40, 6, 200, 150, Duration.ofSeconds(1))))
                 .isEmpty();

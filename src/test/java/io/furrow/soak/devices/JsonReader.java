@@ -1,11 +1,11 @@
 package io.furrow.soak.devices;
 
-import java.nio.charset.StandardCharsets;
-
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Reads what can only be JSON. */
 final class JsonReader {
@@ -13,7 +13,7 @@ final class JsonReader {
 
     static JsonNode read(String text) {
         try {
-            return NgsiJson.read(text.getBytes(StandardCharsets.UTF_8));
+            return NgsiJson.read(text.getBytes(UTF_8));
         } catch (UnreadableException e) {
             throw new IllegalStateException("no JSON: " + text, e);
         }

@@ -2,7 +2,6 @@ package io.furrow.soak.devices;
 
 import java.io.IOException;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashSet;
@@ -16,6 +15,8 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.soak.control.Http;
 import io.furrow.soak.control.Until;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Whether the programs are connected with the logins that they have, obey commands, and lose a login when it is rotated. */
 final class LoginChecks {
@@ -85,8 +86,8 @@ final class LoginChecks {
         long since = System.currentTimeMillis();
         List<String> differences = new ArrayList<>();
         for (ProgramPlan.Device each : devices) {
-            URI uri = farm.up().api("/api/devices/" + each.id() + "/commands");
-            Http.Answer answer = Http.send("POST", uri, "{\"command\":\"on\"}".getBytes(StandardCharsets.UTF_8))
+            URI uri = farm.up.api("/api/devices/" + each.id() + "/commands");
+            Http.Answer answer = Http.send("POST", uri, "{\"command\":\"on\"}".getBytes(UTF_8))
                     .join();
             if (answer.status() != 202) {
                 differences.add("command to %s: %d %s".formatted(each.id(), answer.status(), answer.body()));
@@ -105,7 +106,7 @@ final class LoginChecks {
     void obey(List<ProgramPlan.Device> devices) throws IOException, InterruptedException {
         long since = System.currentTimeMillis();
         for (ProgramPlan.Device each : devices) {
-            farm.up().run("device", "command", each.id(), "off");
+            farm.up.run("device", "command", each.id(), "off");
         }
         verdicts.add(
                 "./furrow device command",
@@ -167,9 +168,9 @@ final class LoginChecks {
         String old = connected().get(device.id());
         long requested = System.currentTimeMillis();
         if (byCommand) {
-            farm.up().run("device", "rotate", device.id());
+            farm.up.run("device", "rotate", device.id());
         } else {
-            Http.send("POST", farm.up().api("/api/devices/" + device.id() + "/credentials"), null)
+            Http.send("POST", farm.up.api("/api/devices/" + device.id() + "/credentials"), null)
                     .join();
         }
         long from = byCommand ? System.currentTimeMillis() : requested;
@@ -183,7 +184,7 @@ final class LoginChecks {
         }
         programs.bring(
                 device.mission(),
-                farm.up().run("device", "credentials", "--mission", device.mission(), "--output", "csv"));
+                farm.up.run("device", "credentials", "--mission", device.mission(), "--output", "csv"));
         Until.within(TIMEOUT, () -> connected().containsKey(device.id()));
         String fresh = connected().get(device.id());
         if (fresh == null || fresh.equals(old)) {

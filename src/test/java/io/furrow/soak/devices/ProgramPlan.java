@@ -213,8 +213,7 @@ final class ProgramPlan {
 
     /** Who meets whom: their ids, the lesser first. */
     List<String> pairs() {
-        List<String> ids =
-                devices().stream().filter(Device::isTractor).map(Device::id).toList();
+        var ids = devices().stream().filter(Device::isTractor).map(Device::id).toList();
         List<String> pairs = new ArrayList<>();
         for (int i = 0; i < 8; i += 2) {
             pairs.add(pair(ids.get(i), ids.get(i + 1)));

@@ -3,7 +3,6 @@ package io.furrow.soak.devices;
 import java.io.IOException;
 import java.io.InputStream;
 import java.io.UncheckedIOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
@@ -12,6 +11,8 @@ import java.util.Comparator;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+
+import static java.nio.charset.StandardCharsets.US_ASCII;
 
 /** The programs of devices: processes of Python, each with up to 20 devices of a mission, which have a connection each. */
 final class Programs implements AutoCloseable {
@@ -83,7 +84,7 @@ final class Programs implements AutoCloseable {
     private int readOn(Path log, long from) {
         try (InputStream in = Files.newInputStream(log)) {
             in.skipNBytes(from);
-            String text = new String(in.readAllBytes(), StandardCharsets.US_ASCII);
+            String text = new String(in.readAllBytes(), US_ASCII);
             String lines = text.substring(0, text.lastIndexOf('\n') + 1);
             lines.lines().map(ProgramEvent::read).forEach(events::add);
             return lines.length();

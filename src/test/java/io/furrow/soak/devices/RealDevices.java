@@ -35,8 +35,8 @@ public final class RealDevices {
         farm = new RealFarm(home, folder, plan);
         programs = new Programs(program(), folder.resolve("programs"));
         logins = new LoginChecks(farm, plan, programs, verdicts);
-        measures = new MeasureChecks(farm.up().kafka(), plan, verdicts);
-        shown = new DeviceViews(farm.up(), plan, verdicts);
+        measures = new MeasureChecks(farm.up.kafka(), plan, verdicts);
+        shown = new DeviceViews(farm.up, plan, verdicts);
     }
 
     private Path program() {
@@ -66,7 +66,7 @@ public final class RealDevices {
         print("Mosquitto, the stand-ins of Orion and IoT Agent, and ./furrow up start");
         farm.start();
         long began = System.currentTimeMillis();
-        startMissions(farm.up(), programs, plan.missions());
+        startMissions(farm.up, programs, plan.missions());
         print("%d devices in %d processes".formatted(plan.devices().size(), programs.processes()));
         shown.missions();
         undisturbed("undisturbed", began);
@@ -141,16 +141,16 @@ public final class RealDevices {
         Map<String, String> before = logins.connected();
         long killed = System.currentTimeMillis();
         print("kill -9 of context broker and IoT Agent");
-        farm.standIn().kill();
+        farm.standIn.kill();
         Thread.sleep(UNAVAILABLE.toMillis());
-        farm.standIn().start();
+        farm.standIn.start();
         isBack("the agent's end", before, killed, false);
 
         killed = System.currentTimeMillis();
         print("kill -9 of ./furrow up, with control plane, Kafka, Connect and Flink");
-        farm.up().kill();
+        farm.up.kill();
         Thread.sleep(UNAVAILABLE.toMillis());
-        farm.up().start();
+        farm.up.start();
         isBack("the control plane's end", before, killed, false);
         shown.soundDevices("after the control plane's end");
         shown.faultsBesideMosquitto("after it");
@@ -158,9 +158,9 @@ public final class RealDevices {
         killed = System.currentTimeMillis();
         print("kill -9 of Mosquitto");
         long subscriptions = farm.agentSubscriptions();
-        farm.mosquitto().kill();
+        farm.mosquitto.kill();
         Thread.sleep(UNAVAILABLE.toMillis());
-        farm.mosquitto().start();
+        farm.mosquitto.start();
         Until.isTrue("the agent is back at Mosquitto", TIMEOUT, () -> farm.agentSubscriptions() > subscriptions);
         isBack("the broker's end", before, killed, true);
     }

@@ -18,9 +18,9 @@ final class RealFarm implements AutoCloseable {
     static final String WINDOW = "10s";
 
     private final Path log;
-    private final MosquittoProcess mosquitto;
-    private final StandInProcess standIn;
-    private final UpProcess up;
+    final MosquittoProcess mosquitto;
+    final StandInProcess standIn;
+    final UpProcess up;
     private final AtomicBoolean closed = new AtomicBoolean();
 
     RealFarm(Path home, Path folder, ProgramPlan plan) throws IOException, InterruptedException {
@@ -34,28 +34,17 @@ final class RealFarm implements AutoCloseable {
                 home,
                 folder.resolve("up"),
                 List.of(
-                        "--orion",
-                        standIn.contextBroker().toString(),
-                        "--iot-agent",
-                        standIn.iotAgent().toString(),
-                        "--iot-agent-interval",
-                        "5s",
-                        "--mqtt-password-file",
-                        mosquitto.passwords().toString(),
-                        "--mqtt-acl-file",
-                        mosquitto.rules().toString(),
-                        "--mqtt-reload",
-                        mosquitto.reload(),
-                        "--mqtt-log",
-                        log.toString(),
-                        "--mqtt-public-url",
-                        mosquitto.uri().toString().replace("tcp:", "mqtt:"),
-                        "--fields",
-                        fields.toString(),
-                        "--window",
-                        WINDOW,
-                        "--start-timeout",
-                        "20s"));
+                        "--orion", standIn.contextBroker().toString(),
+                        "--iot-agent", standIn.iotAgent().toString(),
+                        "--iot-agent-interval", "5s",
+                        "--mqtt-password-file", mosquitto.passwords().toString(),
+                        "--mqtt-acl-file", mosquitto.rules().toString(),
+                        "--mqtt-reload", mosquitto.reload(),
+                        "--mqtt-log", log.toString(),
+                        "--mqtt-public-url", mosquitto.uri().toString().replace("tcp:", "mqtt:"),
+                        "--fields", fields.toString(),
+                        "--window", WINDOW,
+                        "--start-timeout", "20s"));
     }
 
     void start() throws IOException {
@@ -71,18 +60,6 @@ final class RealFarm implements AutoCloseable {
         } catch (IOException e) {
             throw new UncheckedIOException(e);
         }
-    }
-
-    MosquittoProcess mosquitto() {
-        return mosquitto;
-    }
-
-    StandInProcess standIn() {
-        return standIn;
-    }
-
-    UpProcess up() {
-        return up;
     }
 
     /** The entities of a type at the context broker. */

@@ -22,18 +22,8 @@ public final class UpProcess implements AutoCloseable {
     private static final Duration START_TIMEOUT = Duration.ofSeconds(180);
     private static final long COMMAND_SECONDS = 90;
     private static final long STOP_SECONDS = 60;
-    private static final List<String> PORTS = List.of(
-            "dashboard",
-            "kafka",
-            "connect",
-            "flink",
-            "notify",
-            "mqtt",
-            "orion",
-            "iot-agent",
-            "mongo",
-            "control",
-            "health");
+    private static final List<String> PORTS =
+            List.of("dashboard kafka connect flink notify mqtt orion iot-agent mongo control health".split(" "));
 
     private final List<String> furrow;
     private final Path folder;

@@ -4,7 +4,6 @@ import java.awt.image.BufferedImage;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.Base64;
 import java.util.List;
@@ -18,6 +17,8 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * Numbered records of {@code data.raw}, the same number, the same record: thermometers, robots that name no mission and change
@@ -68,7 +69,7 @@ final class FarmLoad {
     }
 
     static boolean isClosing(byte[] key) {
-        return new String(key, StandardCharsets.UTF_8).startsWith("closing-");
+        return new String(key, UTF_8).startsWith("closing-");
     }
 
     private static String belonging(int number) {
@@ -139,6 +140,6 @@ final class FarmLoad {
     }
 
     static byte[] utf8(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

@@ -2,7 +2,6 @@ package io.furrow.soak.ingest;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -20,9 +19,12 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.header.Header;
 import org.bson.Document;
 
+import io.furrow.files.Folders;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * All that the job left, as sorted lines by topic, collection and folder, to be compared with those of another run.
@@ -111,20 +113,15 @@ public record IngestOutcome(SortedMap<String, List<String>> lines) {
     }
 
     private static List<String> files(Path folder) throws IOException {
-        try (Stream<Path> files = Files.walk(folder)) {
-            return files.filter(Files::isRegularFile)
-                    .filter(file -> !file.getFileName().toString().startsWith(UNFINISHED))
-                    .map(file -> folder.relativize(file) + " " + sha256(file))
-                    .sorted()
-                    .toList();
-        }
+        return Folders.walk(folder).stream().filter(Files::isRegularFile)
+                .filter(file -> !file.getFileName().toString().startsWith(UNFINISHED))
+                .map(file -> folder.relativize(file) + " " + sha256(file))
+                .toList();
     }
 
     static long unfinished(Path folder) throws IOException {
-        try (Stream<Path> files = Files.walk(folder)) {
-            return files.filter(file -> file.getFileName().toString().startsWith(UNFINISHED))
-                    .count();
-        }
+        return Folders.walk(folder).stream().filter(file -> file.getFileName().toString().startsWith(UNFINISHED))
+                .count();
     }
 
     private static String sha256(Path file) {
@@ -139,7 +136,7 @@ public record IngestOutcome(SortedMap<String, List<String>> lines) {
     }
 
     private static String text(byte[] bytes) {
-        return bytes == null ? "nothing" : new String(bytes, StandardCharsets.UTF_8);
+        return bytes == null ? "nothing" : new String(bytes, UTF_8);
     }
 
     int size(String place) {

@@ -1,21 +1,18 @@
 package io.furrow.soak.replay;
 
-import java.nio.charset.StandardCharsets;
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Map;
 import java.util.Random;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
-import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.soak.CommittedState;
 import io.furrow.soak.replay.PlayedEpochs.Entry;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Reads the topics of all steered replays and says what is wrong with them. */
 public final class PlayedTopics {
@@ -46,11 +43,12 @@ public final class PlayedTopics {
     }
 
     private int check(String topic, boolean exactlyOnce) throws UnreadableException {
-        List<ConsumerRecord<byte[], byte[]>> records = records(topic);
+        List<ConsumerRecord<String, byte[]>> records = new ArrayList<>();
+        CommittedState.read(bootstrapServers, List.of(topic), records::add);
         plant(records);
         PlayedEpochs epochs = new PlayedEpochs();
         int partitions = 0;
-        for (ConsumerRecord<byte[], byte[]> record : records) {
+        for (ConsumerRecord<String, byte[]> record : records) {
             partitions = Math.max(partitions, record.partition() + 1);
             epochs.add(
                     number(record, HeaderNames.REPLAY_EPOCH),
@@ -70,7 +68,7 @@ public final class PlayedTopics {
     }
 
     /** As if one of the records were not there, or twice. */
-    private void plant(List<ConsumerRecord<byte[], byte[]>> records) {
+    private void plant(List<ConsumerRecord<String, byte[]>> records) {
         if (plant.equals("none")) {
             return;
         }
@@ -85,7 +83,7 @@ public final class PlayedTopics {
         }
     }
 
-    private static Entry entry(ConsumerRecord<byte[], byte[]> record) throws UnreadableException {
+    private static Entry entry(ConsumerRecord<String, byte[]> record) throws UnreadableException {
         String kind = header(record, HeaderNames.REPLAY_KIND);
         long number = kind.equals("event")
                 ? NgsiJson.read(record.value())
@@ -96,31 +94,11 @@ public final class PlayedTopics {
         return new Entry(kind, record.partition(), number);
     }
 
-    private static long number(ConsumerRecord<byte[], byte[]> record, String name) {
+    private static long number(ConsumerRecord<String, byte[]> record, String name) {
         return Long.parseLong(header(record, name));
     }
 
-    private static String header(ConsumerRecord<byte[], byte[]> record, String name) {
-        return new String(record.headers().lastHeader(name).value(), StandardCharsets.UTF_8);
-    }
-
-    private List<ConsumerRecord<byte[], byte[]>> records(String topic) {
-        Map<String, Object> settings = Map.of(
-                "bootstrap.servers", bootstrapServers,
-                "isolation.level", "read_committed",
-                "allow.auto.create.topics", "false");
-        List<ConsumerRecord<byte[], byte[]>> records = new ArrayList<>();
-        try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
-            List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
-                    .map(info -> new TopicPartition(topic, info.partition()))
-                    .toList();
-            consumer.assign(partitions);
-            consumer.seekToBeginning(partitions);
-            Map<TopicPartition, Long> ends = consumer.endOffsets(partitions);
-            while (ends.entrySet().stream().anyMatch(end -> consumer.position(end.getKey()) < end.getValue())) {
-                consumer.poll(Duration.ofMillis(100)).forEach(records::add);
-            }
-        }
-        return records;
+    private static String header(ConsumerRecord<String, byte[]> record, String name) {
+        return new String(record.headers().lastHeader(name).value(), UTF_8);
     }
 }

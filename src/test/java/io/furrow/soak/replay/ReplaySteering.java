@@ -1,6 +1,5 @@
 package io.furrow.soak.replay;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -29,6 +28,8 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Stores missions, lets them be replayed, steers the replays at random until it is enough, and stops them. */
 public final class ReplaySteering {
@@ -97,7 +98,7 @@ public final class ReplaySteering {
     }
 
     private static void desire(SteeredReplay replay, KafkaProducer<byte[], byte[]> producer) throws Exception {
-        byte[] key = replay.desired().replay().getBytes(StandardCharsets.UTF_8);
+        byte[] key = replay.desired().replay().getBytes(UTF_8);
         producer.send(new ProducerRecord<>(Topics.REPLAYS, key, replay.desired().toBytes()))
                 .get();
     }
@@ -117,7 +118,7 @@ public final class ReplaySteering {
                         throw new IllegalStateException("a replay failed: " + status.reason());
                     }
                     if (status.state() == ReplayStatus.State.STOPPED && status.settled()) {
-                        open.remove(new String(record.key(), StandardCharsets.UTF_8));
+                        open.remove(new String(record.key(), UTF_8));
                     }
                 }
                 if (System.nanoTime() > until) {

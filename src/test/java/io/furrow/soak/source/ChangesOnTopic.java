@@ -2,7 +2,6 @@ package io.furrow.soak.source;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
@@ -12,6 +11,8 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.header.Header;
 
 import io.furrow.model.event.HeaderNames;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Which changes are on {@code data.raw}, committed; grows with each reading. */
 final class ChangesOnTopic implements AutoCloseable {
@@ -56,7 +57,7 @@ final class ChangesOnTopic implements AutoCloseable {
 
     private static String text(ConsumerRecord<?, ?> record, String name) {
         Header header = record.headers().lastHeader(name);
-        return header == null ? "" : new String(header.value(), StandardCharsets.UTF_8);
+        return header == null ? "" : new String(header.value(), UTF_8);
     }
 
     /** Records of this change that a notification brought. */

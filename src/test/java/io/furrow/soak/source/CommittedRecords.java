@@ -3,32 +3,24 @@ package io.furrow.soak.source;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
-import java.util.Properties;
 import java.util.function.Consumer;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
 
 import io.furrow.model.topic.Topics;
+import io.furrow.soak.CommittedState;
 
 /** The committed records of {@code data.raw}, from the beginning on. */
 final class CommittedRecords implements AutoCloseable {
-    private final Properties kafka = new Properties();
+    private final String bootstrapServers;
     private final KafkaConsumer<String, byte[]> consumer;
 
     CommittedRecords(String bootstrapServers) {
-        kafka.setProperty("bootstrap.servers", bootstrapServers);
-        kafka.setProperty("isolation.level", "read_committed");
-        kafka.setProperty("auto.offset.reset", "earliest");
-        kafka.setProperty("enable.auto.commit", "false");
-        consumer = new KafkaConsumer<>(kafka, new StringDeserializer(), new ByteArrayDeserializer());
-        List<TopicPartition> partitions = consumer.partitionsFor(Topics.RAW).stream()
-                .map(partition -> new TopicPartition(Topics.RAW, partition.partition()))
-                .toList();
-        consumer.assign(partitions);
+        this.bootstrapServers = bootstrapServers;
+        consumer = CommittedState.consumer(bootstrapServers);
+        CommittedState.assign(consumer, List.of(Topics.RAW));
     }
 
     /** Reads on to the end that the topic has now, also through transactions that are just being ended. */
@@ -44,10 +36,7 @@ final class CommittedRecords implements AutoCloseable {
     }
 
     private Map<TopicPartition, Long> endsWithOpenTransactions() {
-        Properties uncommitted = new Properties();
-        uncommitted.putAll(kafka);
-        uncommitted.setProperty("isolation.level", "read_uncommitted");
-        try (var any = new KafkaConsumer<>(uncommitted, new StringDeserializer(), new ByteArrayDeserializer())) {
+        try (var any = CommittedState.consumer(bootstrapServers, "read_uncommitted")) {
             return any.endOffsets(consumer.assignment());
         }
     }

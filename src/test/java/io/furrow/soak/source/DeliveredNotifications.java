@@ -1,6 +1,5 @@
 package io.furrow.soak.source;
 
-import java.nio.charset.StandardCharsets;
 import java.util.BitSet;
 import java.util.HashMap;
 import java.util.Map;
@@ -8,6 +7,8 @@ import java.util.Map;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 
 import io.furrow.model.event.HeaderNames;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** What of the numbered notifications is on {@code data.raw}, committed; grows with each reading. */
 final class DeliveredNotifications implements AutoCloseable {
@@ -27,7 +28,7 @@ final class DeliveredNotifications implements AutoCloseable {
 
     private void count(ConsumerRecord<String, byte[]> record) {
         int number = Integer.parseInt(record.key().substring(record.key().lastIndexOf(':') + 1));
-        String event = new String(record.headers().lastHeader(HeaderNames.CE_ID).value(), StandardCharsets.UTF_8);
+        String event = new String(record.headers().lastHeader(HeaderNames.CE_ID).value(), UTF_8);
         String before = events.putIfAbsent(number, event);
         if (before != null) {
             repeated++;

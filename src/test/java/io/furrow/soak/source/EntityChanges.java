@@ -10,6 +10,9 @@ import java.util.concurrent.locks.LockSupport;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.soak.control.Http;
+
 /** Changes entities at a context broker, one after another at a rate, each entity from one thread. */
 final class EntityChanges implements AutoCloseable {
     private static final int THREADS = 4;
@@ -66,7 +69,7 @@ final class EntityChanges implements AutoCloseable {
                 JsonNodeFactory.instance.objectNode().put("id", change.id()).put("type", NumberedChange.TYPE);
         body.putObject("Number").put("type", "Integer").put("value", change.number());
         body.putObject("Filling").put("type", "String").put("value", FILLING);
-        int status = HttpJson.send("POST", entities, body);
+        int status = Http.send("POST", entities, NgsiJson.write(body)).join().status();
         if (status / 100 != 2) {
             throw new IllegalStateException("the context broker answered " + status + " to " + change);
         }

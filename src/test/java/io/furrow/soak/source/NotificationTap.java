@@ -1,8 +1,6 @@
 package io.furrow.soak.source;
 
 import java.io.IOException;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
@@ -14,14 +12,13 @@ import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.ConcurrentLinkedQueue;
-import java.util.concurrent.Executors;
 import java.util.concurrent.atomic.AtomicInteger;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.sun.net.httpserver.HttpExchange;
-import com.sun.net.httpserver.HttpServer;
 
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.stub.StubServer;
 
 /**
  * Stands between a context broker and the listeners of the tasks, and remembers which changes each answered 2xx. A listener that
@@ -32,7 +29,7 @@ final class NotificationTap implements AutoCloseable {
     private static final Set<String> OWN_HEADERS =
             Set.of("host", "connection", "content-length", "expect", "upgrade", "transfer-encoding", "accept-encoding");
 
-    private final HttpServer server;
+    private final StubServer server = new StubServer(this::pass);
     private final HttpClient client = HttpClient.newBuilder()
             .version(HttpClient.Version.HTTP_1_1)
             .connectTimeout(Duration.ofSeconds(2))
@@ -48,26 +45,9 @@ final class NotificationTap implements AutoCloseable {
         }
     }
 
-    private NotificationTap(HttpServer server) {
-        this.server = server;
-    }
-
-    static NotificationTap start() throws IOException {
-        HttpServer server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        NotificationTap tap = new NotificationTap(server);
-        server.createContext("/", tap::pass);
-        server.setExecutor(Executors.newCachedThreadPool(work -> {
-            Thread thread = new Thread(work, "tap");
-            thread.setDaemon(true);
-            return thread;
-        }));
-        server.start();
-        return tap;
-    }
-
     /** The address of a source behind it; {@code {port}} is for the source to fill in. */
     String publicUrl() {
-        return "http://127.0.0.1:" + server.getAddress().getPort() + "/{port}/v2/notify";
+        return server.uri("") + "/{port}/v2/notify";
     }
 
     /** The next notification is treated so. */
@@ -144,6 +124,6 @@ final class NotificationTap implements AutoCloseable {
 
     @Override
     public void close() {
-        server.stop(0);
+        server.close();
     }
 }

@@ -19,7 +19,7 @@ record NumberedChange(int entity, int number) {
     static NumberedChange of(JsonNode entity) {
         return new NumberedChange(
                 Integer.parseInt(entity.path("id").asText().substring(PREFIX.length())),
-                entity.path("Number").path("value").asInt(-1));
+                entity.at("/Number/value").asInt(-1));
     }
 
     String id() {

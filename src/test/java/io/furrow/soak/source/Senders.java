@@ -6,13 +6,15 @@ import java.io.IOException;
 import java.io.InputStream;
 import java.net.InetSocketAddress;
 import java.net.Socket;
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.BitSet;
 import java.util.List;
 import java.util.concurrent.atomic.AtomicInteger;
 import java.util.concurrent.locks.LockSupport;
+
+import static java.nio.charset.StandardCharsets.US_ASCII;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * Connections that send numbered notifications of about 1 kB at a rate, each once, and remember which were answered 200. A
@@ -93,12 +95,12 @@ final class Senders {
     private static int post(Socket socket, int number) throws IOException {
         byte[] body = """
                 {"id": "urn:ngsi-ld:Thermometer:%d", "type": "Thermometer", "Number": {"type": "Integer", "value": %d}, \
-                "Time": {"type": "Integer", "value": %d}, "Filling": {"type": "String", "value": "%s"}}""".formatted(number, number, TIME, FILLING).getBytes(StandardCharsets.UTF_8);
+                "Time": {"type": "Integer", "value": %d}, "Filling": {"type": "String", "value": "%s"}}""".formatted(number, number, TIME, FILLING).getBytes(UTF_8);
         String head =
                 "POST /v2/notify HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: "
                         + body.length + "\r\n\r\n";
         byte[] request = new byte[head.length() + body.length];
-        System.arraycopy(head.getBytes(StandardCharsets.US_ASCII), 0, request, 0, head.length());
+        System.arraycopy(head.getBytes(US_ASCII), 0, request, 0, head.length());
         System.arraycopy(body, 0, request, head.length(), body.length);
         socket.getOutputStream().write(request);
         return readStatus(new BufferedInputStream(socket.getInputStream()));

@@ -17,18 +17,19 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.soak.control.Http;
+import io.furrow.soak.control.Until;
+
 /** The workers of one Connect group, each with its disk and its address, and the source with three tasks that runs on them. */
 final class SourceGroup implements AutoCloseable {
     static final int TASKS = 3;
 
     private static final Duration TIMEOUT = Duration.ofSeconds(120);
     /** A killed worker keeps its tasks until the group misses it. */
-    private static final String[] SETTINGS = {
-        "session.timeout.ms=6000",
-        "heartbeat.interval.ms=2000",
-        "config.providers=env",
-        "config.providers.env.class=org.apache.kafka.common.config.provider.EnvVarConfigProvider"
-    };
+    private static final String[] SETTINGS = """
+            session.timeout.ms=6000 heartbeat.interval.ms=2000 config.providers=env
+            config.providers.env.class=org.apache.kafka.common.config.provider.EnvVarConfigProvider""".split("\\s+");
 
     private final Path folder;
     private final String bootstrapServers;
@@ -120,12 +121,16 @@ final class SourceGroup implements AutoCloseable {
 
     private void change(String verb) {
         ObjectNode nothing = JsonNodeFactory.instance.objectNode();
-        Conditions.until(
+        Until.isTrue(
                 verb,
                 TIMEOUT,
-                () -> HttpJson.send("PUT", connectors("/" + SourceWorker.CONNECTOR + "/" + verb), nothing) / 100 == 2);
+                () -> Http.send("PUT", connectors("/" + SourceWorker.CONNECTOR + "/" + verb), NgsiJson.write(nothing))
+                                        .join()
+                                        .status()
+                                / 100
+                        == 2);
         String state = verb.equals("pause") ? "PAUSED" : "RUNNING";
-        Conditions.until(
+        Until.isTrue(
                 "all tasks " + state,
                 TIMEOUT,
                 () -> tasks(state).values().stream().mapToInt(Integer::intValue).sum() == TASKS);
@@ -137,7 +142,7 @@ final class SourceGroup implements AutoCloseable {
 
     /** Returns when all tasks run, and each of the workers has one. */
     void awaitTasks() {
-        Conditions.until("all tasks run on " + members, TIMEOUT, () -> {
+        Until.isTrue("all tasks run on " + members, TIMEOUT, () -> {
             var shown = shown().values();
             return tasks("RUNNING").values().stream()
                                     .mapToInt(Integer::intValue)
@@ -150,7 +155,8 @@ final class SourceGroup implements AutoCloseable {
 
     private Map<String, Integer> tasks(String state) {
         Map<String, Integer> tasks = new TreeMap<>();
-        JsonNode status = HttpJson.get(connectors("/" + SourceWorker.CONNECTOR + "/status"));
+        JsonNode status =
+                Http.get(connectors("/" + SourceWorker.CONNECTOR + "/status")).body();
         for (JsonNode task : status.path("tasks")) {
             if (task.path("state").asText().equals(state)) {
                 tasks.merge(task.path("worker_id").asText(), 1, Integer::sum);
@@ -168,7 +174,8 @@ final class SourceGroup implements AutoCloseable {
 
     /** Journals that Connect knows offsets of. */
     int journalsInOffsets() {
-        return HttpJson.get(connectors("/" + SourceWorker.CONNECTOR + "/offsets"))
+        return Http.get(connectors("/" + SourceWorker.CONNECTOR + "/offsets"))
+                .body()
                 .path("offsets")
                 .size();
     }

@@ -7,6 +7,7 @@ import java.util.concurrent.locks.LockSupport;
 
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.FreePort;
+import io.furrow.soak.control.Until;
 
 /** Stops Kafka under load for a while; the source goes on taking notifications and catches up afterwards. */
 public final class SourceOutage {
@@ -72,7 +73,7 @@ public final class SourceOutage {
 
     /** Until no more is pending than a second brings, under the same load. */
     private static long catchUp(SourceWorker worker, long since, int perSecond) throws Exception {
-        Conditions.until("what was kept is in Kafka", Duration.ofSeconds(300), () -> {
+        Until.isTrue("what was kept is in Kafka", Duration.ofSeconds(300), () -> {
             long pending = worker.health().path("pending").asLong(Long.MAX_VALUE);
             return pending < perSecond;
         });

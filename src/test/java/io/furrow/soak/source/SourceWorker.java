@@ -1,6 +1,5 @@
 package io.furrow.soak.source;
 
-import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -13,16 +12,17 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.embedded.FreePort;
+import io.furrow.soak.control.Http;
+import io.furrow.soak.control.Until;
 
 /** A Connect worker that runs the NGSI source with one task; it can be killed and started again. */
-final class SourceWorker implements AutoCloseable {
+final class SourceWorker extends WorkerProcess {
     static final String CONNECTOR = "ngsi-source";
 
     private static final Duration TIMEOUT = Duration.ofSeconds(120);
 
     private final Path folder;
     private final boolean exactlyOnce;
-    private final WorkerProcess process;
     private final int port = FreePort.orFree(0);
 
     /**
@@ -30,9 +30,9 @@ final class SourceWorker implements AutoCloseable {
      * @param settings of the worker, {@code name=value}, other than Connect's own
      */
     SourceWorker(Path folder, String bootstrapServers, boolean exactlyOnce, String... settings) {
+        super(folder, bootstrapServers, Map.of(), settings(exactlyOnce, settings));
         this.folder = folder;
         this.exactlyOnce = exactlyOnce;
-        process = new WorkerProcess(folder, bootstrapServers, Map.of(), settings(exactlyOnce, settings));
     }
 
     /** Of a worker for this kind of delivery. */
@@ -61,14 +61,9 @@ final class SourceWorker implements AutoCloseable {
         return config;
     }
 
-    /** Starts the process; it finds the connector if that was created before. */
-    void start() throws IOException {
-        process.start();
-    }
-
     /** Creates or changes the source as soon as the worker takes it; returns when it takes notifications. */
     void createSource() {
-        process.createConnector(
+        createConnector(
                 CONNECTOR,
                 config(exactlyOnce)
                         .put("tasks.max", "1")
@@ -80,12 +75,12 @@ final class SourceWorker implements AutoCloseable {
     }
 
     void awaitListening() {
-        Conditions.until("the source listens", TIMEOUT, () -> health().has("received"));
+        Until.isTrue("the source listens", TIMEOUT, () -> health().has("received"));
     }
 
     /** Returns when nothing that was taken waits for Kafka any more. */
     void awaitDrained() {
-        Conditions.until(
+        Until.isTrue(
                 "the journal is drained",
                 TIMEOUT,
                 () -> health().path("pending").asLong(-1) == 0);
@@ -93,30 +88,10 @@ final class SourceWorker implements AutoCloseable {
 
     /** What the source says of itself; empty while it does not answer. */
     JsonNode health() {
-        return HttpJson.get(URI.create("http://127.0.0.1:" + port + "/health"));
+        return Http.get(URI.create("http://127.0.0.1:" + port + "/health")).body();
     }
 
     int port() {
         return port;
-    }
-
-    /** @see WorkerProcess#residentMib */
-    long residentMib() throws IOException {
-        return process.residentMib();
-    }
-
-    /** @see WorkerProcess#peakResidentMib */
-    long peakResidentMib() throws IOException {
-        return process.peakResidentMib();
-    }
-
-    /** Ends it as {@code kill -9} does. */
-    void kill() throws InterruptedException {
-        process.kill();
-    }
-
-    @Override
-    public void close() {
-        process.close();
     }
 }

@@ -36,8 +36,7 @@ public final class SourceWorkers {
     /** Arguments: folder, rounds, changes per second, exactly-once ({@code true} or {@code false}), planted fault. */
     public static void main(String... args) throws Exception {
         boolean exactlyOnce = Boolean.parseBoolean(args[3]);
-        PlantedFault fault =
-                PlantedFault.valueOf(args[4].toUpperCase(Locale.ROOT).replace('-', '_'));
+        var fault = PlantedFault.valueOf(args[4].toUpperCase(Locale.ROOT).replace('-', '_'));
         Outcome outcome =
                 run(Path.of(args[0]), Integer.parseInt(args[1]), Integer.parseInt(args[2]), exactlyOnce, fault);
         System.out.println(outcome);

@@ -3,13 +3,13 @@ package io.furrow.soak.source;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.Comparator;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
-import java.util.stream.Stream;
+
+import io.furrow.files.Folders;
 
 /** What a worker that stopped in order said of its disk; its gauges end with it. */
 final class UndeliveredRecords {
@@ -32,17 +32,11 @@ final class UndeliveredRecords {
 
     /** A planted fault. */
     static void deleteJournals(Path disk) throws IOException {
-        try (Stream<Path> found = Files.walk(disk.resolve("journal"))) {
-            List<Path> journals = found.filter(path ->
-                            JOURNAL.matcher(path.getFileName().toString()).matches())
-                    .toList();
-            for (Path journal : journals) {
-                try (Stream<Path> files = Files.walk(journal)) {
-                    for (Path path : files.sorted(Comparator.reverseOrder()).toList()) {
-                        Files.delete(path);
-                    }
-                }
-            }
+        List<Path> journals = Folders.walk(disk.resolve("journal")).stream().filter(path ->
+                        JOURNAL.matcher(path.getFileName().toString()).matches())
+                .toList();
+        for (Path journal : journals) {
+            Folders.delete(journal);
         }
     }
 }

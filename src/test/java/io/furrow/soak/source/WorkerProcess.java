@@ -8,24 +8,23 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
-import java.util.concurrent.TimeUnit;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.embedded.FreePort;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.soak.control.Http;
+import io.furrow.soak.control.JavaProcess;
+import io.furrow.soak.control.Until;
 
 /** A distributed Connect worker in a process of its own; it can be killed, stopped in order and started again. */
-final class WorkerProcess implements AutoCloseable {
+class WorkerProcess implements AutoCloseable {
     private static final Duration TIMEOUT = Duration.ofSeconds(120);
-    private static final Duration STOP_TIMEOUT = Duration.ofSeconds(30);
 
     private final Path folder;
-    private final String bootstrapServers;
-    private final Map<String, String> environment;
-    private final List<String> settings;
     private final int restPort = FreePort.orFree(0);
     private final int jmxPort = FreePort.orFree(0);
-    private Process process;
+    private final JavaProcess process;
 
     /**
      * @param folder for its log
@@ -34,21 +33,7 @@ final class WorkerProcess implements AutoCloseable {
      */
     WorkerProcess(Path folder, String bootstrapServers, Map<String, String> environment, List<String> settings) {
         this.folder = folder;
-        this.bootstrapServers = bootstrapServers;
-        this.environment = environment;
-        this.settings = settings;
-        Runtime.getRuntime().addShutdownHook(new Thread(this::endWithThisProcess));
-    }
-
-    private void endWithThisProcess() {
-        if (process != null) {
-            process.destroyForcibly();
-        }
-    }
-
-    void start() throws IOException {
-        List<String> command = new ArrayList<>(List.of(
-                Path.of(System.getProperty("java.home"), "bin", "java").toString(),
+        List<String> options = List.of(
                 "-Xmx384m",
                 "-Dfurrow.log=" + log(),
                 "-Djava.rmi.server.hostname=127.0.0.1",
@@ -56,20 +41,17 @@ final class WorkerProcess implements AutoCloseable {
                 "-Dcom.sun.management.jmxremote.port=" + jmxPort,
                 "-Dcom.sun.management.jmxremote.rmi.port=" + jmxPort,
                 "-Dcom.sun.management.jmxremote.authenticate=false",
-                "-Dcom.sun.management.jmxremote.ssl=false",
-                "-cp",
-                System.getProperty("java.class.path"),
-                WorkerMain.class.getName(),
-                bootstrapServers,
-                System.getProperty("furrow.plugins"),
-                Integer.toString(restPort)));
-        command.addAll(settings);
-        Path output = Files.createDirectories(folder).resolve("worker.out");
-        ProcessBuilder builder = new ProcessBuilder(command)
-                .redirectErrorStream(true)
-                .redirectOutput(ProcessBuilder.Redirect.appendTo(output.toFile()));
-        builder.environment().putAll(environment);
-        process = builder.start();
+                "-Dcom.sun.management.jmxremote.ssl=false");
+        List<String> arguments = new ArrayList<>(
+                List.of(bootstrapServers, System.getProperty("furrow.plugins"), Integer.toString(restPort)));
+        arguments.addAll(settings);
+        process = new JavaProcess(folder.resolve("worker.out"), options, WorkerMain.class.getName(), arguments)
+                .with(environment);
+        Runtime.getRuntime().addShutdownHook(new Thread(process::close));
+    }
+
+    void start() throws IOException {
+        process.start();
     }
 
     /** The connectors of its REST API. */
@@ -88,10 +70,14 @@ final class WorkerProcess implements AutoCloseable {
 
     /** Creates or changes a connector as soon as the worker takes it. */
     void createConnector(String name, JsonNode config) {
-        Conditions.until(
+        Until.isTrue(
                 "the worker takes the connector",
                 TIMEOUT,
-                () -> HttpJson.send("PUT", connectors("/" + name + "/config"), config) / 100 == 2);
+                () -> Http.send("PUT", connectors("/" + name + "/config"), NgsiJson.write(config))
+                                        .join()
+                                        .status()
+                                / 100
+                        == 2);
     }
 
     /** Resident memory in MiB, from Linux' proc; 0 elsewhere. */
@@ -118,23 +104,16 @@ final class WorkerProcess implements AutoCloseable {
 
     /** Ends it as {@code kill -9} does. */
     void kill() throws InterruptedException {
-        process.destroyForcibly();
-        process.waitFor();
+        process.kill();
     }
 
     /** Asks it to stop, and kills it where it does not. */
     @Override
     public void close() {
-        if (process == null) {
-            return;
-        }
         try {
-            process.destroy();
-            if (!process.waitFor(STOP_TIMEOUT.toSeconds(), TimeUnit.SECONDS)) {
-                process.destroyForcibly();
-            }
+            process.stop();
         } catch (InterruptedException e) {
-            process.destroyForcibly();
+            process.close();
             Thread.currentThread().interrupt();
         }
     }

@@ -13,6 +13,8 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
 import io.furrow.model.topic.Topics;
+import io.furrow.soak.control.Http;
+import io.furrow.soak.control.Until;
 import io.furrow.soak.source.NotificationTap.Try;
 import io.furrow.soak.source.SourceGroup.Member;
 import io.furrow.soak.source.WorkerGauges.Shown;
@@ -27,15 +29,15 @@ final class WorkersFarm implements AutoCloseable {
 
     private final EmbeddedKafka kafka;
     private final FiwareStandIn contextBroker;
-    private final NotificationTap tap;
-    private final EntityChanges changes;
-    private final SourceGroup group;
-    private final ChangesOnTopic topic;
+    final NotificationTap tap;
+    final EntityChanges changes;
+    final SourceGroup group;
+    final ChangesOnTopic topic;
 
     private WorkersFarm(Path folder, int perSecond, boolean exactlyOnce) throws IOException {
         kafka = EmbeddedKafka.start(folder.resolve("kafka"));
         contextBroker = FiwareStandIn.start(FiwareSettings.httpOnly());
-        tap = NotificationTap.start();
+        tap = new NotificationTap();
         changes = EntityChanges.prepare(contextBroker.contextBroker(), ENTITIES, perSecond);
         group = new SourceGroup(folder, kafka.bootstrapServers(), exactlyOnce);
         createTopic();
@@ -57,26 +59,10 @@ final class WorkersFarm implements AutoCloseable {
         group.createSource(contextBroker.contextBroker(), tap.publicUrl());
         group.awaitTasks();
         URI subscriptions = URI.create(contextBroker.contextBroker() + "/v2/subscriptions");
-        Conditions.until(
+        Until.isTrue(
                 "each task has its subscription",
                 TIMEOUT,
-                () -> HttpJson.get(subscriptions).size() == SourceGroup.TASKS);
-    }
-
-    NotificationTap tap() {
-        return tap;
-    }
-
-    EntityChanges changes() {
-        return changes;
-    }
-
-    SourceGroup group() {
-        return group;
-    }
-
-    ChangesOnTopic topic() {
-        return topic;
+                () -> Http.get(subscriptions).body().size() == SourceGroup.TASKS);
     }
 
     /** For a while; then the gauges are printed. Changes go on. @return the most that was left */
@@ -96,7 +82,7 @@ final class WorkersFarm implements AutoCloseable {
     /** Nothing changes any more, and every notification has its answer or none. */
     void awaitAnswers() {
         changes.hold();
-        Conditions.until(
+        Until.isTrue(
                 "every notification is answered",
                 TIMEOUT,
                 () -> contextBroker.counters().notificationsQueued() == 0 && tap.isIdle());
@@ -105,13 +91,13 @@ final class WorkersFarm implements AutoCloseable {
     /** Nothing changes any more, and the workers have nothing left to do. */
     void quiet() {
         awaitAnswers();
-        Conditions.until("every journal is drained", TIMEOUT, () -> {
+        Until.isTrue("every journal is drained", TIMEOUT, () -> {
             var shown = group.shown().values();
             return shown.stream().mapToInt(Shown::tasks).sum() == SourceGroup.TASKS
                     && shown.stream().allMatch(one -> one.onDisk() == 0 && one.adopted() == 0 && one.orphaned() == 0);
         });
         List<NumberedChange> newest = changes.newest();
-        Conditions.within(REPAIR_TIMEOUT, () -> {
+        Until.within(REPAIR_TIMEOUT, () -> {
             topic.read();
             return topic.notNewest(newest).isEmpty();
         });

@@ -5,6 +5,7 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
 
+import io.furrow.soak.control.Until;
 import io.furrow.soak.source.NotificationTap.Try;
 import io.furrow.soak.source.SourceGroup.Member;
 import io.furrow.soak.source.SourceWorkers.Outcome;
@@ -28,7 +29,7 @@ final class WorkersRun implements AutoCloseable {
 
     private WorkersRun(WorkersFarm farm, boolean exactlyOnce, PlantedFault fault) {
         this.farm = farm;
-        this.group = farm.group();
+        this.group = farm.group;
         this.exactlyOnce = exactlyOnce;
         this.fault = fault;
     }
@@ -51,7 +52,7 @@ final class WorkersRun implements AutoCloseable {
         farm.subscribe();
         load("two workers");
         if (fault == PlantedFault.LOSE || fault == PlantedFault.REPEAT) {
-            farm.tap().plant(fault);
+            farm.tap.plant(fault);
         }
     }
 
@@ -95,7 +96,7 @@ final class WorkersRun implements AutoCloseable {
         load("paused");
         long held = held(List.of());
         Member third = group.join(name, "disk-3");
-        Conditions.until("a worker shows what the task that moved away left", TIMEOUT, () -> {
+        Until.isTrue("a worker shows what the task that moved away left", TIMEOUT, () -> {
             long shown = group.shown().values().stream()
                     .mapToLong(Shown::leftRecords)
                     .sum();
@@ -103,7 +104,7 @@ final class WorkersRun implements AutoCloseable {
             return shown > 0;
         });
         compareReported("a third worker joined", held);
-        farm.changes().goOn();
+        farm.changes.goOn();
         group.resume();
         group.awaitTasks();
         load("a third worker joined and took a task");
@@ -115,7 +116,7 @@ final class WorkersRun implements AutoCloseable {
     }
 
     private void killAndRestart() throws IOException, InterruptedException {
-        farm.changes().goOn();
+        farm.changes.goOn();
         group.kill(second);
         group.restart(second);
         group.awaitTasks();
@@ -130,7 +131,7 @@ final class WorkersRun implements AutoCloseable {
         compareReported("before a worker is removed", held(group.departed()));
         long shown = second.gauges().read().onDisk();
         group.kill(second);
-        farm.changes().goOn();
+        farm.changes.goOn();
         group.resume();
         group.awaitTasks();
         load("the second worker removed");
@@ -143,7 +144,7 @@ final class WorkersRun implements AutoCloseable {
     }
 
     private void comeBack(Away removed, String name) throws IOException {
-        farm.changes().goOn();
+        farm.changes.goOn();
         second = group.join(name, "disk-2");
         group.awaitTasks();
         load("another worker came, with the disk of the removed one");
@@ -153,7 +154,7 @@ final class WorkersRun implements AutoCloseable {
     /** Acknowledged changes that are on the disks of the workers that run, and not in Kafka; nothing changes any more. */
     private long held(List<Member> departed) {
         farm.awaitAnswers();
-        farm.topic().read();
+        farm.topic.read();
         return farm.missing().stream()
                 .filter(change -> departed.stream().noneMatch(member -> farm.isAt(member, change)))
                 .count();
@@ -162,7 +163,7 @@ final class WorkersRun implements AutoCloseable {
     /** Several looks are no single moment: they count once two in a row agree. Records of the repair are shown as well. */
     private void compareReported(String when, long held) {
         long[] before = {-1};
-        Conditions.until("the workers show the same twice", TIMEOUT, () -> {
+        Until.isTrue("the workers show the same twice", TIMEOUT, () -> {
             long shown =
                     group.shown().values().stream().mapToLong(Shown::onDisk).sum();
             boolean same = shown == before[0];
@@ -187,11 +188,11 @@ final class WorkersRun implements AutoCloseable {
 
     /** The disk is here again: the worker takes as many records from it as were shown, and all come to Kafka. */
     private void comeBack(Member worker, Away removed) {
-        Conditions.within(ADOPTION_TIMEOUT, () -> worker.gauges().read().recovered() >= removed.shown());
+        Until.within(ADOPTION_TIMEOUT, () -> worker.gauges().read().recovered() >= removed.shown());
         farm.quiet();
         long recovered = worker.gauges().read().recovered();
         long came = removed.missing().stream()
-                .filter(change -> farm.topic().notified(change) > 0)
+                .filter(change -> farm.topic.notified(change) > 0)
                 .count();
         boolean wrong = exactlyOnce ? recovered != removed.shown() : recovered < removed.shown();
         unshown += wrong ? Math.abs(recovered - removed.shown()) : 0;
@@ -205,24 +206,24 @@ final class WorkersRun implements AutoCloseable {
         farm.quiet();
         int doubled = 0;
         int acknowledged = 0;
-        for (NumberedChange change : farm.tap().changes()) {
-            List<Try> tries = farm.tap().tries(change);
-            doubled += Math.max(0, farm.topic().notified(change) - tries.size());
+        for (NumberedChange change : farm.tap.changes()) {
+            List<Try> tries = farm.tap.tries(change);
+            doubled += Math.max(0, farm.topic.notified(change) - tries.size());
             acknowledged += tries.stream().anyMatch(Try::isAcknowledged) ? 1 : 0;
         }
         System.out.printf(
                 "%d of %d entities have an older record behind their newest; offsets of %d journals%n",
-                farm.topic().lastIsOlder(), WorkersFarm.ENTITIES, group.journalsInOffsets());
+                farm.topic.lastIsOlder(), WorkersFarm.ENTITIES, group.journalsInOffsets());
         return new Outcome(
                 acknowledged,
                 farm.missing().size(),
                 doubled,
-                farm.topic().differentIds(),
-                farm.topic().notNewest(farm.changes().newest()).size(),
+                farm.topic.differentIds(),
+                farm.topic.notNewest(farm.changes.newest()).size(),
                 unshown,
                 left,
                 unavailable,
-                farm.topic().repaired());
+                farm.topic.repaired());
     }
 
     @Override

@@ -51,8 +51,8 @@ final class Accounts {
 
     /** Of what was acknowledged in this time; what retention removes has been read before. */
     List<YearCheck> of(Span span, List<DayMission> missions) throws UnreadableException {
-        try (ReportLog log = new ReportLog(farm.up().kafka())) {
-            List<Report> acknowledged = farm.tap().acknowledged().entrySet().stream()
+        try (ReportLog log = new ReportLog(farm.up.kafka())) {
+            List<Report> acknowledged = farm.tap.acknowledged().entrySet().stream()
                     .filter(each -> each.getValue() >= span.from() && each.getValue() < span.until())
                     .map(Map.Entry::getKey)
                     .toList();
@@ -81,8 +81,7 @@ final class Accounts {
         List<String> inMongo = new ArrayList<>();
         int expected = 0;
         int unsynced = 0;
-        Map<String, Map<Report, Integer>> topics =
-                log.all(missions.stream().map(Accounts::topic).toList());
+        var topics = log.all(missions.stream().map(Accounts::topic).toList());
         try (MongoClient mongo = MongoClients.create(farm.mongo())) {
             for (DayMission mission : missions) {
                 Map<Report, Integer> topic = topics.get(topic(mission));
@@ -147,7 +146,7 @@ final class Accounts {
 
     /** Also what was stored when the answer to it was lost. */
     boolean isTaken(Report report) {
-        return farm.tap().acknowledged().containsKey(report) || raw.containsKey(report);
+        return farm.tap.acknowledged().containsKey(report) || raw.containsKey(report);
     }
 
     boolean isRepeated(Report report) {
@@ -156,6 +155,6 @@ final class Accounts {
 
     /** What was acknowledged by then is known as such. */
     void forget(long until) {
-        raw.keySet().removeIf(each -> farm.tap().acknowledged().getOrDefault(each, Long.MAX_VALUE) < until);
+        raw.keySet().removeIf(each -> farm.tap.acknowledged().getOrDefault(each, Long.MAX_VALUE) < until);
     }
 }

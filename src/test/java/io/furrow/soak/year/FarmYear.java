@@ -62,13 +62,13 @@ public final class FarmYear implements AutoCloseable {
         this.weeks = weeks;
         this.day = day;
         farm = new YearFarm(furrow, folder);
-        fleet = new YearFleet(farm.standIn().contextBroker());
+        fleet = new YearFleet(farm.standIn.contextBroker());
         plots = new Plots(farm);
         accounts = new Accounts(farm);
         results = new YearResults(farm, fleet, plots, accounts);
         silent = new SilentDevices(farm, fleet);
         replays = new YearReplays(farm);
-        power = new PowerCut(farm.data().resolve("kafka"), folder.resolve("cut"), new Random(SEED));
+        power = new PowerCut(farm.data.resolve("kafka"), folder.resolve("cut"), new Random(SEED));
     }
 
     /** Arguments: the checkout, a folder for data and logs, how many weeks, the seconds of a day. */
@@ -188,17 +188,17 @@ public final class FarmYear implements AutoCloseable {
         String end;
         if (week % WEEKS_OF_A_MONTH == 0) {
             power.copy();
-            farm.up().kill();
+            farm.up.kill();
             accounts.powerWasCut(System.currentTimeMillis());
             end = "power cut, %d partitions lost something".formatted(power.putBack());
         } else if (week % 2 == 0) {
-            farm.up().kill();
+            farm.up.kill();
             end = "kill -9";
         } else {
-            farm.up().close();
+            farm.up.close();
             end = "restart";
         }
-        start(farm.up()::start);
+        start(farm.up::start);
         String when = "week %d (%s)".formatted(week, end);
         add(silent.checkSilent("after the end of " + when, week));
         silent.end(week);
@@ -244,7 +244,7 @@ public final class FarmYear implements AutoCloseable {
             return;
         }
         List<String> devices = YearFleet.devices();
-        long millis = OpeningTime.millis(farm.up().dashboard(), devices);
+        long millis = OpeningTime.millis(farm.up.dashboard(), devices);
         verdicts.add(
                 "the page opens, week " + week,
                 "%d ms until %d devices are on map and cards".formatted(millis, devices.size()),
@@ -266,7 +266,7 @@ public final class FarmYear implements AutoCloseable {
         if (weeks < WEEKS_OF_A_MONTH) {
             return;
         }
-        try (ReportLog log = new ReportLog(farm.up().kafka())) {
+        try (ReportLog log = new ReportLog(farm.up.kafka())) {
             long removed = log.removed(Topics.RAW);
             verdicts.add(
                     "retention",

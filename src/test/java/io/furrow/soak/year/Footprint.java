@@ -10,23 +10,22 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.ExecutionException;
-import java.util.concurrent.TimeUnit;
 
 import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoClients;
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.TopicDescription;
 
+import io.furrow.process.TestProcess;
+
 /** What a suite holds: topics, partitions, collections, alarms, files, threads, heap after collection in MB, and how long its start took. */
 final class Footprint {
-    private static final long COMMAND_SECONDS = 60;
-
     private Footprint() {}
 
     static Map<String, Double> of(YearFarm farm, double startSeconds)
             throws IOException, InterruptedException, ExecutionException {
         Map<String, Double> all = new LinkedHashMap<>();
-        try (Admin admin = Admin.create(Map.of("bootstrap.servers", farm.up().kafka()))) {
+        try (Admin admin = Admin.create(Map.of("bootstrap.servers", farm.up.kafka()))) {
             Map<String, TopicDescription> topics = admin.describeTopics(
                             admin.listTopics().names().get())
                     .allTopicNames()
@@ -46,9 +45,9 @@ final class Footprint {
             all.put("collections", collections);
         }
         all.put("alarms", (double)
-                farm.up().get("/api/alarms?state=open&limit=10000").size());
-        all.put("files", files(farm.data()));
-        long pid = farm.up().javaProcess().pid();
+                farm.up.get("/api/alarms?state=open&limit=10000").size());
+        all.put("files", files(farm.data));
+        long pid = farm.up.javaProcess().pid();
         all.put("threads", (double)
                 Files.list(Path.of("/proc", Long.toString(pid), "task")).count());
         all.put("heap MB", heapMegabytes(pid));
@@ -87,16 +86,10 @@ final class Footprint {
     }
 
     private static List<String> output(String... command) throws IOException, InterruptedException {
-        Path output = Files.createTempFile("year", ".out");
-        Process process = new ProcessBuilder(command)
-                .redirectErrorStream(true)
-                .redirectOutput(output.toFile())
-                .start();
-        if (!process.waitFor(COMMAND_SECONDS, TimeUnit.SECONDS)) {
-            process.destroyForcibly();
-        }
-        List<String> lines = Files.readAllLines(output);
-        Files.delete(output);
-        return lines.stream().filter(line -> !line.isBlank()).toList();
+        return TestProcess.run(new ProcessBuilder(command))
+                .output()
+                .lines()
+                .filter(line -> !line.isBlank())
+                .toList();
     }
 }

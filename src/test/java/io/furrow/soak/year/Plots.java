@@ -106,7 +106,7 @@ final class Plots {
     YearCheck shown(String when) {
         Map<String, String> found = new TreeMap<>();
         for (JsonNode each :
-                farm.up().get("/api/fields?domain=" + FarmYear.DOMAIN).path("features")) {
+                farm.up.get("/api/fields?domain=" + FarmYear.DOMAIN).path("features")) {
             double south = south(each.at("/geometry/coordinates/0"));
             found.put(
                     each.path("id").asText(), shown(each.at("/properties/name").asText(), south));

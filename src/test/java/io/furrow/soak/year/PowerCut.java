@@ -7,7 +7,8 @@ import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
 import java.util.List;
 import java.util.Random;
-import java.util.stream.Stream;
+
+import io.furrow.files.Folders;
 
 /**
  * The end of a machine that loses power: of files that were not synced it keeps what was written until some moment of the last
@@ -64,19 +65,15 @@ final class PowerCut {
     }
 
     private static List<Path> partitions(Path folder) throws IOException {
-        try (Stream<Path> all = Files.list(folder)) {
-            return all.filter(Files::isDirectory)
-                    .filter(each -> SYNCED.stream()
-                            .noneMatch(synced -> each.getFileName().toString().startsWith(synced)))
-                    .filter(each -> !each.getFileName().toString().endsWith("-delete"))
-                    .toList();
-        }
+        return Folders.list(folder).stream().filter(Files::isDirectory)
+                .filter(each -> SYNCED.stream()
+                        .noneMatch(synced -> each.getFileName().toString().startsWith(synced)))
+                .filter(each -> !each.getFileName().toString().endsWith("-delete"))
+                .toList();
     }
 
     private static List<Path> logs(Path partition) throws IOException {
-        try (Stream<Path> files = Files.list(partition)) {
-            return files.filter(file -> file.getFileName().toString().endsWith(".log"))
-                    .toList();
-        }
+        return Folders.list(partition).stream().filter(file -> file.getFileName().toString().endsWith(".log"))
+                .toList();
     }
 }

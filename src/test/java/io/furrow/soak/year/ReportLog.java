@@ -4,31 +4,24 @@ import java.time.Duration;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
-import java.util.Properties;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.soak.CommittedState;
 import io.furrow.soak.year.Tap.Report;
 
 /** How often each report of a device is on a topic. */
 final class ReportLog implements AutoCloseable {
     private static final String END_OF_REPLAY = "urn:ngsi-ld:Replay:";
 
-    private final KafkaConsumer<byte[], byte[]> consumer;
+    private final KafkaConsumer<String, byte[]> consumer;
 
     ReportLog(String kafka) {
-        Properties settings = new Properties();
-        settings.setProperty("bootstrap.servers", kafka);
-        settings.setProperty("isolation.level", "read_committed");
-        settings.setProperty("auto.offset.reset", "earliest");
-        settings.setProperty("enable.auto.commit", "false");
-        settings.setProperty("allow.auto.create.topics", "false");
-        consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer());
+        consumer = CommittedState.consumer(kafka);
     }
 
     Map<Report, Integer> all(String topic) throws UnreadableException {
@@ -50,14 +43,13 @@ final class ReportLog implements AutoCloseable {
 
     private void read(List<String> topics, Map<TopicPartition, Long> read, Map<String, Map<Report, Integer>> into)
             throws UnreadableException {
-        List<TopicPartition> partitions =
-                topics.stream().flatMap(topic -> partitions(topic).stream()).toList();
+        List<TopicPartition> partitions = CommittedState.partitions(consumer, topics);
         consumer.assign(partitions);
         Map<TopicPartition, Long> begins = consumer.beginningOffsets(partitions);
         partitions.forEach(each -> consumer.seek(each, Math.max(begins.get(each), read.getOrDefault(each, 0L))));
         Map<TopicPartition, Long> ends = consumer.endOffsets(partitions);
         while (ends.entrySet().stream().anyMatch(end -> consumer.position(end.getKey()) < end.getValue())) {
-            for (ConsumerRecord<byte[], byte[]> record : consumer.poll(Duration.ofMillis(100))) {
+            for (ConsumerRecord<String, byte[]> record : consumer.poll(Duration.ofMillis(100))) {
                 Report report = record.value() == null
                         ? null
                         : Report.of(Entity.parse(record.value()).json());
@@ -69,15 +61,9 @@ final class ReportLog implements AutoCloseable {
         partitions.forEach(each -> read.put(each, consumer.position(each)));
     }
 
-    private List<TopicPartition> partitions(String topic) {
-        return consumer.partitionsFor(topic).stream()
-                .map(each -> new TopicPartition(topic, each.partition()))
-                .toList();
-    }
-
     /** How many records retention has removed from the beginning of a topic. */
     long removed(String topic) {
-        return consumer.beginningOffsets(partitions(topic)).values().stream()
+        return consumer.beginningOffsets(CommittedState.partitions(consumer, List.of(topic))).values().stream()
                 .mapToLong(Long::longValue)
                 .sum();
     }

@@ -74,7 +74,7 @@ final class SilentDevices {
     /** By kind, the devices of which there is an alarm. */
     private Map<String, String> open(int week) {
         Map<String, String> open = new TreeMap<>();
-        for (JsonNode alarm : farm.up().get("/api/alarms?limit=10000")) {
+        for (JsonNode alarm : farm.up.get("/api/alarms?limit=10000")) {
             if (!alarm.path("state").asText().equals("closed")
                     && alarm.path("subject").asText().equals("urn:ngsi-ld:Mission:" + mission(week))) {
                 open.put(

@@ -1,23 +1,20 @@
 package io.furrow.soak.year;
 
 import java.io.IOException;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.URI;
 import java.util.Map;
 import java.util.concurrent.ConcurrentHashMap;
-import java.util.concurrent.Executors;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.sun.net.httpserver.HttpExchange;
-import com.sun.net.httpserver.HttpServer;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.soak.control.Http;
+import io.furrow.stub.StubServer;
 
 /** Stands between the context broker and the listener for notifications, and remembers which reports were answered 2xx, and when. */
 final class Tap implements AutoCloseable {
-    private final HttpServer server;
+    private final StubServer server;
     private final Map<Report, Long> acknowledged = new ConcurrentHashMap<>();
 
     /** One report: an entity and the time that it bears, epoch ms. */
@@ -29,19 +26,12 @@ final class Tap implements AutoCloseable {
     }
 
     /** @param listener port of the suite's */
-    Tap(int listener) throws IOException {
-        server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        server.createContext("/", exchange -> pass(exchange, listener));
-        server.setExecutor(Executors.newCachedThreadPool(work -> {
-            Thread thread = new Thread(work, "tap");
-            thread.setDaemon(true);
-            return thread;
-        }));
-        server.start();
+    Tap(int listener) {
+        server = new StubServer(exchange -> pass(exchange, listener));
     }
 
     String publicUrl() {
-        return "http://127.0.0.1:" + server.getAddress().getPort() + "/v2/notify";
+        return server.uri("/v2/notify").toString();
     }
 
     private void pass(HttpExchange exchange, int listener) throws IOException {
@@ -79,6 +69,6 @@ final class Tap implements AutoCloseable {
 
     @Override
     public void close() {
-        server.stop(0);
+        server.close();
     }
 }

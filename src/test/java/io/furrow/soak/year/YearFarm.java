@@ -37,11 +37,13 @@ final class YearFarm implements AutoCloseable {
     /** Longer than the slowest week, so that what is looked at after it is still there. */
     private static final double RETENTION_WEEKS = 1.75;
 
-    private final Path data;
+    /** Of the suite. */
+    final Path data;
+
     private final MosquittoProcess mosquitto;
-    private final StandInProcess standIn;
-    private final UpProcess up;
-    private final Tap tap;
+    final StandInProcess standIn;
+    final UpProcess up;
+    final Tap tap;
     private final Set<String> retained = new HashSet<>();
     private long retentionMillis;
 
@@ -68,18 +70,6 @@ final class YearFarm implements AutoCloseable {
         mosquitto.start();
         standIn.start();
         up.start();
-    }
-
-    UpProcess up() {
-        return up;
-    }
-
-    StandInProcess standIn() {
-        return standIn;
-    }
-
-    Tap tap() {
-        return tap;
     }
 
     String mongo() {
@@ -157,11 +147,6 @@ final class YearFarm implements AutoCloseable {
 
     private Admin admin() {
         return Admin.create(Map.of("bootstrap.servers", up.kafka()));
-    }
-
-    /** Of the suite. */
-    Path data() {
-        return data;
     }
 
     @Override

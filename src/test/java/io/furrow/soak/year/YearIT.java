@@ -1,15 +1,16 @@
 package io.furrow.soak.year;
 
-import java.lang.management.ManagementFactory;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
-import java.util.stream.Stream;
 
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.launcher.Furrow;
+import io.furrow.process.TestProcess;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -34,21 +35,8 @@ class YearIT {
 
     /** The suite of this class path: {@code ./furrow} would build its own. */
     private List<String> furrow() {
-        Stream<String> opens = ManagementFactory.getRuntimeMXBean().getInputArguments().stream()
-                .filter(argument -> argument.startsWith("--add-"));
-        return Stream.of(
-                        Stream.of(Path.of(System.getProperty("java.home"), "bin", "java")
-                                .toString()),
-                        opens,
-                        Stream.of(
-                                "-Xmx1g",
-                                "-XX:+UseParallelGC",
-                                "-Dfurrow.plugins=" + System.getProperty("furrow.plugins"),
-                                "-Dfurrow.home=" + folder,
-                                "-cp",
-                                System.getProperty("java.class.path"),
-                                "io.furrow.launcher.Furrow"))
-                .flatMap(arguments -> arguments)
-                .toList();
+        String options = "-Xmx1g -XX:+UseParallelGC -Dfurrow.plugins=%s -Dfurrow.home=%s"
+                .formatted(System.getProperty("furrow.plugins"), folder);
+        return TestProcess.java(options, Furrow.class).command();
     }
 }

@@ -39,20 +39,20 @@ final class YearReplays {
         String path = "/api/replays/" + replay.path("replay").asText();
         String topic = replay.path("topic").asText();
         Until.within(
-                TIMEOUT, () -> farm.up().get(path).at("/status/state").asText().equals("ended"));
-        String state = farm.up().get(path).at("/status/state").asText();
+                TIMEOUT, () -> farm.up.get(path).at("/status/state").asText().equals("ended"));
+        String state = farm.up.get(path).at("/status/state").asText();
         Map<String, Integer> expected = new TreeMap<>();
         Map<String, Integer> found = new TreeMap<>();
         expected.put("ended", 1);
         found.put(state, 1);
-        try (ReportLog log = new ReportLog(farm.up().kafka())) {
+        try (ReportLog log = new ReportLog(farm.up.kafka())) {
             log.all(Topics.realtime(FarmYear.DOMAIN, mission))
                     .forEach((each, times) -> expected.put(each.toString(), 1));
             log.all(topic).forEach((each, times) -> found.put(each.toString(), times));
         }
         farm.request("DELETE", path, null);
         boolean deleted =
-                Until.within(TIMEOUT, () -> Http.get(farm.up().api(path)).status() == 404);
+                Until.within(TIMEOUT, () -> Http.get(farm.up.api(path)).status() == 404);
         if (!deleted) {
             found.put("not deleted: " + path, 1);
         }

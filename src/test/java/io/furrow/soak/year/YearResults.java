@@ -141,7 +141,7 @@ final class YearResults {
     }
 
     private List<Entity> read(String topic) throws UnreadableException {
-        try (TopicLog log = new TopicLog(farm.up().kafka(), topic)) {
+        try (TopicLog log = new TopicLog(farm.up.kafka(), topic)) {
             return log.read(QUIET);
         }
     }

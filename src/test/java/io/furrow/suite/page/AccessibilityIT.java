@@ -6,6 +6,7 @@ import java.util.stream.Stream;
 
 import com.deque.html.axecore.playwright.AxeBuilder;
 import com.deque.html.axecore.results.Rule;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
@@ -45,7 +46,7 @@ class AccessibilityIT {
                             .filter(rule -> SERIOUS.contains(rule.getImpact()))
                             .map(AccessibilityIT::arguments)
                             .toList();
-            org.assertj.core.api.Assertions.assertThat(findings).as(view).isEmpty();
+            Assertions.assertThat(findings).as(view).isEmpty();
         }
     }
 

@@ -1,19 +1,21 @@
 package io.furrow.suite.page;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.List;
 import java.util.concurrent.atomic.AtomicInteger;
+import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Route;
 import com.microsoft.playwright.assertions.LocatorAssertions;
 import com.microsoft.playwright.options.AriaRole;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** From an alarm to who takes care of it. */
 @PageTest
@@ -49,7 +51,7 @@ class AlarmsIT {
             acknowledged |= alarm.path("kind").asText().contains("suspect")
                     && alarm.path("state").asText().equals("acknowledged");
         }
-        org.assertj.core.api.Assertions.assertThat(acknowledged).isTrue();
+        Assertions.assertThat(acknowledged).isTrue();
     }
 
     @Tag("full")
@@ -69,8 +71,7 @@ class AlarmsIT {
     /** Its causes last as long as the farm runs, so this one is known to this window alone, and the answer is a stand-in's. */
     @Tag("full")
     @Test
-    void closesAnAlarm(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void closesAnAlarm(FarmPage farm) {
         farm.untilStore("store.alarmsLoaded");
         AtomicInteger requested = new AtomicInteger();
         farm.page().route("**/api/alarms/over-1/close", route -> {
@@ -80,14 +81,14 @@ class AlarmsIT {
         take(farm, "open");
         Locator row = rowOf(farm, "over-1");
         close(row);
-        farm.page().waitForCondition(() -> requested.get() == 1);
+        farm.until(() -> requested.get() == 1);
 
         take(farm, "closed");
         assertThat(row).hasCount(0);
     }
 
     private static void take(FarmPage farm, String state) {
-        farm.page().evaluate("""
+        farm.run("""
                         async (state) => {
                           const { store } = await import('/core/store.js');
                           store.applyAlarm({ key: 'over-1', value: { alarm: 'over-1', kind: 'silent-device', severity: 'minor', text: 'the pump is silent',
@@ -113,15 +114,13 @@ class AlarmsIT {
         int robot = meet(suite);
 
         assertThat(farm.find(ANNOUNCED)).containsText(ANNOUNCEMENT + robot, TIMEOUT);
-        assertThat(farm.find(".alarm-count"))
-                .hasAttribute("aria-label", java.util.regex.Pattern.compile("[1-9]\\d* open alarms"));
+        assertThat(farm.find(".alarm-count")).hasAttribute("aria-label", Pattern.compile("[1-9]\\d* open alarms"));
         forget(suite, robot);
     }
 
     @Tag("full")
     @Test
-    void findsAlarmsByWhatTheyReport(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void findsAlarmsByWhatTheyReport(FarmPage farm) {
         Locator open = farm.find("furrow-alarms > .alarm-list > li.alarm");
         farm.untilStore("[...store.alarms.values()].some((each) => each.state === 'open')");
         Locator search = farm.page().getByRole(AriaRole.SEARCHBOX);
@@ -137,7 +136,7 @@ class AlarmsIT {
     @Tag("full")
     @Test
     void notifiesOfANewAlarmWhileThePageIsHidden(PageSuite suite) throws Exception {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
+        FarmPage farm = suite.window();
         farm.page().context().grantPermissions(List.of("notifications"));
         farm.page().addInitScript("""
                 window.notified = [];
@@ -157,19 +156,16 @@ class AlarmsIT {
         int robot = meet(suite);
 
         assertThat(farm.find(ANNOUNCED)).containsText(ANNOUNCEMENT + robot, TIMEOUT);
-        org.assertj.core.api.Assertions.assertThat(farm.page().evaluate("notified.length"))
-                .isEqualTo(0);
+        Assertions.assertThat(farm.run("notified.length")).isEqualTo(0);
 
         farm.hide();
-        farm.page().waitForCondition(() -> sockets.get() == 1, FarmPage.TIMEOUT);
+        farm.until(() -> sockets.get() == 1, FarmPage.TIMEOUT);
         int other = meet(suite);
-        farm.page()
-                .waitForCondition(
-                        () -> Boolean.TRUE.equals(farm.page()
-                                .evaluate(
-                                        "(robot) => notified.some((each) => each.startsWith(`Furrow: critical alarm: Robot ${robot}`))",
-                                        other)),
-                        FarmPage.TIMEOUT);
+        farm.until(
+                () -> Boolean.TRUE.equals(farm.run(
+                        "(robot) => notified.some((each) => each.startsWith(`Furrow: critical alarm: Robot ${robot}`))",
+                        other)),
+                FarmPage.TIMEOUT);
         forget(suite, robot);
         forget(suite, other);
     }
@@ -183,7 +179,7 @@ class AlarmsIT {
             suite.produce("data.raw", id, """
                     {"id": "%s", "type": "Robot", "Time": {"type": "Number", "value": %d},
                      "Latitude": {"type": "Number", "value": %s}, "Longitude": {"type": "Number", "value": -3.4822}}""".formatted(id, Instant.now().toEpochMilli(), latitude)
-                    .getBytes(StandardCharsets.UTF_8));
+                    .getBytes(UTF_8));
         }
         return number;
     }

@@ -5,10 +5,12 @@ import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.options.BoundingBox;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.having;
 
 /** What analytics found, and the way from it to its moment. */
 @PageTest
@@ -21,13 +23,11 @@ class AnalysesIT {
         farm.find(".analysis.averages").getByText("Table").click();
 
         Locator rows = farm.find(".analysis.averages tbody tr");
-        assertThat(rows.filter(new Locator.FilterOptions().setHasText("Upper field"))
-                        .filter(new Locator.FilterOptions().setHasText("Thermometer 4"))
+        assertThat(rows.filter(having("Upper field"))
+                        .filter(having("Thermometer 4"))
                         .first())
                 .containsText("robust");
-        assertThat(rows.filter(new Locator.FilterOptions().setHasText("Mill field"))
-                        .first())
-                .containsText("unverified");
+        assertThat(rows.filter(having("Mill field")).first()).containsText("unverified");
     }
 
     @Test
@@ -35,7 +35,7 @@ class AnalysesIT {
         FarmPage farm = suite.open("#/analyses").expectingError(ReplaysIT.NO_RESULTS_YET);
         farm.untilStore("store.recordings.has('weeding')");
         Locator row = farm.find(".analysis.encounters tbody tr")
-                .filter(new Locator.FilterOptions().setHasText("ended"))
+                .filter(having("ended"))
                 .first();
         assertThat(row).containsText(Pattern.compile("3\\.\\d m"));
         row.getByText("To the moment").click();
@@ -50,7 +50,7 @@ class AnalysesIT {
         farm.find(".analysis.presence").getByText("Table").click();
 
         assertThat(farm.find(".analysis.presence tbody tr")
-                        .filter(new Locator.FilterOptions().setHasText("Robot 1"))
+                        .filter(having("Robot 1"))
                         .first())
                 .containsText("Upper field");
     }
@@ -62,7 +62,7 @@ class AnalysesIT {
         assertThat(averages.locator("canvas").first()).isVisible();
 
         // a suite that has just begun is not shown as an empty hour; a minute is the least
-        farm.page().waitForCondition(() -> Boolean.TRUE.equals(farm.page().evaluate("""
+        farm.until(() -> Boolean.TRUE.equals(farm.run("""
                 () => {
                   const { chart, findings } = document.querySelector('furrow-analyses');
                   const { min, max } = chart.plot.scales.x;
@@ -70,17 +70,15 @@ class AnalysesIT {
                 }""")));
         BoundingBox panel = averages.boundingBox();
         BoundingBox chart = averages.locator(".uplot").boundingBox();
-        org.assertj.core.api.Assertions.assertThat(panel.y + panel.height - chart.y - chart.height)
+        Assertions.assertThat(panel.y + panel.height - chart.y - chart.height)
                 .as("px below the chart")
                 .isLessThan(20);
     }
 
     @Test
-    void drawsStaysWhereTheAxisHasThem(PageSuite suite) {
-        FarmPage farm = suite.open("");
-
+    void drawsStaysWhereTheAxisHasThem(FarmPage farm) {
         // the axis grows to the right, and in a replay an open stay on an axis that does not
-        Object widths = farm.page().evaluate("""
+        Object widths = farm.run("""
                 async () => {
                   const { store } = await import('/core/store.js');
                   const { PresenceBars } = await import('/views/analyses/presence.js');
@@ -100,7 +98,7 @@ class AnalysesIT {
                   return [...live, ...replayed].map(Math.round).join();
                 }""");
 
-        org.assertj.core.api.Assertions.assertThat(widths).isEqualTo("50,25,25,50");
+        Assertions.assertThat(widths).isEqualTo("50,25,25,50");
     }
 
     @Test
@@ -112,10 +110,10 @@ class AnalysesIT {
 
         moment.scrollIntoViewIfNeeded();
         BoundingBox button = moment.boundingBox();
-        org.assertj.core.api.Assertions.assertThat(button.x).isPositive();
-        org.assertj.core.api.Assertions.assertThat(button.x + button.width).isLessThan(WindowStyle.PHONE.width());
+        Assertions.assertThat(button.x).isPositive();
+        Assertions.assertThat(button.x + button.width).isLessThan(WindowStyle.PHONE.width());
         for (String part : List.of(".encounter-frame", ".gantt-name", ".chart-legend")) {
-            org.assertj.core.api.Assertions.assertThat(farm.find(part)
+            Assertions.assertThat(farm.find(part)
                             .evaluateAll("(all) => all.filter((each) => each.scrollWidth > each.clientWidth).length"))
                     .as(part + " that are cut")
                     .isEqualTo(0);

@@ -1,6 +1,5 @@
 package io.furrow.suite.page;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.regex.Pattern;
 
@@ -9,10 +8,14 @@ import com.microsoft.playwright.Route;
 import com.microsoft.playwright.assertions.LocatorAssertions;
 import com.microsoft.playwright.options.AriaRole;
 import com.microsoft.playwright.options.BoundingBox;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.ATTRIBUTES;
+import static io.furrow.suite.page.FarmPage.EXACTLY;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** What a card says of its device, and what it does to it. */
 @PageTest
@@ -24,12 +27,10 @@ class CardsIT {
 
     @Tag("full")
     @Test
-    void showsTheAttributesOfAnEntityWhateverTheyAre(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void showsTheAttributesOfAnEntityWhateverTheyAre(FarmPage farm) {
         Locator card = farm.card(STATION);
         assertThat(card).containsText("°C");
-        card.getByRole(AriaRole.BUTTON, new Locator.GetByRoleOptions().setName("All attributes of"))
-                .click();
+        card.getByRole(AriaRole.BUTTON, ATTRIBUTES).click();
 
         for (String attribute : new String[] {"WindSpeed", "WindDirection", "Pressure", "SolarRadiation", "Humidity"}) {
             assertThat(card.locator(".attributes")).containsText(attribute);
@@ -39,8 +40,7 @@ class CardsIT {
 
     @Tag("full")
     @Test
-    void reportsHowADeviceIsConnected(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void reportsHowADeviceIsConnected(FarmPage farm) {
         farm.page()
                 .route("**/api/devices/*Thermometer*", route -> route.fulfill(new Route.FulfillOptions().setBody("""
                 {"connection": {
@@ -49,8 +49,7 @@ class CardsIT {
                   "lastReport": {"time": 1795705070000, "received": 1795705069000, "offset": -1000},
                   "registered": false}}""")));
         Locator card = farm.card(DEFECTIVE);
-        card.getByRole(AriaRole.BUTTON, new Locator.GetByRoleOptions().setName("All attributes of"))
-                .click();
+        card.getByRole(AriaRole.BUTTON, ATTRIBUTES).click();
 
         assertThat(card.locator(".connection")).containsText(new Pattern[] {
             Pattern.compile("its clock is 1.0 s ahead"),
@@ -60,8 +59,7 @@ class CardsIT {
         });
 
         Locator station = farm.card(STATION);
-        station.getByRole(AriaRole.BUTTON, new Locator.GetByRoleOptions().setName("All attributes of"))
-                .click();
+        station.getByRole(AriaRole.BUTTON, ATTRIBUTES).click();
         assertThat(station.locator(".connection").first()).containsText("Last report of");
         assertThat(station.locator(".card-details")).containsText("Connected to the MQTT broker at");
     }
@@ -69,8 +67,7 @@ class CardsIT {
     /** {@code data.latest} is behind {@code data.raw}, by a checkpoint where it is written exactly once. */
     @Tag("full")
     @Test
-    void showsWhatWasReportedBeforeThePageWasOpenedAndIsNotMergedYet(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void showsWhatWasReportedBeforeThePageWasOpenedAndIsNotMergedYet(FarmPage farm) {
         farm.untilStore("store.pastLoaded");
         farm.store("""
                 store.applyPast([21.5, 22.5].map((value, index) => ({
@@ -87,8 +84,7 @@ class CardsIT {
 
     @Tag("full")
     @Test
-    void takesOfALateReportWhatIsNotKnownNewerAndEachCommandState(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void takesOfALateReportWhatIsNotKnownNewerAndEachCommandState(FarmPage farm) {
         farm.untilStore("store.primed");
         Object taken = farm.store("""
                 (() => {
@@ -105,14 +101,12 @@ class CardsIT {
                   return [...['speed', 'battery', 'cmd_status', 'constructor'].map((name) => attributes[name].value), position.join(), word].join(' ');
                 })()""");
 
-        org.assertj.core.api.Assertions.assertThat(taken).isEqualTo("2 0.4 OK 5 -3.48,40.31 Running");
+        Assertions.assertThat(taken).isEqualTo("2 0.4 OK 5 -3.48,40.31 Running");
     }
 
     @Tag("full")
     @Test
-    void findsOutTheDefectiveThermometerAndPutsItFirst(PageSuite suite) {
-        FarmPage farm = suite.open("");
-
+    void findsOutTheDefectiveThermometerAndPutsItFirst(FarmPage farm) {
         assertThat(farm.card(DEFECTIVE)).containsText("suspect");
         assertThat(farm.card(DEFECTIVE)).containsText("40.5 °C");
         assertThat(farm.card(DEFECTIVE)).containsText("Field mean");
@@ -122,26 +116,23 @@ class CardsIT {
 
     @Tag("full")
     @Test
-    void showsTheStoredPictureOfACamera(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void showsTheStoredPictureOfACamera(FarmPage farm) {
         farm.card(CAMERA).scrollIntoViewIfNeeded();
         Locator picture = farm.card(CAMERA).locator("img");
 
         assertThat(picture).isVisible();
-        farm.page()
-                .waitForCondition(() -> ((Number) picture.evaluate("(image) => image.naturalWidth")).intValue() == 320);
+        farm.until(() -> ((Number) picture.evaluate("(image) => image.naturalWidth")).intValue() == 320);
         assertThat(farm.card(CAMERA)).containsText("Picture of");
     }
 
     @Test
-    void sendsACommandAndReportsWhatBecameOfIt(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void sendsACommandAndReportsWhatBecameOfIt(FarmPage farm) {
         Locator card = farm.card(ROBOT);
-        card.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
+        card.getByText("Stop", EXACTLY).click();
 
         assertThat(card.locator(".card-outcome")).containsText("✓ Stop");
         assertThat(card.locator(".card-facts")).containsText("Stopped");
-        card.getByText("Resume", new Locator.GetByTextOptions().setExact(true)).click();
+        card.getByText("Resume", EXACTLY).click();
         assertThat(card.locator(".card-outcome")).containsText("✓ Resume");
         assertThat(card.locator(".card-facts")).containsText("Running");
     }
@@ -154,7 +145,7 @@ class CardsIT {
         suite.produce("data.raw", lost, robot(lost, "Running", Instant.now()));
         FarmPage farm = suite.open("").expectingError("status of 404.*commands");
         Locator card = farm.card(lost);
-        card.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
+        card.getByText("Stop", EXACTLY).click();
 
         assertThat(card.locator(".card-outcome")).containsText("Stop was not sent:");
         suite.forget(lost);
@@ -175,8 +166,7 @@ class CardsIT {
 
     @Tag("full")
     @Test
-    void searchesFromTheKeyboard(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void searchesFromTheKeyboard(FarmPage farm) {
         assertThat(farm.card(STATION)).isAttached();
         farm.find("body").press("/");
         farm.page().keyboard().type("robot 2");
@@ -189,8 +179,7 @@ class CardsIT {
 
     @Tag("full")
     @Test
-    void showsOneKindOnly(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void showsOneKindOnly(FarmPage farm) {
         farm.find("furrow-cards .chip[data-key=camera]").click();
 
         assertThat(farm.find("furrow-cards li.card.device")).hasCount(2);
@@ -200,8 +189,7 @@ class CardsIT {
     /** One time for all charts, and for the timeline. */
     @Tag("full")
     @Test
-    void sharesTheCursorOfCharts(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void sharesTheCursorOfCharts(FarmPage farm) {
         farm.untilStore("(store.entities.get('" + DEFECTIVE + "')?.series.get('Temperature')?.length ?? 0) > 8"
                 + " && (store.entities.get('urn:ngsi-ld:Robot:1')?.series.get('speed')?.length ?? 0) > 16");
         // A chart holds a number of points, not a period: at the right edge all charts have one.
@@ -211,7 +199,7 @@ class CardsIT {
         int[] moves = {0};
 
         // An alarm that comes now moves the chart from under the pointer.
-        farm.page().waitForCondition(() -> {
+        farm.until(() -> {
             chart.hover(new Locator.HoverOptions().setPosition(box.width - 2 - moves[0]++ % 2, box.height / 2));
             return hasCursor(farm, DEFECTIVE)
                     && hasCursor(farm, "urn:ngsi-ld:Robot:1")
@@ -227,6 +215,6 @@ class CardsIT {
         return """
                 {"id": "%s", "type": "ROBOT", "Domain": {"type": "String", "value": "farm"}, "Time": {"type": "Integer", "value": %d},
                  "Latitude": {"type": "Float", "value": 40.3125}, "Longitude": {"type": "Float", "value": -3.4822},
-                 "state": {"type": "String", "value": "%s"}, "cmd": {"type": "String", "value": ""}}""".formatted(id, time.toEpochMilli(), state).getBytes(StandardCharsets.UTF_8);
+                 "state": {"type": "String", "value": "%s"}, "cmd": {"type": "String", "value": ""}}""".formatted(id, time.toEpochMilli(), state).getBytes(UTF_8);
     }
 }

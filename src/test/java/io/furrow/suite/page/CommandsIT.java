@@ -11,6 +11,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.EXACTLY;
 import static org.awaitility.Awaitility.await;
 
 /** What a card says of a command to a robot that reports by itself, by what the robot then reports. */
@@ -42,9 +43,7 @@ class CommandsIT {
         farm = suite.open("");
         farm.untilStore("store.devices.has('" + ROBOT + "')");
         outcome = farm.card(ROBOT).locator(".card-outcome");
-        farm.card(ROBOT)
-                .getByText("Stop", new Locator.GetByTextOptions().setExact(true))
-                .click();
+        farm.card(ROBOT).getByText("Stop", EXACTLY).click();
         assertThat(outcome).containsText("no answer yet");
         farm.untilStore("store.entities.get('" + ROBOT + "').attributes.cmd.value === 'Stop'");
     }

@@ -28,9 +28,7 @@ class DeviceCheckIT {
                 .map(([id, position]) => [id, { position, time: ['silent', 'off'].includes(id) ? 1 : 999999000, attributes: { battery: { value: 90 } } }])) }""";
 
     @Test
-    void reportsWhatIsMissingOfEachDevice(PageSuite suite) {
-        FarmPage farm = suite.open("");
-
+    void reportsWhatIsMissingOfEachDevice(FarmPage farm) {
         assertThat(check(farm, "['fit', 'silent', 'low', 'used', 'free', 'hole', 'far', 'never-heard-of']"))
                 .containsExactly(
                         "fit ok [seen, battery, inside]",
@@ -44,9 +42,7 @@ class DeviceCheckIT {
     }
 
     @Test
-    void findsDevicesThatTheHostSwitchesOnAndThoseYetToBeMade(PageSuite suite) {
-        FarmPage farm = suite.open("");
-
+    void findsDevicesThatTheHostSwitchesOnAndThoseYetToBeMade(FarmPage farm) {
         assertThat(check(farm, """
                 [{ id: 'off', type: 'T' }, { type: 'Thermometer', count: 3, path: [[1.5, 1.5]] }, { type: 'Robot', count: 1, path: [[5, 5]] }, \
                 { type: 'Camera', count: 1, area: 'f' }, { type: 'Camera', count: 1, area: 'gone' }]"""))
@@ -61,11 +57,10 @@ class DeviceCheckIT {
     @SuppressWarnings("unchecked")
     private static List<String> check(FarmPage farm, String groups) {
         List<Map<String, Object>> checked = (List<Map<String, Object>>)
-                farm.page()
-                        .evaluate(
-                                "async () => { const { checkPlan } = await import('/views/missions/check.js'); return checkPlan("
-                                        + groups + ", 'farm', " + KNOWN
-                                        + ").map((each) => ({ said: `${each.name} ${each.worst} [${each.findings.map((finding) => finding.text).join(', ')}]` })); }");
+                farm.run(
+                        "async () => { const { checkPlan } = await import('/views/missions/check.js'); return checkPlan("
+                                + groups + ", 'farm', " + KNOWN
+                                + ").map((each) => ({ said: `${each.name} ${each.worst} [${each.findings.map((finding) => finding.text).join(', ')}]` })); }");
         return checked.stream().map(each -> (String) each.get("said")).toList();
     }
 }

@@ -10,6 +10,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.having;
 
 /** What the page says where there is nothing yet, and before it knows what there is. */
 @PageTest
@@ -69,13 +70,13 @@ class EmptyFarmIT {
             farm.go(place);
             Locator skeleton = farm.find("furrow-" + place.toLowerCase(java.util.Locale.ROOT) + " .skeleton");
             assertThat(skeleton.first()).isVisible();
-            assertThat(farm.find(".view-place .empty:visible").filter(new Locator.FilterOptions().setHasText("yet")))
+            assertThat(farm.find(".view-place .empty:visible").filter(having("yet")))
                     .hasCount(0);
         }
     }
 
     private static FarmPage window(PageSuite suite) {
-        return suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
+        return suite.window();
     }
 
     private static void tab(FarmPage farm, String name) {

@@ -4,6 +4,7 @@ import java.net.URI;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.function.BooleanSupplier;
 import java.util.regex.Pattern;
 
 import com.google.gson.JsonObject;
@@ -23,6 +24,9 @@ final class FarmPage implements AutoCloseable {
 
     /** How many times as much a page may hold after five minutes as after one. */
     static final double HEAP_GROWTH = 1.1;
+
+    static final Locator.GetByTextOptions EXACTLY = new Locator.GetByTextOptions().setExact(true);
+    static final Locator.GetByRoleOptions ATTRIBUTES = new Locator.GetByRoleOptions().setName("All attributes of");
 
     private static final int HEAP_COLLECTIONS = 8;
     private static final int HEAP_COLLECTION_MILLIS = 250;
@@ -69,6 +73,35 @@ final class FarmPage implements AutoCloseable {
 
     Page page() {
         return page;
+    }
+
+    /** The value of an expression or function of JavaScript. */
+    Object run(String script) {
+        return page.evaluate(script);
+    }
+
+    Object run(String script, Object argument) {
+        return page.evaluate(script, argument);
+    }
+
+    boolean is(String script) {
+        return Boolean.TRUE.equals(run(script));
+    }
+
+    double number(String script) {
+        return ((Number) run(script)).doubleValue();
+    }
+
+    void until(BooleanSupplier condition) {
+        page.waitForCondition(condition);
+    }
+
+    void until(BooleanSupplier condition, Page.WaitForConditionOptions options) {
+        page.waitForCondition(condition, options);
+    }
+
+    static Locator.FilterOptions having(String text) {
+        return new Locator.FilterOptions().setHasText(text);
     }
 
     Locator find(String selector) {

@@ -1,5 +1,6 @@
 package io.furrow.suite.page;
 
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
@@ -10,9 +11,7 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 @Tag("full")
 class FrameIT {
     @Test
-    void opensOnTheMapAndReportsThatWhatIsShownIsLive(PageSuite suite) {
-        FarmPage farm = suite.open("");
-
+    void opensOnTheMapAndReportsThatWhatIsShownIsLive(FarmPage farm) {
         assertThat(farm.page()).hasTitle("Furrow");
         assertThat(farm.find(".mode")).hasText("Live");
         assertThat(farm.find("furrow-map canvas").first()).isVisible();
@@ -22,15 +21,12 @@ class FrameIT {
     @Test
     void reportsWhatThePolicyForbidsAndWhatNobodyCaught(PageSuite suite) {
         FarmPage farm = suite.open("").expectingError(".");
-        farm.page()
-                .evaluate(
-                        "() => { setTimeout(() => { throw new Error('thrown by a test'); });"
-                                + " const script = document.createElement('script'); script.textContent = 'window.ran = true'; document.body.append(script); }");
+        farm.run(
+                "() => { setTimeout(() => { throw new Error('thrown by a test'); });"
+                        + " const script = document.createElement('script'); script.textContent = 'window.ran = true'; document.body.append(script); }");
 
-        farm.page()
-                .waitForCondition(() -> farm.allErrors().stream().anyMatch(error -> error.contains("thrown by a test"))
-                        && farm.allErrors().stream().anyMatch(error -> error.contains("policy forbids script-src")));
-        org.assertj.core.api.Assertions.assertThat(farm.page().evaluate("window.ran"))
-                .isNull();
+        farm.until(() -> farm.allErrors().stream().anyMatch(error -> error.contains("thrown by a test"))
+                && farm.allErrors().stream().anyMatch(error -> error.contains("policy forbids script-src")));
+        Assertions.assertThat(farm.run("window.ran")).isNull();
     }
 }

@@ -14,8 +14,7 @@ class HeapIT {
     private static final int DEVICES = 400;
 
     @Test
-    void holdsNoMoreAfterFiveMinutesThanAfterOne(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void holdsNoMoreAfterFiveMinutesThanAfterOne(FarmPage farm) {
         // what is read once is no growth: the past of the devices, lists, alarms, and the first results of analytics
         farm.untilStore(
                 "store.primed && store.pastLoaded && store.alarmsLoaded && store.recordings.size > 0 && store.averages.size > 0"
@@ -31,7 +30,7 @@ class HeapIT {
 
     /** Each device once for each second of a time that passes faster; the page draws in between. */
     private static void report(FarmPage farm, int from, int to) {
-        farm.page().evaluate("""
+        farm.run("""
                 async ({ devices, from, to }) => {
                   const { store } = await import('/core/store.js');
                   window.reportsBegan ??= Date.now() - 300_000;

@@ -17,7 +17,7 @@ class HiddenIT {
 
     @Test
     void letsGoOfEverythingAndComesBack(PageSuite suite) {
-        FarmPage hidden = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
+        FarmPage hidden = suite.window();
         AtomicInteger sockets = new AtomicInteger();
         List<String> requests = new CopyOnWriteArrayList<>();
         hidden.page().onRequest(request -> requests.add(request.url()));

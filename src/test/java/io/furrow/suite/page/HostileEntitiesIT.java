@@ -1,19 +1,21 @@
 package io.furrow.suite.page;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 
-import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.options.AriaRole;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.ngsi.NgsiJson;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.ATTRIBUTES;
+import static io.furrow.suite.page.FarmPage.having;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** What anybody could write to Kafka: shown as text or cut, never run, and the page lives on. */
 @PageTest
@@ -25,18 +27,17 @@ class HostileEntitiesIT {
     void showsHtmlAsText(PageSuite suite) throws Exception {
         String id = "urn:ngsi-ld:Thermometer:<b>" + SCRIPT;
         ObjectNode entity = entity(id, "<i>Thermometer" + SCRIPT);
-        attribute(entity, "Temperature", NgsiJson.mapper().valueToTree(21.5));
-        attribute(entity, SCRIPT, NgsiJson.mapper().valueToTree(SCRIPT));
-        attribute(entity, "name", NgsiJson.mapper().valueToTree("Malice " + SCRIPT));
-        attribute(entity, "Domain", NgsiJson.mapper().valueToTree(SCRIPT));
-        attribute(entity, "status", NgsiJson.mapper().valueToTree(SCRIPT));
+        attribute(entity, "Temperature", 21.5);
+        attribute(entity, SCRIPT, SCRIPT);
+        attribute(entity, "name", "Malice " + SCRIPT);
+        attribute(entity, "Domain", SCRIPT);
+        attribute(entity, "status", SCRIPT);
         suite.produce("data.raw", id, NgsiJson.write(entity));
 
         FarmPage farm = suite.open("");
-        Locator card = farm.find("furrow-cards li.card").filter(new Locator.FilterOptions().setHasText("Malice"));
+        Locator card = farm.find("furrow-cards li.card").filter(having("Malice"));
         assertThat(card.locator("h3")).containsText("<img src=x onerror");
-        card.getByRole(AriaRole.BUTTON, new Locator.GetByRoleOptions().setName("All attributes of"))
-                .click();
+        card.getByRole(AriaRole.BUTTON, ATTRIBUTES).click();
         assertThat(card.locator(".attributes")).containsText("<script>window.ran = true</script>");
         farm.button("The map as a table").click();
         assertThat(farm.find(".map-table")).containsText("Malice <img");
@@ -52,14 +53,13 @@ class HostileEntitiesIT {
         String id = "urn:ngsi-ld:Thermometer:wide";
         ObjectNode entity = entity(id, "Thermometer");
         for (int number = 0; number < 10_000; number++) {
-            attribute(entity, "a" + number, NgsiJson.mapper().valueToTree(number));
+            attribute(entity, "a" + number, number);
         }
         suite.produce("data.raw", id, NgsiJson.write(entity));
 
         FarmPage farm = suite.open("");
         Locator card = farm.card(id);
-        card.getByRole(AriaRole.BUTTON, new Locator.GetByRoleOptions().setName("All attributes of"))
-                .click();
+        card.getByRole(AriaRole.BUTTON, ATTRIBUTES).click();
         assertThat(card).containsText("more attributes are not shown");
         alive(farm);
         suite.forget(id);
@@ -69,7 +69,7 @@ class HostileEntitiesIT {
     void reportsThatAValueIsTooLarge(PageSuite suite) throws Exception {
         String id = "urn:ngsi-ld:Thermometer:long";
         ObjectNode entity = entity(id, "Thermometer");
-        attribute(entity, "Note", NgsiJson.mapper().valueToTree("x".repeat(5_000_000)));
+        attribute(entity, "Note", "x".repeat(5_000_000));
         suite.produce("data.raw", id, NgsiJson.write(entity));
 
         FarmPage farm = suite.open("");
@@ -87,7 +87,7 @@ class HostileEntitiesIT {
             suite.produce("data.raw", id, """
                     {"id": "%s", "type": "Thermometer", "Time": {"type": "Integer", "value": %d}, "Temperature": {"type": "Float", "value": 1e308},
                      "Longitude": {"type": "Float", "value": %s}, "Latitude": {"type": "Float", "value": %s}}""".formatted(id, Instant.now().toEpochMilli(), place[0], place[1])
-                    .getBytes(StandardCharsets.UTF_8));
+                    .getBytes(UTF_8));
         }
 
         FarmPage farm = suite.open("");
@@ -103,21 +103,16 @@ class HostileEntitiesIT {
     @Test
     void livesOnAfterWhatIsNoEntity(PageSuite suite) throws Exception {
         for (String value : new String[] {
-            "no JSON",
-            "[]",
-            "5",
-            "\"text\"",
-            "{}",
-            "{\"id\": 5}",
-            "{\"id\": {\"a\": 1}, \"type\": []}",
-            "{\"id\": \"__proto__\", \"type\": \"constructor\"}"
+            "no JSON", "[]", "5",
+            "\"text\"", "{}", "{\"id\": 5}",
+            "{\"id\": {\"a\": 1}, \"type\": []}", "{\"id\": \"__proto__\", \"type\": \"constructor\"}"
         }) {
-            suite.produce("data.raw", "odd", value.getBytes(StandardCharsets.UTF_8));
+            suite.produce("data.raw", "odd", value.getBytes(UTF_8));
         }
 
         FarmPage farm = suite.open("");
         for (String value : new String[] {"no JSON", "[]", "5", "{}"}) {
-            suite.produce("data.raw", "odd", value.getBytes(StandardCharsets.UTF_8));
+            suite.produce("data.raw", "odd", value.getBytes(UTF_8));
         }
         alive(farm);
         suite.forget("odd");
@@ -129,22 +124,21 @@ class HostileEntitiesIT {
         long now = System.currentTimeMillis();
         farm.untilStore("store.entities.get('urn:ngsi-ld:Robot:1')?.time > " + now);
         assertThat(farm.card("urn:ngsi-ld:Robot:1")).containsText("m/s");
-        org.assertj.core.api.Assertions.assertThat(farm.page().evaluate("window.ran"))
-                .isNull();
-        org.assertj.core.api.Assertions.assertThat(
-                        farm.find("img[src=x], [onerror]").count())
-                .isZero();
+        Assertions.assertThat(farm.run("window.ran")).isNull();
+        Assertions.assertThat(farm.find("img[src=x], [onerror]").count()).isZero();
     }
 
     private static ObjectNode entity(String id, String type) {
         ObjectNode entity = JsonNodeFactory.instance.objectNode().put("id", id).put("type", type);
-        attribute(entity, "Time", NgsiJson.mapper().valueToTree(Instant.now().toEpochMilli()));
-        attribute(entity, "Latitude", NgsiJson.mapper().valueToTree(40.3124));
-        attribute(entity, "Longitude", NgsiJson.mapper().valueToTree(-3.4830));
+        attribute(entity, "Time", Instant.now().toEpochMilli());
+        attribute(entity, "Latitude", 40.3124);
+        attribute(entity, "Longitude", -3.4830);
         return entity;
     }
 
-    private static void attribute(ObjectNode entity, String name, JsonNode value) {
-        entity.putObject(name).put("type", value.isNumber() ? "Float" : "Text").set("value", value);
+    private static void attribute(ObjectNode entity, String name, Object value) {
+        entity.putObject(name)
+                .put("type", value instanceof Number ? "Float" : "Text")
+                .putPOJO("value", value);
     }
 }

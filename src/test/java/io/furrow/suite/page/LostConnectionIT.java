@@ -12,6 +12,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.microsoft.playwright.Route;
 import com.microsoft.playwright.WebSocketRoute;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
@@ -39,7 +40,7 @@ class LostConnectionIT {
         assertThat(farm.card("urn:ngsi-ld:Robot:1")).isVisible();
 
         try (Dashboard again = suite.ownDashboard(port)) {
-            org.assertj.core.api.Assertions.assertThat(again.uri()).hasPort(port);
+            Assertions.assertThat(again.uri()).hasPort(port);
             assertThat(farm.find(".notice"))
                     .hasText(Pattern.compile("^The connection was away from [\\d:]{8} to [\\d:]{8}\\."));
             assertThat(farm.find(".notice")).isHidden();
@@ -52,8 +53,7 @@ class LostConnectionIT {
     @Test
     void countsWhatItMissed(PageSuite suite) {
         FarmPage other = suite.open("");
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP)
-                .expectingError("ERR_FAILED|Failed to load resource");
+        FarmPage farm = suite.window().expectingError("ERR_FAILED|Failed to load resource");
         farm.page().addInitScript("""
                 window.sockets = [];
                 window.WebSocket = class extends WebSocket {
@@ -66,7 +66,7 @@ class LostConnectionIT {
         farm.untilStore(COLLISIONS + ".count > 0");
 
         farm.page().route("**/api/register/**", Route::abort);
-        farm.page().evaluate("sockets.forEach((socket) => socket.close())");
+        farm.run("sockets.forEach((socket) => socket.close())");
         assertThat(farm.find(".notice")).containsText("trying again");
         int previous = (int) other.store(COLLISIONS + ".count");
         other.untilStore(COLLISIONS + ".count > " + (previous + 2));
@@ -106,7 +106,7 @@ class LostConnectionIT {
     }
 
     @Test
-    void readsWhatAnalyticsFoundMeanwhile(PageSuite suite) {
+    void readsWhatAnalyticsFoundMeanwhile(PageSuite suite) throws Exception {
         Map<String, String> found = new HashMap<>();
         List<WebSocketRoute> open = new ArrayList<>();
         FarmPage farm = onStandIns(suite, Map.of(), open);
@@ -121,59 +121,16 @@ class LostConnectionIT {
         for (String part : parts) {
             assertThat(farm.find(".analysis." + part + " .empty")).isVisible();
         }
-        farm.page()
-                .waitForCondition(
-                        () -> Boolean.TRUE.equals(
-                                farm.page()
-                                        .evaluate(
-                                                "document.querySelector('furrow-analyses').findings.streams.every((each) => each.state === 'open')")));
+        farm.until(() -> farm.is(
+                "document.querySelector('furrow-analyses').findings.streams.every((each) => each.state === 'open')"));
 
         long now = System.currentTimeMillis();
-        found.put(
-                "data.temperature",
-                result(
-                        "Analytics:FieldTemperature",
-                        Map.of(
-                                "field",
-                                "north",
-                                "averageTemperature",
-                                21.5,
-                                "windowStart",
-                                now - 10_000,
-                                "windowEnd",
-                                now)));
-        found.put(
-                "data.collision",
-                result(
-                        "Analytics:Collision",
-                        Map.of(
-                                "phase",
-                                "ended",
-                                "Device1_ID",
-                                "a",
-                                "Device2_ID",
-                                "b",
-                                "minDistance",
-                                2,
-                                "startTime",
-                                now - 5_000,
-                                "time",
-                                now)));
-        found.put(
-                "data.presence",
-                result(
-                        "Analytics:Presence",
-                        Map.of(
-                                "stay",
-                                "s",
-                                "device",
-                                "a",
-                                "field",
-                                "north",
-                                "phase",
-                                "entered",
-                                "startTime",
-                                now - 5_000)));
+        found.put("data.temperature", result("Analytics:FieldTemperature", """
+                {"field": "north", "averageTemperature": 21.5, "windowStart": %d, "windowEnd": %d}""", now - 10_000, now));
+        found.put("data.collision", result("Analytics:Collision", """
+                {"phase": "ended", "Device1_ID": "a", "Device2_ID": "b", "minDistance": 2, "startTime": %d, "time": %d}""", now - 5_000, now));
+        found.put("data.presence", result("Analytics:Presence", """
+                {"stay": "s", "device": "a", "field": "north", "phase": "entered", "startTime": %d}""", now - 5_000));
         List.copyOf(open).forEach(WebSocketRoute::close);
 
         for (String part : parts) {
@@ -184,7 +141,7 @@ class LostConnectionIT {
 
     /** A window whose streams and answers are a stand-in's: each stream begins with what is known of its topic by then. */
     private static FarmPage onStandIns(PageSuite suite, Map<String, List<String>> previous, List<WebSocketRoute> open) {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
+        FarmPage farm = suite.window();
         farm.page().route("**/api/**", EmptyFarmIT::answerWithNothing);
         farm.page()
                 .route(
@@ -250,10 +207,12 @@ class LostConnectionIT {
                 {"kind": "%s", "key": "%s", "time": %d, "headers": {}, "value": %s}""".formatted(kind, key, time, value);
     }
 
-    private static String result(String type, Map<String, Object> attributes) {
+    private static String result(String type, String attributes, Object... times) throws Exception {
         ObjectNode value = JsonNodeFactory.instance.objectNode().put("type", type);
-        attributes.forEach((name, each) ->
-                value.putObject(name).set("value", NgsiJson.mapper().valueToTree(each)));
+        NgsiJson.mapper()
+                .readTree(attributes.formatted(times))
+                .properties()
+                .forEach(each -> value.putObject(each.getKey()).set("value", each.getValue()));
         return record("event", "any", System.currentTimeMillis(), value.toString());
     }
 }

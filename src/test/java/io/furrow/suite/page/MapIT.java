@@ -1,13 +1,18 @@
 package io.furrow.suite.page;
 
+import java.util.regex.Pattern;
+
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Page;
 import com.microsoft.playwright.assertions.LocatorAssertions;
 import com.microsoft.playwright.options.AriaRole;
+import com.microsoft.playwright.options.BoundingBox;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.having;
 
 /** From the map to a device and back. */
 @PageTest
@@ -20,56 +25,44 @@ class MapIT {
     private static final int WARNING = 0xFFC14D;
 
     @Test
-    void drawsTheFieldsAndEveryDevice(PageSuite suite) {
-        FarmPage farm = suite.open("");
-
+    void drawsTheFieldsAndEveryDevice(FarmPage farm) {
         farm.untilStore("store.fields.size === 4 && store.entities.size >= 17"
                 + " && ['field-1', 'field-2', 'field-3'].every((id) => store.averages.has(id))"
                 + " && store.entities.get('" + ROBOT + "').trail.length > 5");
-        farm.page().waitForCondition(() -> farm.mapPixels(BORDER_OF_FIELDS) > 300);
+        farm.until(() -> farm.mapPixels(BORDER_OF_FIELDS) > 300);
         assertThat(farm.find("furrow-map .empty")).isHidden();
     }
 
     /** Red is on the map only while two devices are close to each other. */
     @Test
-    void drawsAnEncounterWhileItLastsAndItsDistance(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void drawsAnEncounterWhileItLastsAndItsDistance(FarmPage farm) {
         String lasting = "[...store.encounters.values()].some((each) => ['started', 'ongoing'].includes(each.phase))";
 
         farm.untilStore("store.encounters.size > 0");
-        farm.page()
-                .waitForCondition(
-                        () -> Boolean.TRUE.equals(farm.store(lasting)) && farm.mapPixels(CRITICAL) > 200,
-                        FarmPage.TIMEOUT);
-        farm.page()
-                .waitForCondition(
-                        () -> Boolean.FALSE.equals(farm.store(lasting)) && farm.mapPixels(CRITICAL) == 0,
-                        FarmPage.TIMEOUT);
+        farm.until(() -> Boolean.TRUE.equals(farm.store(lasting)) && farm.mapPixels(CRITICAL) > 200, FarmPage.TIMEOUT);
+        farm.until(() -> Boolean.FALSE.equals(farm.store(lasting)) && farm.mapPixels(CRITICAL) == 0, FarmPage.TIMEOUT);
     }
 
     @Test
-    void selectsTheCardOfADeviceThatIsClicked(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void selectsTheCardOfADeviceThatIsClicked(FarmPage farm) {
         farm.untilStore("store.entities.has('" + THERMOMETER + "') && store.primed && store.fields.size > 0");
-        assertThat(farm.card(THERMOMETER)).not().hasClass(java.util.regex.Pattern.compile("selected"));
+        assertThat(farm.card(THERMOMETER)).not().hasClass(Pattern.compile("selected"));
 
         double[] spot = farm.ownSpot(THERMOMETER);
         farm.page().mouse().click(spot[0], spot[1]);
 
-        assertThat(farm.card(THERMOMETER)).hasClass(java.util.regex.Pattern.compile("selected"));
+        assertThat(farm.card(THERMOMETER)).hasClass(Pattern.compile("selected"));
         assertThat(farm.card(THERMOMETER)).isInViewport();
     }
 
     @Tag("full")
     @Test
-    void bringsTheDeviceOfACardIntoTheMiddle(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void bringsTheDeviceOfACardIntoTheMiddle(FarmPage farm) {
         farm.card(THERMOMETER).getByRole(AriaRole.BUTTON).first().click();
 
         farm.untilStore("store.selection === '" + THERMOMETER + "'");
-        com.microsoft.playwright.options.BoundingBox map =
-                farm.find("furrow-map .map-target").boundingBox();
-        farm.page().waitForCondition(() -> {
+        BoundingBox map = farm.find("furrow-map .map-target").boundingBox();
+        farm.until(() -> {
             double[] spot = farm.spot(THERMOMETER);
             return Math.hypot(spot[0] - map.x - map.width / 2, spot[1] - map.y - map.height / 2) < 5;
         });
@@ -77,41 +70,36 @@ class MapIT {
 
     @Tag("full")
     @Test
-    void hasATableOfTheSameBesideTheMap(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void hasATableOfTheSameBesideTheMap(FarmPage farm) {
         farm.button("The map as a table").click();
         Locator rows = farm.find(".map-table table[aria-label=Devices] tbody tr");
 
         assertThat(rows).hasCount(((Number) farm.store("store.entities.size")).intValue());
-        Locator robot = rows.filter(new Locator.FilterOptions().setHasText("Robot 1"));
+        Locator robot = rows.filter(having("Robot 1"));
         assertThat(robot).containsText("robot");
         assertThat(robot).containsText("1.50 m/s");
         robot.getByRole(AriaRole.BUTTON).click();
-        assertThat(farm.card(ROBOT)).hasClass(java.util.regex.Pattern.compile("selected"));
+        assertThat(farm.card(ROBOT)).hasClass(Pattern.compile("selected"));
 
-        Locator upper = farm.find(".map-table table[aria-label=Fields] tbody tr")
-                .filter(new Locator.FilterOptions().setHasText("Upper field"));
+        Locator upper =
+                farm.find(".map-table table[aria-label=Fields] tbody tr").filter(having("Upper field"));
         assertThat(upper).containsText("°C");
         assertThat(upper).containsText("Thermometer 4");
-        Locator close = farm.find(".map-table table[aria-label=Encounters] tbody tr")
-                .filter(new Locator.FilterOptions().setHasText("Robot 1 – Robot 2"));
+        Locator close =
+                farm.find(".map-table table[aria-label=Encounters] tbody tr").filter(having("Robot 1 – Robot 2"));
         assertThat(close).containsText("too close", new LocatorAssertions.ContainsTextOptions().setTimeout(60_000));
     }
 
     @Tag("full")
     @Test
-    void gathersManyRobotsAndOpensWhatNoZoomDistinguishes(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void gathersManyRobotsAndOpensWhatNoZoomDistinguishes(FarmPage farm) {
         farm.untilStore("store.primed && store.entities.size >= 17");
         report(farm, 200, 40.312998, -3.483058);
-        farm.page().evaluate("document.querySelector('furrow-map').fit(0)");
-        farm.page()
-                .waitForCondition(() -> ((Number)
-                                        farm.page()
-                                                .evaluate(
-                                                        "Math.max(0, ...document.querySelector('furrow-map').devices.clusters.map((each) => each.count))"))
-                                .intValue()
-                        == 200); // more while the map is still on its way there
+        farm.run("document.querySelector('furrow-map').fit(0)");
+        farm.until(() -> (int)
+                        farm.number(
+                                "Math.max(0, ...document.querySelector('furrow-map').devices.clusters.map((each) => each.count))")
+                == 200); // more while the map is still on its way there
         double[] spot = farm.spot("urn:ngsi-ld:Tractor:7");
         farm.page().mouse().click(spot[0], spot[1]);
 
@@ -125,65 +113,59 @@ class MapIT {
 
     @Tag("full")
     @Test
-    void opensOnTheFarmThoughOneDeviceIsFarAway(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void opensOnTheFarmThoughOneDeviceIsFarAway(FarmPage farm) {
         farm.untilStore("store.primed && store.entities.size >= 17");
-        farm.page()
-                .evaluate(
-                        "async () => { const { store } = await import('/core/store.js'); store.fields.clear(); store.notify('fields'); }");
+        farm.run(
+                "async () => { const { store } = await import('/core/store.js'); store.fields.clear(); store.notify('fields'); }");
         report(farm, 1, -33.9, 18.4);
-        farm.page().evaluate("document.querySelector('furrow-map').fit(0)");
+        farm.run("document.querySelector('furrow-map').fit(0)");
 
-        farm.page().waitForCondition(() -> zoom(farm) > 14);
+        farm.until(() -> zoom(farm) > 14);
         double[] robot = farm.spot(ROBOT);
-        com.microsoft.playwright.options.BoundingBox map =
-                farm.find("furrow-map .map-target").boundingBox();
-        org.assertj.core.api.Assertions.assertThat(robot[0]).isBetween(map.x, map.x + map.width);
-        org.assertj.core.api.Assertions.assertThat(robot[1]).isBetween(map.y, map.y + map.height);
+        BoundingBox map = farm.find("furrow-map .map-target").boundingBox();
+        Assertions.assertThat(robot[0]).isBetween(map.x, map.x + map.width);
+        Assertions.assertThat(robot[1]).isBetween(map.y, map.y + map.height);
     }
 
     @Tag("full")
     @Test
-    void drawsNothingBehindAnotherView(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void drawsNothingBehindAnotherView(FarmPage farm) {
         farm.untilStore("store.primed && store.entities.size >= 17");
-        farm.page()
-                .evaluate(
-                        "() => { window.drawn = 0; document.querySelector('furrow-map').map.on('postrender', () => window.drawn++); }");
-        farm.page().waitForCondition(() -> drawn(farm) > 5);
+        farm.run(
+                "() => { window.drawn = 0; document.querySelector('furrow-map').map.on('postrender', () => window.drawn++); }");
+        farm.until(() -> drawn(farm) > 5);
 
         farm.go("Platform");
         assertThat(farm.find("furrow-platform h1")).isVisible();
         int before = drawn(farm);
         double time = System.currentTimeMillis();
         farm.untilStore("store.entities.get('" + ROBOT + "').time > " + (time + 1_500));
-        org.assertj.core.api.Assertions.assertThat(drawn(farm)).isEqualTo(before);
+        Assertions.assertThat(drawn(farm)).isEqualTo(before);
         farm.go("Map");
-        farm.page().waitForCondition(() -> drawn(farm) > before);
+        farm.until(() -> drawn(farm) > before);
     }
 
     @Tag("full")
     @Test
-    void drawsAnEncounterThatIsPredictedUntilItStarts(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void drawsAnEncounterThatIsPredictedUntilItStarts(FarmPage farm) {
         farm.untilStore("store.primed && store.fields.size === 4");
         report(farm, 2, 40.3125, -3.4822);
-        farm.page().waitForCondition(() -> farm.mapPixels(WARNING) > 200, FarmPage.TIMEOUT); // the suspect thermometer
+        farm.until(() -> farm.mapPixels(WARNING) > 200, FarmPage.TIMEOUT); // the suspect thermometer
         int before = farm.mapPixels(WARNING);
 
         collision(farm, "predicted");
-        farm.page().waitForCondition(() -> farm.mapPixels(WARNING) > before + 300);
+        farm.until(() -> farm.mapPixels(WARNING) > before + 300);
         farm.button("The map as a table").click();
         assertThat(farm.find(".map-table table[aria-label=Encounters] tbody"))
                 .containsText("Tractor 0 – Tractor 1predicted");
 
         int with = farm.mapPixels(WARNING);
         collision(farm, "started");
-        farm.page().waitForCondition(() -> farm.mapPixels(WARNING) < with - 300);
+        farm.until(() -> farm.mapPixels(WARNING) < with - 300);
     }
 
     private static void collision(FarmPage farm, String phase) {
-        farm.page().evaluate("""
+        farm.run("""
                         async (phase) => {
                           const { store } = await import('/core/store.js');
                           const all = { Device1_ID: 'urn:ngsi-ld:Tractor:0', Device2_ID: 'urn:ngsi-ld:Tractor:1', phase, distance: 9, dcpa: 1.2, tcpa: 40,
@@ -196,8 +178,7 @@ class MapIT {
 
     @Tag("full")
     @Test
-    void drawsAZoneWithoutAlarms(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void drawsAZoneWithoutAlarms(FarmPage farm) {
         farm.untilStore("store.primed && store.fields.size === 4");
         farm.button("The map as a table").click();
         String zone = "[...store.fields.values()].find((each) => each.exclusion)";
@@ -207,17 +188,16 @@ class MapIT {
 
         int with = farm.mapPixels(BORDER_OF_ZONES);
         farm.store("void (store.fields.delete(" + zone + ".id), store.notify('fields'))");
-        farm.page().waitForCondition(() -> farm.mapPixels(BORDER_OF_ZONES) < with - 20);
+        farm.until(() -> farm.mapPixels(BORDER_OF_ZONES) < with - 20);
     }
 
     /** The suspects of a field may be known before the field is: they come on two topics. */
     @Tag("full")
     @Test
-    void marksASuspectThoughItsFieldIsKnownLater(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void marksASuspectThoughItsFieldIsKnownLater(FarmPage farm) {
         farm.untilStore("store.primed && store.fields.size === 4");
         report(farm, 1, 40.3125, -3.4822);
-        farm.page().evaluate("""
+        farm.run("""
                 async () => {
                   const { store } = await import('/core/store.js');
                   const all = { field: 'later', averageTemperature: 12.5, devices: 4, suspects: ['urn:ngsi-ld:Tractor:0'], quality: 'robust' };
@@ -231,18 +211,17 @@ class MapIT {
         farm.untilStore("store.entities.get('urn:ngsi-ld:Tractor:0').state === 'attention'");
         assertThat(farm.card("urn:ngsi-ld:Tractor:0")).containsText("suspect");
         farm.button("The map as a table").click();
-        assertThat(farm.find(".map-table table[aria-label=Fields] tbody tr")
-                        .filter(new Locator.FilterOptions().setHasText("Later field")))
+        assertThat(farm.find(".map-table table[aria-label=Fields] tbody tr").filter(having("Later field")))
                 .containsText("12.5 °C");
     }
 
     private static int drawn(FarmPage farm) {
-        return ((Number) farm.page().evaluate("window.drawn")).intValue();
+        return (int) farm.number("window.drawn");
     }
 
     /** Reports that come to this window only. */
     private static void report(FarmPage farm, int count, double latitude, double longitude) {
-        farm.page().evaluate("""
+        farm.run("""
                         async ([count, latitude, longitude]) => {
                           const { store } = await import('/core/store.js');
                           for (let number = 0; number < count; number++) {
@@ -255,22 +234,20 @@ class MapIT {
 
     @Tag("full")
     @Test
-    void movesToTheFieldThatIsSearchedFor(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void movesToTheFieldThatIsSearchedFor(FarmPage farm) {
         farm.untilStore("store.fields.size === 4 && store.primed");
         double whole = zoom(farm);
 
         farm.page().getByRole(AriaRole.SEARCHBOX).fill("river field");
         farm.page().getByRole(AriaRole.SEARCHBOX).press("Enter");
 
-        farm.page().waitForCondition(() -> zoom(farm) > whole + 0.2);
+        farm.until(() -> zoom(farm) > whole + 0.2);
         assertThat(farm.find("furrow-cards .empty")).containsText("No device matches");
     }
 
     @Tag("full")
     @Test
-    void isMovedAndZoomedByTheKeyboard(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void isMovedAndZoomedByTheKeyboard(FarmPage farm) {
         farm.untilStore("store.entities.has('" + THERMOMETER + "') && store.primed");
         Locator map =
                 farm.page().getByRole(AriaRole.APPLICATION, new Page.GetByRoleOptions().setName("Map of the farm"));
@@ -278,14 +255,14 @@ class MapIT {
         double[] before = farm.spot(THERMOMETER);
 
         farm.page().keyboard().press("ArrowRight");
-        farm.page().waitForCondition(() -> farm.spot(THERMOMETER)[0] < before[0] - 20);
+        farm.until(() -> farm.spot(THERMOMETER)[0] < before[0] - 20);
         double zoom = zoom(farm);
         farm.page().keyboard().press("+");
-        farm.page().waitForCondition(() -> zoom(farm) > zoom + 0.4);
+        farm.until(() -> zoom(farm) > zoom + 0.4);
     }
 
     private static double zoom(FarmPage farm) {
-        return ((Number) farm.page().evaluate("document.querySelector('furrow-map').view.getZoom()")).doubleValue();
+        return farm.number("document.querySelector('furrow-map').view.getZoom()");
     }
 
     /** On the map of a phone too, where only some fields have room for it inside their outline. */
@@ -295,10 +272,10 @@ class MapIT {
         FarmPage farm = suite.open("", WindowStyle.PHONE);
         farm.untilStore("store.primed && store.entities.size >= 17"
                 + " && ['field-1', 'field-2', 'field-3'].every((id) => store.averages.has(id))");
-        farm.page().waitForCondition(() -> labels(farm, "each.line.includes('°C') && isFree") == 3);
+        farm.until(() -> labels(farm, "each.line.includes('°C') && isFree") == 3);
 
         // a robot drives onto each of them
-        farm.page().evaluate("""
+        farm.run("""
                         async () => {
                           const { store } = await import('/core/store.js');
                           const { map, devices } = document.querySelector('furrow-map');
@@ -309,19 +286,16 @@ class MapIT {
                               value: { id, type: 'Robot', Latitude: { value: latitude }, Longitude: { value: longitude } } });
                           });
                         }""");
-        farm.page()
-                .waitForCondition(() -> ((Number)
-                                        farm.page()
-                                                .evaluate(
-                                                        "document.querySelector('furrow-map').devices.spots.filter(({ entity }) => entity.id.includes(':on-')).length"))
-                                .intValue()
-                        >= 3);
-        farm.page().waitForCondition(() -> labels(farm, "isFree") >= 3 && labels(farm, "!isFree") == 0);
+        farm.until(() -> (int)
+                        farm.number(
+                                "document.querySelector('furrow-map').devices.spots.filter(({ entity }) => entity.id.includes(':on-')).length")
+                >= 3);
+        farm.until(() -> labels(farm, "isFree") >= 3 && labels(farm, "!isFree") == 0);
     }
 
     /** How many texts of fields are drawn of which an expression over {@code each} and {@code isFree} is true. */
     private static int labels(FarmPage farm, String expression) {
-        return ((Number) farm.page().evaluate("""
+        return ((Number) farm.run("""
                         () => {
                           const { spots, fieldLabels } = document.querySelector('furrow-map').devices;
                           return fieldLabels.drawn.filter((each) => {

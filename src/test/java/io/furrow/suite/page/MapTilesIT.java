@@ -54,22 +54,20 @@ class MapTilesIT {
                     .expectingError("404.*/api/images/"); // has no folder of them
 
             farm.untilStore("store.fields.size === 4");
-            farm.page().waitForCondition(() -> share(farm, FARM) > 0.95, FarmPage.TIMEOUT);
+            farm.until(() -> share(farm, FARM) > 0.95, FarmPage.TIMEOUT);
             assertThat(farm.find(".map-attribution")).hasText("© Somebody's pictures");
             assertThat(farm.find(".map-attribution a")).hasCount(0);
 
-            farm.page()
-                    .evaluate(
-                            "() => { const map = document.querySelector('furrow-map'); map.moved = true; map.view.setZoom(2); }");
-            farm.page()
-                    .waitForCondition(() -> share(farm, NOWHERE) > 0.05 && share(farm, FARM) < 0.5, FarmPage.TIMEOUT);
+            farm.run(
+                    "() => { const map = document.querySelector('furrow-map'); map.moved = true; map.view.setZoom(2); }");
+            farm.until(() -> share(farm, NOWHERE) > 0.05 && share(farm, FARM) < 0.5, FarmPage.TIMEOUT);
             farm.close();
         }
     }
 
     /** The share of the map that has a colour, before the style sheet mutes it. */
     private static double share(FarmPage farm, int rgb) {
-        return ((Number) farm.page().evaluate("""
+        Object share = farm.run("""
                         (rgb) => {
                           const canvas = document.querySelector('furrow-map .map-tiles canvas');
                           if (!canvas?.width) { return 0; }
@@ -79,7 +77,8 @@ class MapTilesIT {
                             count += (data[i] << 16 | data[i + 1] << 8 | data[i + 2]) === rgb;
                           }
                           return count * 4 / data.length;
-                        }""", rgb)).doubleValue();
+                        }""", rgb);
+        return ((Number) share).doubleValue();
     }
 
     @Test
@@ -117,11 +116,10 @@ class MapTilesIT {
     }
 
     private static Object evaluate(FarmPage farm, String expression, Object given) {
-        return farm.page()
-                .evaluate(
-                        "async (given) => { const { PmtilesFile, tileId } = await import('/map/pmtiles.js'); return "
-                                + expression + "; }",
-                        given);
+        return farm.run(
+                "async (given) => { const { PmtilesFile, tileId } = await import('/map/pmtiles.js'); return "
+                        + expression + "; }",
+                given);
     }
 
     /** Bytes; 0 where there is none. */

@@ -1,6 +1,5 @@
 package io.furrow.suite.page;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
@@ -11,6 +10,7 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * How long an event takes from Kafka's client to the pixel: a device jumps between two places, one event after the other, and the page looks in every frame
@@ -61,18 +61,17 @@ final class Marks {
         farm.page().getByPlaceholder("Find a device, field or alarm").fill("thermometer mark");
         Properties properties = suite.running().suite().kafka().clientProperties();
         List<Long> sent = new ArrayList<>();
-        try (KafkaProducer<byte[], byte[]> producer =
-                new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
+        try (var producer = new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
             produce(producer, 0);
             assertThat(farm.card(ID)).containsText("0 °C");
-            farm.page().evaluate(WATCH, List.of(ID, PLACES));
+            farm.run(WATCH, List.of(ID, PLACES));
             for (int number = 1; number <= events; number++) {
                 farm.page().waitForTimeout(millisBetween);
                 sent.add(System.currentTimeMillis());
                 produce(producer, number);
             }
             farm.page().waitForTimeout(3_000);
-            producer.send(new ProducerRecord<>("data.raw", ID.getBytes(StandardCharsets.UTF_8), null))
+            producer.send(new ProducerRecord<>("data.raw", ID.getBytes(UTF_8), null))
                     .get();
         }
         Delays delays = new Delays(delays(farm, "canvas", sent), delays(farm, "card", sent));
@@ -83,7 +82,7 @@ final class Marks {
     /** Of the canvas the places in turn, of the card the numbers. */
     private static List<Long> delays(FarmPage farm, String where, List<Long> sent) {
         List<Long> delays = new ArrayList<>();
-        List<?> seen = (List<?>) farm.page().evaluate("window.marks." + where);
+        List<?> seen = (List<?>) farm.run("window.marks." + where);
         for (int number = 1; number <= sent.size(); number++) {
             long since = sent.get(number - 1);
             long before = number < sent.size() ? sent.get(number) : Long.MAX_VALUE;
@@ -109,8 +108,7 @@ final class Marks {
         String entity = """
                 {"id": "%s", "type": "Thermometer", "Time": {"type": "Integer", "value": %d}, "Temperature": {"type": "Float", "value": %d},
                  "Latitude": {"type": "Float", "value": %s}, "Longitude": {"type": "Float", "value": %s}}""".formatted(ID, System.currentTimeMillis(), number, place.get(1), place.get(0));
-        producer.send(new ProducerRecord<>(
-                        "data.raw", ID.getBytes(StandardCharsets.UTF_8), entity.getBytes(StandardCharsets.UTF_8)))
+        producer.send(new ProducerRecord<>("data.raw", ID.getBytes(UTF_8), entity.getBytes(UTF_8)))
                 .get();
     }
 }

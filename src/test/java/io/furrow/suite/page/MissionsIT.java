@@ -1,6 +1,5 @@
 package io.furrow.suite.page;
 
-import java.nio.charset.StandardCharsets;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -11,12 +10,16 @@ import com.microsoft.playwright.options.FilePayload;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.topic.Topics;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.EXACTLY;
+import static io.furrow.suite.page.FarmPage.having;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** The life of a mission, and who commanded it. */
 @PageTest
@@ -38,15 +41,14 @@ class MissionsIT {
         assertThat(dialog).containsText("are in the way");
         assertThat(dialog).containsText("runs in mission scouting");
         dialog.getByLabel("Template").selectOption("thesis-demo@1");
-        dialog.getByText("Create", new Locator.GetByTextOptions().setExact(true))
-                .click();
+        dialog.getByText("Create", EXACTLY).click();
 
         Locator detail = farm.find("furrow-missions .mission-detail");
         assertThat(detail).containsText("again");
         assertThat(detail.locator(".pill").first()).hasText("running");
         assertThat(detail.locator(".device-table tbody tr").first()).isVisible();
-        detail.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
-        dialog.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
+        detail.getByText("Stop", EXACTLY).click();
+        dialog.getByText("Stop", EXACTLY).click();
         assertThat(detail.locator(".pill").first()).hasText("stopped");
 
         assertThat(detail.locator("table").last()).containsText("mission start");
@@ -66,8 +68,7 @@ class MissionsIT {
         dialog.getByLabel("Domain").selectOption("farm");
         dialog.getByLabel("Template").selectOption(" own");
         dialog.getByLabel("How many").fill("2");
-        dialog.getByText("Create", new Locator.GetByTextOptions().setExact(true))
-                .click();
+        dialog.getByText("Create", EXACTLY).click();
 
         Locator detail = farm.find("furrow-missions .mission-detail");
         assertThat(detail.locator(".pill").first()).hasText("starting");
@@ -75,16 +76,16 @@ class MissionsIT {
         // Three of its periods are no silence, however long they are.
         String states = "import('/core/entity.js').then(({ stateOf }) => [2_700_000, 2_700_001].map((age) => "
                 + "stateOf({ word: '', period: null, time: 0 }, age, 'PT15M')).join())";
-        org.assertj.core.api.Assertions.assertThat(farm.page().evaluate(states)).isEqualTo("ok,stale");
-        detail.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
-        dialog.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
+        Assertions.assertThat(farm.run(states)).isEqualTo("ok,stale");
+        detail.getByText("Stop", EXACTLY).click();
+        dialog.getByText("Stop", EXACTLY).click();
         assertThat(detail.locator(".pill").first()).hasText("stopped");
     }
 
     @Tag("full")
     @Test
     void showsAMissionThoughNoneRuns(PageSuite suite) {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
+        FarmPage farm = suite.window();
         farm.page().route("**/api/missions", route -> {
             APIResponse answer = route.fetch();
             String stopped = answer.text().replace("\"running\":true", "\"running\":false");
@@ -114,16 +115,13 @@ class MissionsIT {
         Locator dialog = farm.find("dialog[open]");
         dialog.getByLabel("Name in topics").fill("orchard");
         dialog.getByLabel("Name for people").fill("The old orchard");
-        dialog.getByText("Create", new Locator.GetByTextOptions().setExact(true))
-                .click();
+        dialog.getByText("Create", EXACTLY).click();
         assertThat(dialog).hasCount(0);
-        Locator orchard =
-                farm.find("#missions-panel li.card").filter(new Locator.FilterOptions().setHasText("The old orchard"));
+        Locator orchard = farm.find("#missions-panel li.card").filter(having("The old orchard"));
         assertThat(orchard).containsText("0 missions, 0 fields");
 
         orchard.getByLabel("Delete domain orchard").click();
-        dialog.getByText("Delete", new Locator.GetByTextOptions().setExact(true))
-                .click();
+        dialog.getByText("Delete", EXACTLY).click();
         assertThat(dialog).hasCount(0);
         assertThat(orchard).hasCount(0);
     }
@@ -164,8 +162,7 @@ class MissionsIT {
         rows.getByLabel("Rename Far meadow").click();
         dialog.getByLabel("Name").fill("Behind the barn");
         action.click();
-        assertThat(rows.filter(new Locator.FilterOptions().setHasText("Behind the barn")))
-                .containsText("meadow");
+        assertThat(rows.filter(having("Behind the barn"))).containsText("meadow");
 
         rows.getByLabel("End Behind the barn").click();
         assertThat(dialog).containsText("a replay of an earlier time has the field as it was");
@@ -185,7 +182,7 @@ class MissionsIT {
     void importsAFileThatIsDropped(PageSuite suite) {
         FarmPage farm = suite.open("#/missions?tab=domains");
         assertThat(farm.find("#missions-panel")).containsText("River field");
-        farm.page().evaluate("""
+        farm.run("""
                 (content) => {
                   const dataTransfer = new DataTransfer();
                   dataTransfer.items.add(new File([content], 'meadow.geojson'));
@@ -198,7 +195,7 @@ class MissionsIT {
     }
 
     private static FilePayload file(String name, String content) {
-        return new FilePayload(name, "application/geo+json", content.getBytes(StandardCharsets.UTF_8));
+        return new FilePayload(name, "application/geo+json", content.getBytes(UTF_8));
     }
 
     @Tag("full")
@@ -234,7 +231,7 @@ class MissionsIT {
             for (int i = from; i < to; i++) {
                 String entry = """
                         {"time":%d,"user":"olga","target":"device","command":"command-%d","about":{"mission":"long-ago"},"result":"sent"}""".formatted(1_700_000_000_000L + i, i);
-                producer.send(new ProducerRecord<>(Topics.AUDIT, entry.getBytes(StandardCharsets.UTF_8)));
+                producer.send(new ProducerRecord<>(Topics.AUDIT, entry.getBytes(UTF_8)));
             }
         }
     }

@@ -28,10 +28,9 @@ public final class OpeningTime {
                                         .setViewportSize(WindowStyle.DESKTOP.width(), WindowStyle.DESKTOP.height())))) {
             long began = System.nanoTime();
             farm.open("");
-            farm.page()
-                    .waitForCondition(
-                            () -> Boolean.TRUE.equals(farm.page().evaluate(IS_THERE, devices)),
-                            new Page.WaitForConditionOptions().setTimeout(20_000));
+            farm.until(
+                    () -> Boolean.TRUE.equals(farm.run(IS_THERE, devices)),
+                    new Page.WaitForConditionOptions().setTimeout(20_000));
             return (System.nanoTime() - began) / 1_000_000;
         }
     }

@@ -11,7 +11,7 @@ import org.junit.jupiter.api.extension.ParameterResolver;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /**
- * Gives tests the one {@link PageSuite}, started for the first of them and stopped after the last. A test fails if a window of its
+ * Gives tests the one {@link PageSuite}, started for the first of them and stopped after the last, or a new {@link FarmPage} on it. A test fails if a window of its
  * had an error on the console, an exception that nobody caught, or a violation of the content security policy. What a window of a failed test showed is
  * in {@code target/page}.
  */
@@ -21,12 +21,14 @@ final class PageExtension implements ParameterResolver, AfterTestExecutionCallba
 
     @Override
     public boolean supportsParameter(ParameterContext parameter, ExtensionContext context) {
-        return parameter.getParameter().getType() == PageSuite.class;
+        Class<?> type = parameter.getParameter().getType();
+        return type == PageSuite.class || type == FarmPage.class;
     }
 
     @Override
     public Object resolveParameter(ParameterContext parameter, ExtensionContext context) {
-        return suite(context);
+        boolean isPage = parameter.getParameter().getType() == FarmPage.class;
+        return isPage ? suite(context).open("") : suite(context);
     }
 
     private static PageSuite suite(ExtensionContext context) {

@@ -10,7 +10,7 @@ import java.util.List;
 import com.microsoft.playwright.Browser;
 import com.microsoft.playwright.Page;
 import com.microsoft.playwright.Route;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 
@@ -33,7 +33,9 @@ class PageRulesIT {
               value: attributes && { id, type, ...attributes } });
             """;
 
+    @AutoClose
     private static Chromium chromium;
+
     private static Page page;
 
     @BeforeAll
@@ -46,11 +48,6 @@ class PageRulesIT {
                 .newPage();
         page.route("**/*", PageRulesIT::answer);
         page.navigate(FARM);
-    }
-
-    @AfterAll
-    static void close() {
-        chromium.close();
     }
 
     @Test
@@ -146,12 +143,9 @@ class PageRulesIT {
                 take('pb-14', 'Robot', 'pbother', null);
                 return [...both, `close: ${close}`, ...told().slice(0, 1)];"""))
                 .containsExactly(
-                        "pb-14 (pbfarm) at 10.002, 0 places",
-                        "pb-14 (pbother) at 10.004, 0 places",
-                        "pb-13 (Valve) at 10, 0 places",
-                        "pb-13 (Pump) at 11, 0 places",
-                        "close: pb-14 (pbother)",
-                        "pb-14 at 10.002, 0 places");
+                        "pb-14 (pbfarm) at 10.002, 0 places", "pb-14 (pbother) at 10.004, 0 places",
+                        "pb-13 (Valve) at 10, 0 places", "pb-13 (Pump) at 11, 0 places",
+                        "close: pb-14 (pbother)", "pb-14 at 10.002, 0 places");
     }
 
     /** Pictures and findings may come before the entity that they are of, while another one of its id is shown. */

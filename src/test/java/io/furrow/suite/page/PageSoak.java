@@ -1,7 +1,6 @@
 package io.furrow.suite.page;
 
 import java.lang.management.ManagementFactory;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -16,6 +15,8 @@ import com.sun.management.OperatingSystemMXBean;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** The long checks of the page, and its pictures: {@code ./furrow soak page}. */
 public final class PageSoak {
@@ -139,8 +140,7 @@ public final class PageSoak {
                         Math.toDegrees(angle) % 360,
                         40.31 + number / 40 * 0.0002 + 0.00005 * Math.sin(angle),
                         -3.49 + number % 40 * 0.0003 + 0.00005 * Math.cos(angle));
-        return new ProducerRecord<>(
-                "data.raw", id.getBytes(StandardCharsets.UTF_8), entity.getBytes(StandardCharsets.UTF_8));
+        return new ProducerRecord<>("data.raw", id.getBytes(UTF_8), entity.getBytes(UTF_8));
     }
 
     private static boolean heap(PageSuite suite, int devices, int minutes) throws Exception {

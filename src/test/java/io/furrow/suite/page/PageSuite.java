@@ -2,10 +2,6 @@ package io.furrow.suite.page;
 
 import java.io.IOException;
 import java.net.URI;
-import java.net.http.HttpClient;
-import java.net.http.HttpRequest;
-import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
@@ -22,8 +18,9 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import io.furrow.dashboard.Dashboard;
 import io.furrow.dashboard.DashboardSettings;
 import io.furrow.launcher.command.DemoFarm;
-import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.suite.RunningSuite;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** A suite with the demonstration farm, its dashboard and a browser, for all tests of the page. */
 final class PageSuite implements AutoCloseable {
@@ -65,10 +62,8 @@ final class PageSuite implements AutoCloseable {
     void produce(String topic, String key, byte[] value, Instant time) throws Exception {
         Properties properties = running.suite().kafka().clientProperties();
         properties.setProperty("max.request.size", "10000000");
-        try (KafkaProducer<byte[], byte[]> producer =
-                new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
-            producer.send(new ProducerRecord<>(
-                            topic, null, time.toEpochMilli(), key.getBytes(StandardCharsets.UTF_8), value))
+        try (var producer = new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
+            producer.send(new ProducerRecord<>(topic, null, time.toEpochMilli(), key.getBytes(UTF_8), value))
                     .get();
         }
     }
@@ -79,25 +74,13 @@ final class PageSuite implements AutoCloseable {
         produce("data.latest", entity, null);
     }
 
-    /** An answer of the control plane's REST API. */
     JsonNode rest(String path) throws Exception {
-        HttpRequest request =
-                HttpRequest.newBuilder(running.suite().control().resolve(path)).build();
-        return NgsiJson.mapper()
-                .readTree(HttpClient.newHttpClient()
-                        .send(request, HttpResponse.BodyHandlers.ofByteArray())
-                        .body());
+        return running.get(path);
     }
 
     /** The status of an answer of the control plane's REST API. */
     int rest(String method, String path, String body) throws Exception {
-        HttpRequest request = HttpRequest.newBuilder(running.suite().control().resolve(path))
-                .header("Content-Type", "application/json")
-                .method(method, HttpRequest.BodyPublishers.ofString(body))
-                .build();
-        return HttpClient.newHttpClient()
-                .send(request, HttpResponse.BodyHandlers.discarding())
-                .statusCode();
+        return running.request(method, path, body).statusCode();
     }
 
     /** A new window with nothing remembered. */
@@ -114,6 +97,10 @@ final class PageSuite implements AutoCloseable {
     }
 
     /** With nothing in it yet. */
+    FarmPage window() {
+        return window(running.suite().dashboard(), WindowStyle.DESKTOP);
+    }
+
     FarmPage window(URI dashboard, WindowStyle style) {
         FarmPage page = new FarmPage(
                 dashboard,

@@ -8,10 +8,12 @@ import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Route;
 import com.microsoft.playwright.options.AriaRole;
 import com.microsoft.playwright.options.BoundingBox;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.EXACTLY;
 
 /** From a recorded mission to its moments. */
 @PageTest
@@ -30,8 +32,7 @@ class ReplaysIT {
         assertThat(farm.find(".mode")).containsText("Replay of weeding");
         assertThat(farm.find("furrow-app")).hasClass(Pattern.compile("replaying"));
         assertThat(farm.card(ROBOT)).containsText("recorded, not sent");
-        assertThat(farm.card(ROBOT).getByText("Stop", new Locator.GetByTextOptions().setExact(true)))
-                .isDisabled();
+        assertThat(farm.card(ROBOT).getByText("Stop", EXACTLY)).isDisabled();
 
         farm.untilStore("store.mode.state === 'running' && store.mode.position > store.mode.from");
         farm.find("body").press(" ");
@@ -48,10 +49,10 @@ class ReplaysIT {
 
         double before = position(farm);
         farm.find("body").press("ArrowRight");
-        farm.page().waitForCondition(() -> position(farm) > before);
+        farm.until(() -> position(farm) > before);
         double after = position(farm);
         farm.find("body").press("ArrowLeft");
-        farm.page().waitForCondition(() -> position(farm) < after);
+        farm.until(() -> position(farm) < after);
 
         farm.button("Back to live").click();
         assertThat(farm.find(".mode")).hasText("Live");
@@ -77,7 +78,7 @@ class ReplaysIT {
         farm.find("body").press(" ");
         farm.untilStore(
                 "store.mode.epoch > 1 && store.mode.position <= store.mode.range.to + 1000 && store.mode.position >= store.mode.range.from - 1000");
-        org.assertj.core.api.Assertions.assertThat(from).isPositive();
+        Assertions.assertThat(from).isPositive();
     }
 
     @Test
@@ -111,7 +112,7 @@ class ReplaysIT {
     /** The hour at the end of summer time comes twice: the last event is written 02:40, or even before the first one. */
     @Test
     void plansAWholeMissionAcrossTheEndOfSummerTime(PageSuite suite) {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
+        FarmPage farm = suite.window();
         farm.page()
                 .route(
                         "**/api/recordings",
@@ -130,22 +131,19 @@ class ReplaysIT {
 
         assertThat(farm.find(".plan")).containsText("Length: 90 min");
         farm.button("Start replay").click();
-        farm.page().waitForCondition(() -> plans.size() == 1);
+        farm.until(() -> plans.size() == 1);
 
         farm.page().getByLabel("Choose long").uncheck();
         farm.page().getByLabel("Choose short").check();
         assertThat(farm.find(".plan")).containsText("Length: 20 min");
         farm.button("Start replay").click();
-        farm.page().waitForCondition(() -> plans.size() == 2);
-        org.assertj.core.api.Assertions.assertThat(plans)
-                .noneMatch(plan -> plan.contains("\"from\"") || plan.contains("\"to\""));
+        farm.until(() -> plans.size() == 2);
+        Assertions.assertThat(plans).noneMatch(plan -> plan.contains("\"from\"") || plan.contains("\"to\""));
 
         farm.find("#plan-to").fill("2026-10-25T02:05");
         farm.button("Start replay").click();
-        farm.page().waitForCondition(() -> plans.size() == 3);
-        org.assertj.core.api.Assertions.assertThat(plans.get(2))
-                .contains("\"to\":1792890300000")
-                .doesNotContain("\"from\"");
+        farm.until(() -> plans.size() == 3);
+        Assertions.assertThat(plans.get(2)).contains("\"to\":1792890300000").doesNotContain("\"from\"");
     }
 
     /** Its status goes some time after it. */
@@ -170,7 +168,7 @@ class ReplaysIT {
                   return states.join();
                 })()""");
 
-        org.assertj.core.api.Assertions.assertThat(states).isEqualTo("running,over,over");
+        Assertions.assertThat(states).isEqualTo("running,over,over");
     }
 
     private static void start(FarmPage farm) {
@@ -191,9 +189,8 @@ class ReplaysIT {
 
     /** Of the times that the timeline shows, which grow while the mission goes on. */
     private static double middle(FarmPage farm) {
-        Object time = farm.page()
-                .evaluate(
-                        "() => { const { from, to } = document.querySelector('furrow-timeline').scale; return (from + to) / 2; }");
+        Object time = farm.run(
+                "() => { const { from, to } = document.querySelector('furrow-timeline').scale; return (from + to) / 2; }");
         return ((Number) time).doubleValue();
     }
 

@@ -2,7 +2,6 @@ package io.furrow.suite.page;
 
 import java.net.URI;
 import java.net.URLDecoder;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Clock;
@@ -13,8 +12,9 @@ import java.util.Properties;
 import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Route;
+import com.microsoft.playwright.assertions.LocatorAssertions;
 import com.microsoft.playwright.options.AriaRole;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -32,6 +32,7 @@ import io.furrow.kafka.Readiness;
 import io.furrow.model.control.Role;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.awaitility.Awaitility.await;
 
 /** Sessions that end in the middle of work, with tokens and behind a proxy that signs users in. */
@@ -43,27 +44,22 @@ class SignInIT {
     private static final String DASHBOARD = "the-dashboards-own-token-2";
     private static final Pattern MISSIONS = Pattern.compile(".*#/missions$");
 
-    @TempDir
-    Path folder;
-
     private Path tokens;
     private Properties client;
+
+    @AutoClose
     private RestApi api;
+
     private volatile boolean signedIn;
 
     @BeforeEach
-    void startAControlPlaneThatAsksForTokens(PageSuite suite) throws Exception {
+    void startAControlPlaneThatAsksForTokens(PageSuite suite, @TempDir Path folder) throws Exception {
         client = suite.running().suite().kafka().clientProperties();
         tokens = folder.resolve("tokens");
         allow("vera %s viewer%ndashboard %s admin for-users%n".formatted(VERA, DASHBOARD));
         api = RestApi.start(
                 ControlSettings.of(client), RestSettings.on(0).withTokens(tokens), new Readiness(Clock.systemUTC()));
         await().until(api::isReady);
-    }
-
-    @AfterEach
-    void stop() {
-        api.close();
     }
 
     private void allow(String lines) throws Exception {
@@ -99,8 +95,8 @@ class SignInIT {
         farm.button("Sign in").click();
     }
 
-    private static com.microsoft.playwright.assertions.LocatorAssertions.HasTextOptions aMinute() {
-        return new com.microsoft.playwright.assertions.LocatorAssertions.HasTextOptions().setTimeout(60_000);
+    private static LocatorAssertions.HasTextOptions aMinute() {
+        return new LocatorAssertions.HasTextOptions().setTimeout(60_000);
     }
 
     @Test
@@ -120,8 +116,8 @@ class SignInIT {
             assertThat(farm.find("furrow-missions h1")).isVisible();
 
             signedIn = false;
-            farm.page().evaluate("import('/core/api.js').then(({ api }) => api.get('/api/missions')).catch(() => {})");
-            farm.page().waitForCondition(() -> signedIn); // which lets what stands for the proxy answer
+            farm.run("import('/core/api.js').then(({ api }) => api.get('/api/missions')).catch(() => {})");
+            farm.until(() -> signedIn); // which lets what stands for the proxy answer
             assertThat(farm.find("furrow-missions h1")).isVisible();
             assertThat(farm.page()).hasURL(MISSIONS);
 
@@ -156,7 +152,7 @@ class SignInIT {
                 String.valueOf(route.request().headers().get("accept")).contains("application/json");
         if (uri.getPath().equals("/oauth2/start")) {
             signedIn = true;
-            lead(route, URLDecoder.decode(uri.getRawQuery().substring("rd=".length()), StandardCharsets.UTF_8));
+            lead(route, URLDecoder.decode(uri.getRawQuery().substring("rd=".length()), UTF_8));
         } else if (uri.getPath().equals("/oauth2/sign_out")) {
             signedIn = false;
             route.fulfill(new Route.FulfillOptions()

@@ -7,7 +7,6 @@ import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.nio.ByteBuffer;
 import java.nio.ByteOrder;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -16,6 +15,9 @@ import java.util.SortedMap;
 import java.util.TreeMap;
 import java.util.zip.GZIPOutputStream;
 import javax.imageio.ImageIO;
+
+import static java.nio.charset.StandardCharsets.US_ASCII;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Writes a PMTiles file of version 3: pictures of one colour each, directories compressed and in two levels. */
 final class TileArchive {
@@ -51,10 +53,10 @@ final class TileArchive {
             leaves.writeBytes(leaf);
         }
         byte[] first = gzip(directory(root));
-        byte[] metadata = gzip(("{\"attribution\":\"" + attribution + "\"}").getBytes(StandardCharsets.UTF_8));
+        byte[] metadata = gzip(("{\"attribution\":\"" + attribution + "\"}").getBytes(UTF_8));
         ByteBuffer header = ByteBuffer.allocate(HEADER).order(ByteOrder.LITTLE_ENDIAN);
         long at = HEADER;
-        header.put("PMTiles".getBytes(StandardCharsets.US_ASCII)).put((byte) 3);
+        header.put("PMTiles".getBytes(US_ASCII)).put((byte) 3);
         for (int length : new int[] {first.length, metadata.length, leaves.size(), tiles.size()}) {
             header.putLong(at).putLong(length);
             at += length;

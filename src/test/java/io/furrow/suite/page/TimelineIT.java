@@ -39,38 +39,28 @@ class TimelineIT {
         before.close();
 
         FarmPage farm = suite.open("");
-        farm.page().waitForCondition(() -> number(farm.page().evaluate(WRONG)) == 0, AT_ONCE);
+        farm.until(() -> farm.number(WRONG) == 0, AT_ONCE);
         assertThat(
-                        number(
-                                farm.page()
-                                        .evaluate(
-                                                "() => [...document.querySelector('furrow-timeline').live.counts.values()].filter((count) => count > 0).length")))
+                        farm.number(
+                                "() => [...document.querySelector('furrow-timeline').live.counts.values()].filter((count) => count > 0).length"))
                 .isGreaterThan(6);
-        farm.page()
-                .waitForCondition(
-                        () -> number(farm.page()
-                                        .evaluate("document.querySelector('furrow-timeline').encounters.length"))
-                                > 0,
-                        AT_ONCE);
+        farm.until(() -> farm.number("document.querySelector('furrow-timeline').encounters.length") > 0, AT_ONCE);
     }
 
     @Test
-    void goesOnWithWhatComesAndCountsNothingTwice(PageSuite suite) {
-        FarmPage farm = suite.open("");
-        farm.page().waitForCondition(() -> number(farm.page().evaluate(WRONG)) == 0, AT_ONCE);
+    void goesOnWithWhatComesAndCountsNothingTwice(FarmPage farm) {
+        farm.until(() -> farm.number(WRONG) == 0, AT_ONCE);
 
         double opened = System.currentTimeMillis();
         farm.untilStore("Math.min(...['1', '2'].map((id) => store.entities.get(`urn:ngsi-ld:Robot:${id}`)?.time)) > "
                 + (opened + 20_000));
-        farm.page().waitForCondition(() -> number(farm.page().evaluate(WRONG)) == 0, AT_ONCE);
+        farm.until(() -> farm.number(WRONG) == 0, AT_ONCE);
     }
 
     /** In the first minute too: the timeline is as long as there is something to show. */
     @Test
-    void beginsWithTheFirstRecord(PageSuite suite) {
-        FarmPage farm = suite.open("");
-
-        Object length = farm.page().evaluate("""
+    void beginsWithTheFirstRecord(FarmPage farm) {
+        Object length = farm.run("""
                 async () => {
                   const { LiveDensity } = await import('/timeline/live.js');
                   const density = new LiveDensity(() => {});
@@ -84,10 +74,8 @@ class TimelineIT {
     }
 
     @Test
-    void findsWhatCameInTheNewestBucketBeforeThePageWasOpened(PageSuite suite) {
-        FarmPage farm = suite.open("");
-
-        Object newest = farm.page().evaluate("""
+    void findsWhatCameInTheNewestBucketBeforeThePageWasOpened(FarmPage farm) {
+        Object newest = farm.run("""
                 async () => {
                   const { LiveDensity } = await import('/timeline/live.js');
                   const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));

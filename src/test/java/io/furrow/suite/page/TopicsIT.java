@@ -9,6 +9,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.having;
 
 /** From domains and missions to records. */
 @PageTest
@@ -17,13 +18,9 @@ class TopicsIT {
     void showsDomainsWithTheirMissionsAndHowMuchFlows(PageSuite suite) {
         FarmPage farm = suite.open("#/topics");
 
-        for (String topic : new String[] {
-            "data.collision",
-            "data.farm.realtime",
-            "data.farm.realtime.weeding",
-            "data.farm.realtime.scouting",
-            "data.canary.realtime.dummy"
-        }) {
+        for (String topic : """
+                data.collision data.farm.realtime data.farm.realtime.weeding data.farm.realtime.scouting
+                data.canary.realtime.dummy""".split("\\s+")) {
             assertThat(row(farm, topic)).isVisible();
         }
         assertThat(row(farm, "data.farm.realtime.weeding").locator(".topic-rate"))
@@ -33,7 +30,7 @@ class TopicsIT {
     @Tag("full")
     @Test
     void listsCollisionsAndTheCanaryBeforeThereAreAny(PageSuite suite) {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
+        FarmPage farm = suite.window();
         farm.page()
                 .route(
                         "**/api/topics",
@@ -54,12 +51,8 @@ class TopicsIT {
         check(farm, "data.canary.realtime.dummy");
         Locator records = farm.find("furrow-topics table tbody tr");
 
-        assertThat(records.filter(new Locator.FilterOptions().setHasText("Robot:canary-1"))
-                        .first())
-                .isVisible();
-        assertThat(records.filter(new Locator.FilterOptions().setHasText("Thermometer:4"))
-                        .first())
-                .isVisible();
+        assertThat(records.filter(having("Robot:canary-1")).first()).isVisible();
+        assertThat(records.filter(having("Thermometer:4")).first()).isVisible();
     }
 
     @Tag("full")

@@ -10,6 +10,7 @@ import java.util.Properties;
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Page;
 import com.microsoft.playwright.options.AriaRole;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -34,11 +35,9 @@ class ViewerIT {
             "^(Stop|Resume|On|Off|Restart|Start|Delete.*|New .*|Create|Import.*|Acknowledge|Mute.*|Close|Replay|Replay .*|Play|Play again|Pause|Step .*|Loop|Add .*|Choose .*|To the moment|Show the moment .*|Start .*)$";
     private static final String ROBOT = "urn:ngsi-ld:Robot:1";
 
-    @TempDir
-    Path folder;
-
     @Test
-    void waitsForTheControlPlaneSignsInSeesTheFarmAndIsOfferedNoCommand(PageSuite suite) throws Exception {
+    void waitsForTheControlPlaneSignsInSeesTheFarmAndIsOfferedNoCommand(PageSuite suite, @TempDir Path folder)
+            throws Exception {
         Properties client = suite.running().suite().kafka().clientProperties();
         int port = FreePort.orFree(0);
         RestSettings settings = RestSettings.on(port)
@@ -97,17 +96,17 @@ class ViewerIT {
 
     /** No button of what only others may do, not even one that cannot be pressed. */
     private static void offersOnly(FarmPage farm, String place) {
-        Object offered = farm.page().evaluate("""
+        Object offered = farm.run("""
                 (forbidden) => [...document.querySelectorAll('button, a.button, input[type=checkbox]')]
                   .filter((each) => each.checkVisibility({ visibilityProperty: true }))
                   .map((each) => each.getAttribute('aria-label') ?? (each.textContent || each.id))
                   .filter((each) => new RegExp(forbidden).test(each))""", COMMANDS);
-        org.assertj.core.api.Assertions.assertThat((List<?>) offered).as(place).isEmpty();
+        Assertions.assertThat((List<?>) offered).as(place).isEmpty();
     }
 
     /** Who goes round the buttons is told the same. */
     private static void beRefused(FarmPage farm) {
-        Object refusal = farm.page().evaluate("""
+        Object refusal = farm.run("""
                         async ([token, robot]) => {
                           const answer = await fetch(`/api/devices/${robot}/commands`, {
                             method: 'POST', headers: { Authorization: `Bearer ${token}`, 'Content-Type': 'application/json' },
@@ -115,9 +114,6 @@ class ViewerIT {
                           });
                           return `${answer.status} ${await answer.text()}`;
                         }""", List.of(TOKEN, ROBOT));
-        org.assertj.core.api.Assertions.assertThat(refusal)
-                .asString()
-                .startsWith("403 ")
-                .contains("operator");
+        Assertions.assertThat(refusal).asString().startsWith("403 ").contains("operator");
     }
 }

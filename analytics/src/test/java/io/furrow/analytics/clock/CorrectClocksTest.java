@@ -1,6 +1,5 @@
 package io.furrow.analytics.clock;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -20,6 +19,7 @@ import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class CorrectClocksTest {
@@ -141,17 +141,14 @@ class CorrectClocksTest {
 
     private static TopicRecord record(String device, long time, long received) {
         Map<String, String> headers = Map.of(
-                HeaderNames.SERVICE,
-                "farm",
-                HeaderNames.SERVICE_PATH,
-                "/",
-                HeaderNames.TS_SOURCE,
-                Long.toString(received));
+                HeaderNames.SERVICE, "farm",
+                HeaderNames.SERVICE_PATH, "/",
+                HeaderNames.TS_SOURCE, Long.toString(received));
         return TopicRecord.of("data.raw", time, device, new byte[] {1}, headers);
     }
 
     private static String key(TopicRecord record) {
-        return new String(record.key(), StandardCharsets.UTF_8);
+        return new String(record.key(), UTF_8);
     }
 
     private static long received(TopicRecord record) {

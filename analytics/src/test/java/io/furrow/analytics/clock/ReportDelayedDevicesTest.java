@@ -1,13 +1,12 @@
 package io.furrow.analytics.clock;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.Map;
 import java.util.function.LongUnaryOperator;
 
 import org.apache.flink.streaming.api.operators.ProcessOperator;
 import org.apache.flink.streaming.util.OneInputStreamOperatorTestHarness;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
@@ -15,6 +14,7 @@ import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 
@@ -25,7 +25,9 @@ class ReportDelayedDevicesTest {
     private static final long MINUTE = 60 * SECOND;
     private static final long HOUR = 60 * MINUTE;
 
+    @AutoClose
     private OneInputStreamOperatorTestHarness<TopicRecord, ClockReport> harness;
+
     private long now = START;
 
     @BeforeEach
@@ -33,11 +35,6 @@ class ReportDelayedDevicesTest {
         harness = new OneInputStreamOperatorTestHarness<>(new ProcessOperator<>(
                 new ReportDelayedDevices(new ReceiptTime(Duration.ofSeconds(10)), Duration.ofMinutes(1))));
         harness.open();
-    }
-
-    @AfterEach
-    void stop() throws Exception {
-        harness.close();
     }
 
     @Test
@@ -112,8 +109,8 @@ class ReportDelayedDevicesTest {
     }
 
     private TopicRecord record(String device, long time) {
-        byte[] entity = ("{\"id\":\"" + device + "\",\"type\":\"Thermometer\",\"Mission\":{\"value\":\"m\"}}")
-                .getBytes(StandardCharsets.UTF_8);
+        byte[] entity =
+                ("{\"id\":\"" + device + "\",\"type\":\"Thermometer\",\"Mission\":{\"value\":\"m\"}}").getBytes(UTF_8);
         return TopicRecord.of("data.raw", time, device, entity, Map.of(HeaderNames.TS_SOURCE, Long.toString(now)));
     }
 }

@@ -3,7 +3,6 @@ package io.furrow.analytics.collision;
 import java.util.ArrayList;
 import java.util.List;
 
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
@@ -18,7 +17,9 @@ import io.furrow.analytics.collision.matching.CellOverflow;
 import io.furrow.analytics.collision.rules.CellRules;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.TestClusters;
 
+import static io.furrow.analytics.collision.Fixes.east;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /**
@@ -29,10 +30,7 @@ class CollisionDetectionTest {
     private static final Logger LOG = LoggerFactory.getLogger(CollisionDetectionTest.class);
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setConfiguration(JobCounters.kept())
-            .setNumberSlotsPerTaskManager(4)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(4, JobCounters.kept());
 
     private static final int CASES = Integer.getInteger("furrow.collision.cases", 1000);
     private static final int CASES_PER_JOB = 100;
@@ -106,11 +104,9 @@ class CollisionDetectionTest {
 
     @Test
     void setsLatePositionsAsideAndDetectsAmongTheRest() throws Exception {
-        List<PositionFix> fixes = new ArrayList<>(List.of(
-                Fixes.east("a", 0, START),
-                Fixes.east("b", 1, START),
-                Fixes.east("c", 1000, START + DetectionRun.BOUND + 10)));
-        PositionFix late = Fixes.east("d", 2, START);
+        List<PositionFix> fixes = new ArrayList<>(
+                List.of(east("a", 0, START), east("b", 1, START), east("c", 1000, START + DetectionRun.BOUND + 10)));
+        PositionFix late = east("d", 2, START);
         List<Encounter> expected = CollisionOracle.encounters(fixes, CollisionRules.DEFAULT);
         fixes.add(late);
         DetectionRun run = run(fixes, CollisionRules.DEFAULT, 1);
@@ -123,7 +119,7 @@ class CollisionDetectionTest {
     void reportsAndCountsThePairsThatACrowdLeavesOut() throws Exception {
         List<PositionFix> fixes = new ArrayList<>();
         for (String device : List.of("a", "b", "c", "d", "e")) {
-            fixes.add(Fixes.east(device, device.charAt(0) - 'a', START));
+            fixes.add(east(device, device.charAt(0) - 'a', START));
         }
         CollisionRules rules = CollisionRules.DEFAULT.with(new CellRules(100, 3));
 

@@ -1,15 +1,11 @@
 package io.furrow.analytics.collision;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.Comparator;
 import java.util.List;
 
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
-import org.apache.flink.streaming.api.graph.StreamNode;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
@@ -19,6 +15,7 @@ import picocli.CommandLine.ParameterException;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.JobUids;
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
@@ -34,6 +31,7 @@ import static io.furrow.analytics.collision.ReportedRun.robot;
 import static io.furrow.analytics.collision.ReportedRun.run;
 import static io.furrow.analytics.collision.ReportedRun.runAfterDevices;
 import static io.furrow.analytics.collision.ReportedRun.text;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.tuple;
@@ -42,14 +40,7 @@ class CollisionJobTest {
     private static final InMemoryReporter METRICS = InMemoryReporter.create();
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setConfiguration(METRICS.addToConfiguration(new Configuration()))
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
-
-    @TempDir
-    private Path folder;
+    static final MiniClusterExtension FLINK = TestClusters.of(2, METRICS.addToConfiguration(new Configuration()));
 
     @Test
     void tellsTheLifeOfAnEncounterAsEntitiesOfItsPair() throws Exception {
@@ -73,7 +64,7 @@ class CollisionJobTest {
                 .extracting(record -> entity(record).id())
                 .containsOnly(entity(written.get(0)).id());
         TopicRecord end = written.get(2);
-        assertThat(new String(end.key(), StandardCharsets.UTF_8)).isEqualTo("r1-r2");
+        assertThat(new String(end.key(), UTF_8)).isEqualTo("r1-r2");
         assertThat(entity(end).number("minDistance"))
                 .hasValueSatisfying(d -> assertThat(d).isBetween(1.99, 2.01));
         assertThat(entity(end).number("distance"))
@@ -93,7 +84,7 @@ class CollisionJobTest {
     }
 
     @Test
-    void goesByTheTypesZonesAndLimitsOfItsOptions() throws Exception {
+    void goesByTheTypesZonesAndLimitsOfItsOptions(@TempDir Path folder) throws Exception {
         PositionFix corner = Fixes.east("", 20, 0);
         Path yard = Files.writeString(folder.resolve("yard.geojson"), """
             {"features": [{"geometry": {"type": "Polygon", "coordinates":
@@ -114,7 +105,7 @@ class CollisionJobTest {
         assertThat(written)
                 .filteredOn(record -> record.topic().equals("data.collision"))
                 .as("r3 and r4 are in the yard, r5 is nearer to r2 than to r1")
-                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(record -> new String(record.key(), UTF_8))
                 .containsOnly("r1-r2", "r2-r5");
         TopicRecord overflow = written.stream()
                 .filter(record -> record.topic().equals("data.collision.overflow"))
@@ -197,7 +188,7 @@ class CollisionJobTest {
 
         // The camera on the first robot is also close to the second: two pairs, each with a start and an end.
         assertThat(written)
-                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(record -> new String(record.key(), UTF_8))
                 .containsExactlyInAnyOrder("c1-r2", "c1-r2", "r1-r2", "r1-r2");
     }
 
@@ -205,12 +196,12 @@ class CollisionJobTest {
     void asksServiceDevicesWhatCarriesADevice() throws Exception {
         List<TopicRecord> written = run(options(), robot("r1", 0, 0), robot("l1", 1, 0), robot("r2", 2, 0));
         assertThat(written)
-                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(record -> new String(record.key(), UTF_8))
                 .containsExactlyInAnyOrder("l1-r2", "l1-r2", "r1-r2", "r1-r2");
         List<TopicRecord> before = run(options(), robot("r1", 0, -9), robot("l1", 1, -9), robot("r2", 2, -9));
         assertThat(before)
                 .as("as of the position's time")
-                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(record -> new String(record.key(), UTF_8))
                 .containsExactlyInAnyOrder("l1-r1", "l1-r1", "r1-r2", "r1-r2");
     }
 
@@ -225,7 +216,7 @@ class CollisionJobTest {
                 robot("r4", 300, 0));
 
         assertThat(written)
-                .extracting(TopicRecord::topic, record -> new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(TopicRecord::topic, record -> new String(record.key(), UTF_8))
                 .containsExactly(tuple(replay + ".collision", "r2-r3"), tuple(replay + ".collision", "r2-r3"));
     }
 
@@ -241,32 +232,5 @@ class CollisionJobTest {
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining("--zones /nowhere/yard.geojson: cannot be read");
         assertThat(options().rules()).isEqualTo(CollisionRules.DEFAULT);
-    }
-
-    @Test
-    void keepsTheNamesThatSavepointsKnowItsOperatorsBy() {
-        assertThat(CollisionJob.assemble(options()).getStreamGraph(false).getStreamNodes().stream()
-                        .filter(node -> node.getTransformationUID() != null)
-                        .sorted(Comparator.comparing(StreamNode::getTransformationUID))
-                        .map(StreamNode::getTransformationUID))
-                .containsExactly(
-                        "Sink Committer: write-topics",
-                        "assign-carriers",
-                        "describe-clocks",
-                        "describe-delayed-devices",
-                        "describe-encounters",
-                        "describe-late-positions",
-                        "describe-overflows",
-                        "detect-clock-lag",
-                        "ensure-topics",
-                        "match-pairs",
-                        "read-devices",
-                        "read-events",
-                        "read-positions",
-                        "recognize-devices",
-                        "report-delayed-devices",
-                        "track-devices",
-                        "track-encounters",
-                        "write-topics");
     }
 }

@@ -7,7 +7,6 @@ import java.util.List;
 import java.util.Map;
 import java.util.Random;
 
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -17,6 +16,7 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.analytics.Replayed;
 import io.furrow.analytics.Seeds;
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.record.TopicRecord;
 
 import static io.furrow.analytics.collision.ReportedRun.START;
@@ -29,10 +29,7 @@ class CollisionReplayTest {
     private static final Logger LOG = LoggerFactory.getLogger(CollisionReplayTest.class);
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     @ParameterizedTest
     @ValueSource(strings = {"", " --dwell 2s --leave-factor 2 --crossed --horizon 5s --crowd 1"})

@@ -1,57 +1,35 @@
 package io.furrow.analytics.collision;
 
-import java.nio.charset.StandardCharsets;
-import java.nio.file.Path;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.Random;
 import java.util.Set;
-import java.util.concurrent.TimeUnit;
 
 import org.apache.flink.api.common.typeinfo.TypeInformation;
-import org.apache.flink.runtime.minicluster.MiniCluster;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
-import org.apache.flink.test.junit5.InjectMiniCluster;
-import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Tag;
-import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.Timeout;
-import org.junit.jupiter.api.extension.RegisterExtension;
-import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.flink.device.DeviceInput;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.restart.JobCase;
+import io.furrow.flink.restart.RestartContract;
 import io.furrow.flink.restart.Restarts;
 import io.furrow.model.topic.Topics;
 
-@Timeout(value = 10, unit = TimeUnit.HOURS)
+import static java.nio.charset.StandardCharsets.UTF_8;
+
 @Tag("full")
-class CollisionRestartTest {
-    @RegisterExtension
-    static final MiniClusterExtension FLINK = Restarts.cluster();
-
-    @Test
-    void tellsWhatAnUndisturbedRunTellsWhereverItIsRestarted(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
-            throws Exception {
-        new Restarts(flink, folder).changeNothing(3, Case::new);
-    }
-
-    @Test
-    void goesOnFromTheSavepointsOfReleases(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
-            throws Exception {
-        new Restarts(flink, folder).goOnFromReleases("collision", new Case(1));
+class CollisionRestartTest extends RestartContract {
+    CollisionRestartTest() {
+        super("collision", Case::new);
     }
 
     /** Robots that wander along 30 m, with late positions. */
-    private static final class Case implements JobCase {
+    private static final class Case extends JobCase {
         private static final int STEP = 100;
-
-        private final List<Arrival> arrivals = new ArrayList<>();
 
         Case(long seed) {
             Random random = Restarts.random(seed);
@@ -67,11 +45,6 @@ class CollisionRestartTest {
                     arrivals.add(new Arrival(ReportedRun.robot("r" + robot, random.nextInt(30), late), true));
                 }
             }
-        }
-
-        @Override
-        public List<Arrival> arrivals() {
-            return arrivals;
         }
 
         @Override
@@ -94,8 +67,7 @@ class CollisionRestartTest {
         @Override
         public DataStream<TopicRecord> define(
                 StreamExecutionEnvironment env, DataStream<TopicRecord> records, JobOptions options) {
-            TopicRecord nobody = new TopicRecord(
-                    Topics.DEVICES, 0, 0, 0, "|/|of-nobody".getBytes(StandardCharsets.UTF_8), null, Map.of());
+            var nobody = new TopicRecord(Topics.DEVICES, 0, 0, 0, "|/|of-nobody".getBytes(UTF_8), null, Map.of());
             DataStream<TopicRecord> devices = env.fromData(List.of(nobody), TypeInformation.of(TopicRecord.class))
                     .uid("read-devices")
                     .setParallelism(1);

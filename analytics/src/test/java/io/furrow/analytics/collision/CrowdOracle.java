@@ -168,8 +168,7 @@ final class CrowdOracle {
                 }
             }
         }
-        CollisionOracle.Overflow now =
-                new CollisionOracle.Overflow(cell, time, members.size(), pairs, leftOut, isCrowded(cell));
+        var now = new CollisionOracle.Overflow(cell, time, members.size(), pairs, leftOut, isCrowded(cell));
         overflows.add(now);
         told.put(cell, now);
     }

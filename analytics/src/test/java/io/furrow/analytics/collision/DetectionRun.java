@@ -13,6 +13,7 @@ import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.util.CloseableIterator;
 
+import io.furrow.analytics.EachEvent;
 import io.furrow.analytics.JobCounters;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.matching.CellOverflow;

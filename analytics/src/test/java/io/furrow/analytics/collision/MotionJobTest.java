@@ -1,44 +1,29 @@
 package io.furrow.analytics.collision;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
-import java.util.Map;
 
-import org.apache.flink.api.common.eventtime.WatermarkStrategy;
-import org.apache.flink.api.common.typeinfo.TypeInformation;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
-import org.apache.flink.streaming.api.datastream.DataStream;
-import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import picocli.CommandLine.ParameterException;
 
-import io.furrow.analytics.TestEnvironment;
-import io.furrow.analytics.position.PositionFix;
-import io.furrow.flink.device.DeviceInput;
-import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
-import io.furrow.model.ngsi.EntityBuilder;
-import io.furrow.model.ngsi.UnreadableException;
-import io.furrow.model.topic.Topics;
 
+import static io.furrow.analytics.collision.ReportedRun.START;
+import static io.furrow.analytics.collision.ReportedRun.entity;
+import static io.furrow.analytics.collision.ReportedRun.options;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 /** What the job reports courses and of the ways between reports, as it is written. */
 class MotionJobTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberSlotsPerTaskManager(2)
-            .build());
-
-    private static final int MORE_THAN_ANY_TEST_WRITES = 10_000;
-    private static final long START = 1_700_000_000_000L;
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     @Test
     void tellsAPredictionOnceASecondUntilTheEncounterStarts() throws Exception {
@@ -155,7 +140,7 @@ class MotionJobTest {
 
     private static List<Entity> phases(List<TopicRecord> written, String phase) {
         return written.stream()
-                .map(MotionJobTest::entity)
+                .map(ReportedRun::entity)
                 .filter(entity -> entity.text("phase").filter(phase::equals).isPresent())
                 .toList();
     }
@@ -169,54 +154,16 @@ class MotionJobTest {
     }
 
     private static String text(TopicRecord record) {
-        return record.timestamp() + " " + new String(record.value(), StandardCharsets.UTF_8);
+        return record.timestamp() + " " + new String(record.value(), UTF_8);
     }
 
     private static List<TopicRecord> run(CollisionOptions options, List<TopicRecord> records) throws Exception {
-        StreamExecutionEnvironment env = TestEnvironment.of(options);
-        env.setParallelism(2);
-        DataStream<TopicRecord> source = env.fromData(records)
-                .setParallelism(1)
-                .uid("records")
-                .assignTimestampsAndWatermarks(
-                        WatermarkStrategy.<TopicRecord>forGenerator(context -> new EachEvent<>(2000))
-                                .withTimestampAssigner((record, ignored) -> record.timestamp()))
-                .setParallelism(1)
-                .uid("timestamps");
-        // A device that nobody knows; a source of nothing ends before it begins.
-        byte[] key = "farm|/|nobody".getBytes(StandardCharsets.UTF_8);
-        TopicRecord gone = new TopicRecord(Topics.DEVICES, 0, 1, START, key, null, Map.of());
-        DataStream<TopicRecord> devices = env.fromData(List.of(gone), TypeInformation.of(TopicRecord.class))
-                .setParallelism(1)
-                .uid("read-devices");
-        List<TopicRecord> written = CollisionJob.define(
-                        new CollisionJob.Inputs(source, new DeviceInput(devices, List::of)), options)
-                .executeAndCollect(MORE_THAN_ANY_TEST_WRITES);
+        List<TopicRecord> written = ReportedRun.run(options, records.toArray(TopicRecord[]::new));
         written.sort(Comparator.comparingLong(TopicRecord::timestamp).thenComparing(MotionJobTest::text));
         return written;
     }
 
-    private static CollisionOptions options(String... args) {
-        CollisionOptions options = new CollisionOptions();
-        JobCommandLine.of(options).parseArgs(args);
-        return options;
-    }
-
     private static TopicRecord robot(String id, String type, double east, long time) {
-        PositionFix place = Fixes.east("", east, 0);
-        EntityBuilder robot =
-                Entity.builder(id, type).number("Latitude", place.latitude()).number("Longitude", place.longitude());
-        Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/north");
-        byte[] key = id.getBytes(StandardCharsets.UTF_8);
-        return new TopicRecord(
-                "data.raw", 0, 7, START + time, key, robot.build().toBytes(), headers);
-    }
-
-    private static Entity entity(TopicRecord record) {
-        try {
-            return Entity.parse(record.value());
-        } catch (UnreadableException e) {
-            throw new AssertionError("what the job wrote is an entity", e);
-        }
+        return ReportedRun.record(id, time, ReportedRun.text(ReportedRun.placed(Entity.builder(id, type), east)));
     }
 }

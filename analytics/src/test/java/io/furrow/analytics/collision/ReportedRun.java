@@ -1,6 +1,5 @@
 package io.furrow.analytics.collision;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.Comparator;
@@ -14,6 +13,7 @@ import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.analytics.AfterBroadcast;
+import io.furrow.analytics.EachEvent;
 import io.furrow.analytics.Replayed;
 import io.furrow.analytics.TestEnvironment;
 import io.furrow.analytics.position.PositionFix;
@@ -26,6 +26,8 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** The job {@code collision} over a few reports of devices on the equator. */
 public final class ReportedRun {
@@ -49,8 +51,7 @@ public final class ReportedRun {
             CollisionOptions options, AfterBroadcast.Metrics metrics, TopicRecord... records) throws Exception {
         List<TopicRecord> all = new ArrayList<>(List.of(record("the first", AfterBroadcast.FIRST - START, null)));
         all.addAll(Arrays.asList(records));
-        AfterBroadcast after =
-                new AfterBroadcast("Assign carriers", options.parallelism().orElse(2), metrics);
+        var after = new AfterBroadcast("Assign carriers", options.parallelism().orElse(2), metrics);
         return run(
                 options,
                 reports -> reports.filter(after).setParallelism(1).uid("after-devices"),
@@ -91,7 +92,7 @@ public final class ReportedRun {
                 0,
                 version.sequence(),
                 version.from(),
-                version.key().getBytes(StandardCharsets.UTF_8),
+                version.key().getBytes(UTF_8),
                 version.toBytes(),
                 Map.of());
     }
@@ -114,13 +115,13 @@ public final class ReportedRun {
     }
 
     static String text(EntityBuilder entity) {
-        return new String(entity.build().toBytes(), StandardCharsets.UTF_8);
+        return new String(entity.build().toBytes(), UTF_8);
     }
 
     static TopicRecord record(String key, long time, String value) {
-        byte[] bytes = value == null ? null : value.getBytes(StandardCharsets.UTF_8);
+        byte[] bytes = value == null ? null : value.getBytes(UTF_8);
         Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/north");
-        return new TopicRecord("data.raw", 0, 7, START + time, key.getBytes(StandardCharsets.UTF_8), bytes, headers);
+        return new TopicRecord("data.raw", 0, 7, START + time, key.getBytes(UTF_8), bytes, headers);
     }
 
     static Entity entity(TopicRecord record) {

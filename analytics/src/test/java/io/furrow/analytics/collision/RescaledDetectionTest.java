@@ -27,7 +27,6 @@ import org.apache.flink.core.execution.JobClient;
 import org.apache.flink.core.execution.SavepointFormatType;
 import org.apache.flink.runtime.minicluster.MiniCluster;
 import org.apache.flink.runtime.testutils.CommonTestUtils;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.streaming.api.functions.sink.v2.DiscardingSink;
@@ -40,12 +39,14 @@ import org.junit.jupiter.api.io.TempDir;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.analytics.EachEvent;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.rules.DebounceRules;
 import io.furrow.analytics.eventtime.HasEventTime;
 import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.TestClusters;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -54,9 +55,7 @@ class RescaledDetectionTest {
     private static final Logger LOG = LoggerFactory.getLogger(RescaledDetectionTest.class);
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberSlotsPerTaskManager(4)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(4);
 
     private static final long START = 1_700_000_000_000L;
     private static final int[] PARALLELISMS = {1, 2, 4, 2};
@@ -70,11 +69,9 @@ class RescaledDetectionTest {
     private static final Gate GATE = new Gate();
     private static List<PositionFix> arrivals;
 
-    @TempDir
-    private Path savepoints;
-
     @Test
-    void tellsTheSameAsAnUndisturbedRun(@InjectMiniCluster MiniCluster cluster) throws Exception {
+    void tellsTheSameAsAnUndisturbedRun(@InjectMiniCluster MiniCluster cluster, @TempDir Path savepoints)
+            throws Exception {
         long seed = System.nanoTime();
         LOG.info("rescaled run from seed {}", seed);
         CollisionRules rules = Worlds.rules(5, 10, false).with(new DebounceRules(1.5, DWELL));
@@ -123,9 +120,7 @@ class RescaledDetectionTest {
     /** The task manager goes with all that its tasks hold, and another comes in its place. */
     private static void kill(MiniCluster cluster, int taskManager, JobClient job) throws Exception {
         cluster.terminateTaskManager(taskManager).get(60, TimeUnit.SECONDS);
-        Awaitility.await()
-                .atMost(Duration.ofSeconds(60))
-                .until(() -> job.getJobStatus().get().isGloballyTerminalState());
+        Awaitility.await().until(() -> job.getJobStatus().get().isGloballyTerminalState());
         assertThat(job.getJobStatus().get()).isEqualTo(JobStatus.FAILED);
         cluster.startTaskManager();
     }
@@ -136,9 +131,7 @@ class RescaledDetectionTest {
         long due = expected.stream()
                 .filter(encounter -> encounter.time() + DWELL.toMillis() <= watermark) // a start is told so much later
                 .count();
-        Awaitility.await()
-                .atMost(Duration.ofSeconds(60))
-                .until(() -> distinct(WRITTEN).size() >= due);
+        Awaitility.await().until(() -> distinct(WRITTEN).size() >= due);
     }
 
     /** After so many positions. */
@@ -230,7 +223,7 @@ class RescaledDetectionTest {
         }
 
         void awaitAllPassed() {
-            Awaitility.await().atMost(Duration.ofSeconds(60)).until(this::isHolding);
+            Awaitility.await().until(this::isHolding);
         }
 
         private synchronized boolean isHolding() {

@@ -76,7 +76,7 @@ public final class Simulation {
 
     private void advance(List<PositionFix> due, long until) {
         List<CellUpdate> updates = new ArrayList<>();
-        Map<String, List<PositionFix>> fixes = grouped(due, PositionFix::identity);
+        Map<String, List<PositionFix>> fixes = grouped(due, PositionFix::identity, random);
         tracks.keySet().forEach(identity -> fixes.putIfAbsent(identity, List.of()));
         fixes.forEach((identity, of) -> {
             List<PositionFix> sorted = new ArrayList<>(of);
@@ -85,9 +85,9 @@ public final class Simulation {
             tracks.put(identity, tracker.advance(before, sorted, until, updates::add));
         });
         List<PairObservation> observations = new ArrayList<>();
-        grouped(updates, CellUpdate::cell).forEach((cell, of) -> match(cell, of, observations));
+        grouped(updates, CellUpdate::cell, random).forEach((cell, of) -> match(cell, of, observations));
         cells.forEach((id, cell) -> reports.advance(id, cell, until, this::tell));
-        grouped(observations, PairObservation::pair).forEach((pair, of) -> follow(pair, of, until));
+        grouped(observations, PairObservation::pair, random).forEach((pair, of) -> follow(pair, of, until));
         for (Pair pair : List.copyOf(courses.keySet())) {
             courses.put(pair, steadier.advance(courses.get(pair), until, encounters::add));
         }
@@ -123,7 +123,8 @@ public final class Simulation {
         }
     }
 
-    private <K, T> Map<K, List<T>> grouped(List<T> all, Function<T, K> key) {
+    /** The elements of each key in random order. */
+    public static <K, T> Map<K, List<T>> grouped(List<T> all, Function<T, K> key, Random random) {
         List<T> shuffled = new ArrayList<>(all);
         java.util.Collections.shuffle(shuffled, random);
         Map<K, List<T>> groups = new HashMap<>();
@@ -132,7 +133,8 @@ public final class Simulation {
         return groups;
     }
 
-    private static List<PositionFix> taken(List<PositionFix> waiting, long watermark) {
+    /** Removes what is due. */
+    public static List<PositionFix> taken(List<PositionFix> waiting, long watermark) {
         List<PositionFix> due =
                 waiting.stream().filter(fix -> fix.time() <= watermark).toList();
         waiting.removeIf(fix -> fix.time() <= watermark);

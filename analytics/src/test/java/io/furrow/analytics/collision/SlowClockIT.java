@@ -1,6 +1,5 @@
 package io.furrow.analytics.collision;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -27,6 +26,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -83,7 +83,7 @@ class SlowClockIT {
         var out = new ProducerRecord<>(Topics.RAW, partition, record.timestamp(), record.key(), record.value());
         record.with(HeaderNames.TS_SOURCE, Long.toString(received))
                 .headers()
-                .forEach((name, text) -> out.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));
+                .forEach((name, text) -> out.headers().add(name, text.getBytes(UTF_8)));
         producer.send(out);
     }
 

@@ -122,8 +122,12 @@ public final class Worlds {
         return fixes;
     }
 
-    /** An order of arrival in which nothing comes more than the bound behind something later. */
     public List<PositionFix> shuffled(List<PositionFix> fixes, long bound) {
+        return shuffled(fixes, bound, random);
+    }
+
+    /** An order of arrival in which nothing comes more than the bound behind something later. */
+    public static List<PositionFix> shuffled(List<PositionFix> fixes, long bound, Random random) {
         Map<PositionFix, Long> arrivals = new HashMap<>();
         fixes.forEach(fix -> arrivals.put(fix, fix.time() + random.nextLong(bound)));
         List<PositionFix> order = new ArrayList<>(fixes);

@@ -1,6 +1,5 @@
 package io.furrow.analytics.field;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -14,6 +13,8 @@ import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Records of {@code service.fields} as they stand on its one partition, one after the other. */
 public final class FieldRecords {
@@ -43,7 +44,7 @@ public final class FieldRecords {
     }
 
     public TopicRecord add(String key, byte[] value) {
-        byte[] bytes = key == null ? null : key.getBytes(StandardCharsets.UTF_8);
+        byte[] bytes = key == null ? null : key.getBytes(UTF_8);
         TopicRecord record = new TopicRecord(Topics.FIELDS, 0, records.size(), 0, bytes, value, Map.of());
         records.add(record);
         return record;
@@ -64,7 +65,7 @@ public final class FieldRecords {
 
     private static ObjectNode object(String json) {
         try {
-            return (ObjectNode) NgsiJson.read(json.getBytes(StandardCharsets.UTF_8));
+            return (ObjectNode) NgsiJson.read(json.getBytes(UTF_8));
         } catch (UnreadableException e) {
             throw new AssertionError(e);
         }

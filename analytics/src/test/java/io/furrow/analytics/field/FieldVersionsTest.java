@@ -1,12 +1,11 @@
 package io.furrow.analytics.field;
 
-import java.nio.charset.StandardCharsets;
-
 import org.junit.jupiter.api.Test;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.position.Position;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class FieldVersionsTest {
@@ -108,7 +107,7 @@ class FieldVersionsTest {
     @Test
     void areNotHarmedByWhatIsNoField() throws Exception {
         topic.square("f", 100, "");
-        topic.add("f@1970-01-01T00:00:00.200Z", "{}".getBytes(StandardCharsets.UTF_8));
+        topic.add("f@1970-01-01T00:00:00.200Z", "{}".getBytes(UTF_8));
         topic.add(null, null);
         FieldVersions known = FieldVersions.read(topic.atStart());
 

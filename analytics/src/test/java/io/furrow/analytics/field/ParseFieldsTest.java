@@ -1,12 +1,11 @@
 package io.furrow.analytics.field;
 
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 
 import org.apache.flink.streaming.api.operators.ProcessOperator;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.OneInputStreamOperatorTestHarness;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -16,6 +15,7 @@ import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ParseFieldsTest {
@@ -25,16 +25,13 @@ class ParseFieldsTest {
     private static final String SPRING = "2026-03-01T00:00:00.000Z";
 
     private final FieldRecords topic = new FieldRecords();
+
+    @AutoClose
     private OneInputStreamOperatorTestHarness<TopicRecord, TopicRecord> operator;
 
     @BeforeEach
     void create() throws Exception {
         operator = new OneInputStreamOperatorTestHarness<>(new ProcessOperator<>(new ParseFields("presence")));
-    }
-
-    @AfterEach
-    void close() throws Exception {
-        operator.close();
     }
 
     @Test
@@ -99,6 +96,6 @@ class ParseFieldsTest {
     private static byte[] feature(String id, String geometry) {
         return ("{\"type\":\"Feature\",\"id\":\"" + id + "\",\"geometry\":" + geometry
                         + ",\"properties\":{\"validFrom\":\"" + SPRING + "\"}}")
-                .getBytes(StandardCharsets.UTF_8);
+                .getBytes(UTF_8);
     }
 }

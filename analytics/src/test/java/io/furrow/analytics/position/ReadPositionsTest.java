@@ -1,6 +1,5 @@
 package io.furrow.analytics.position;
 
-import java.nio.charset.StandardCharsets;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
@@ -17,6 +16,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ReadPositionsTest {
@@ -57,7 +57,7 @@ class ReadPositionsTest {
     void readsTheSpeedInItsUnit() throws Exception {
         byte[] robot = """
                 {"id":"r1","type":"Robot","Latitude":{"value":1},"Longitude":{"value":2},
-                 "speed":{"value":36,"metadata":{"unitCode":{"type":"Text","value":"KMH"}}}}""".getBytes(StandardCharsets.UTF_8);
+                 "speed":{"value":36,"metadata":{"unitCode":{"type":"Text","value":"KMH"}}}}""".getBytes(UTF_8);
 
         assertThat(read(robot)).extracting(PositionFix::speed).containsExactly(10.0);
     }
@@ -104,7 +104,7 @@ class ReadPositionsTest {
     private static List<PositionFix> read(byte[] value, Map<String, String> others) throws Exception {
         ClockSkewLimit ahead = ClockSkewLimit.of(ReportedRun.options());
         var harness = ProcessFunctionTestHarnesses.forProcessFunction(new ReadPositions("collision", ahead));
-        byte[] key = "r1".getBytes(StandardCharsets.UTF_8);
+        byte[] key = "r1".getBytes(UTF_8);
         Map<String, String> headers = new HashMap<>(others);
         headers.putAll(Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/"));
         harness.processElement(new TopicRecord("data.raw", 0, 7, 1000, key, value, headers), 1000);

@@ -1,7 +1,6 @@
 package io.furrow.analytics.presence;
 
 import java.io.Serializable;
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.List;
 import java.util.Locale;
@@ -10,6 +9,8 @@ import java.util.stream.Collectors;
 
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.record.TopicRecord;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * A version of a field of rectangles, to be asked without geometry. Border counts.
@@ -56,6 +57,6 @@ record Plot(String id, long validFrom, List<Box> parts, Box hole) implements Ser
     }
 
     private static byte[] bytes(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.analytics.presence;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Predicate;
@@ -8,7 +7,6 @@ import java.util.stream.LongStream;
 
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
@@ -21,6 +19,7 @@ import picocli.CommandLine.ParameterException;
 import io.furrow.analytics.Replayed;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.presence.Plot.Box;
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
@@ -31,6 +30,8 @@ import static io.furrow.analytics.presence.PresenceRun.options;
 import static io.furrow.analytics.presence.PresenceRun.record;
 import static io.furrow.analytics.presence.PresenceRun.report;
 import static io.furrow.analytics.presence.PresenceRun.run;
+import static io.furrow.analytics.presence.Story.fix;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.tuple;
@@ -41,11 +42,7 @@ class PresenceJobTest {
     static final InMemoryReporter METRICS = InMemoryReporter.create();
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setConfiguration(METRICS.addToConfiguration(new Configuration()))
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(4)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(4, METRICS.addToConfiguration(new Configuration()));
 
     private static final Plot FIELD = new Plot("f", 0, List.of(new Box(1, 1, 1 + 5e-4, 1 + 5e-4)), null);
 
@@ -75,8 +72,8 @@ class PresenceJobTest {
 
     @Test
     void writesEntitiesOfDeviceAndField() throws Exception {
-        List<TopicRecord> written = run(
-                options(), List.of(FIELD), report(Story.fix("r1", 2, 3, 1000)), report(Story.fix("r1", 9, 3, 4000)));
+        List<TopicRecord> written =
+                run(options(), List.of(FIELD), report(fix("r1", 2, 3, 1000)), report(fix("r1", 9, 3, 4000)));
 
         assertThat(written).extracting(TopicRecord::topic).containsOnly("data.presence");
         Entity entered = entity(written.get(0));
@@ -95,7 +92,7 @@ class PresenceJobTest {
         assertThat(left.number("startTime")).contains(1000.0);
         assertThat(left.number("time")).contains(4000.0);
         assertThat(left.text("stay")).isEqualTo(entered.text("stay"));
-        assertThat(new String(written.get(1).key(), StandardCharsets.UTF_8)).isEqualTo("r1");
+        assertThat(new String(written.get(1).key(), UTF_8)).isEqualTo("r1");
         assertThat(written.get(1).timestamp()).isEqualTo(4000);
         assertThat(written.get(1).headers())
                 .containsEntry(HeaderNames.SERVICE, "farm")
@@ -108,11 +105,11 @@ class PresenceJobTest {
         List<TopicRecord> written = run(
                 options("--parallelism", "1"),
                 List.of(FIELD),
-                report(Story.fix("r1", 2, 3, 1000)),
-                report(Story.fix("r1", 9, 3, 1500)).to(replay),
-                report(Story.fix("r1", 3, 3, 2000)).to(replay),
-                report(Story.fix("r1", 9, 3, 4000)),
-                report(Story.fix("r1", 9, 3, 1000)).to(replay));
+                report(fix("r1", 2, 3, 1000)),
+                report(fix("r1", 9, 3, 1500)).to(replay),
+                report(fix("r1", 3, 3, 2000)).to(replay),
+                report(fix("r1", 9, 3, 4000)),
+                report(fix("r1", 9, 3, 1000)).to(replay));
 
         assertThat(written)
                 .extracting(TopicRecord::topic, TopicRecord::timestamp)
@@ -130,12 +127,12 @@ class PresenceJobTest {
         List<TopicRecord> written = run(
                 options("--parallelism", "1"),
                 List.of(FIELD),
-                report(Story.fix("r1", 2, 3, 1000)),
+                report(fix("r1", 2, 3, 1000)),
                 garbage.to("reports"),
                 garbage, // of data.raw, which ingest sets aside
                 record("r2", 1000, null),
-                report(Story.fix("r1", 2, 3, 90_000)),
-                report(Story.fix("r1", 9, 9, 2000)));
+                report(fix("r1", 2, 3, 90_000)),
+                report(fix("r1", 9, 9, 2000)));
 
         assertThat(written)
                 .extracting(TopicRecord::topic)
@@ -155,8 +152,8 @@ class PresenceJobTest {
         List<TopicRecord> reports = new ArrayList<>();
         for (long now = 1_000_000; now < 1_200_000; now += 1000) {
             String received = Long.toString(now);
-            reports.add(report(Story.fix("right", 9, 9, now)).with(HeaderNames.TS_SOURCE, received));
-            reports.add(report(Story.fix("slow", 2, 3, now - behind)).with(HeaderNames.TS_SOURCE, received));
+            reports.add(report(fix("right", 9, 9, now)).with(HeaderNames.TS_SOURCE, received));
+            reports.add(report(fix("slow", 2, 3, now - behind)).with(HeaderNames.TS_SOURCE, received));
         }
         TopicRecord[] all = reports.toArray(TopicRecord[]::new);
 
@@ -192,8 +189,7 @@ class PresenceJobTest {
                         story.rules.dwell().toMillis(),
                         story.rules.timeToLive().toMillis())
                 .split(" "));
-        List<TopicRecord> arrivals =
-                story.arrivals().stream().map(PresenceRun::report).toList();
+        var arrivals = story.arrivals().stream().map(PresenceRun::report).toList();
 
         Replayed.assertThatEpochsAreAsAlone(
                 Replayed.epochs(arrivals, middle(story)),

@@ -1,26 +1,16 @@
 package io.furrow.analytics.presence;
 
-import java.nio.charset.StandardCharsets;
-import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Random;
 import java.util.Set;
-import java.util.concurrent.TimeUnit;
 
 import org.apache.flink.api.common.typeinfo.TypeInformation;
-import org.apache.flink.runtime.minicluster.MiniCluster;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
-import org.apache.flink.test.junit5.InjectMiniCluster;
-import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Tag;
-import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.Timeout;
-import org.junit.jupiter.api.extension.RegisterExtension;
-import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.analytics.field.FieldInput;
 import io.furrow.analytics.position.PositionFix;
@@ -29,35 +19,25 @@ import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.kafka.KafkaConnectors;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.restart.JobCase;
+import io.furrow.flink.restart.RestartContract;
 import io.furrow.flink.restart.Restarts;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
-@Timeout(value = 10, unit = TimeUnit.HOURS)
+import static java.nio.charset.StandardCharsets.UTF_8;
+
 @Tag("full")
-class PresenceRestartTest {
-    @RegisterExtension
-    static final MiniClusterExtension FLINK = Restarts.cluster();
-
-    @Test
-    void tellsWhatAnUndisturbedRunTellsWhereverItIsRestarted(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
-            throws Exception {
-        new Restarts(flink, folder).changeNothing(3, Case::new);
-    }
-
-    @Test
-    void goesOnFromTheSavepointsOfReleases(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
-            throws Exception {
-        new Restarts(flink, folder).goOnFromReleases("presence", new Case(1));
+class PresenceRestartTest extends RestartContract {
+    PresenceRestartTest() {
+        super("presence", Case::new);
     }
 
     /** Devices that walk through the fields of a story, with late positions. */
-    private static final class Case implements JobCase {
+    private static final class Case extends JobCase {
         private static final int STEP = 100;
         private static final long START = 1_700_000_100_000L;
 
-        private final List<Arrival> arrivals = new ArrayList<>();
         private final ArrayList<Plot> plots;
 
         Case(long seed) {
@@ -88,13 +68,8 @@ class PresenceRestartTest {
                     .number("Longitude", fix.longitude())
                     .build();
             Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/");
-            byte[] key = device.getBytes(StandardCharsets.UTF_8);
+            byte[] key = device.getBytes(UTF_8);
             return new TopicRecord(Topics.RAW, 0, 7, time, key, entity.toBytes(), headers);
-        }
-
-        @Override
-        public List<Arrival> arrivals() {
-            return arrivals;
         }
 
         @Override

@@ -1,6 +1,5 @@
 package io.furrow.analytics.presence;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.Comparator;
@@ -15,6 +14,7 @@ import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.analytics.AfterBroadcast;
+import io.furrow.analytics.EachEvent;
 import io.furrow.analytics.Replayed;
 import io.furrow.analytics.TestEnvironment;
 import io.furrow.analytics.field.FieldInput;
@@ -24,6 +24,8 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** The job {@code presence} over a few reports of devices. */
 final class PresenceRun {
@@ -63,7 +65,7 @@ final class PresenceRun {
     static WatermarkStrategy<TopicRecord> watermarks(PresenceOptions options) {
         return options.inputTopics().replay().isPresent()
                 ? Replayed.watermarks(options)
-                : WatermarkStrategy.<TopicRecord>forGenerator(context -> new EachRecord())
+                : WatermarkStrategy.<TopicRecord>forGenerator(context -> new EachEvent<>(Story.BOUND))
                         .withTimestampAssigner((record, ignored) -> record.timestamp());
     }
 
@@ -71,20 +73,6 @@ final class PresenceRun {
         List<TopicRecord> records = new ArrayList<>();
         plots.forEach(plot -> records.add(plot.record(records.size())));
         return records;
-    }
-
-    /** A watermark after every record, so that a short job has as many as a long one. */
-    private static final class EachRecord implements WatermarkGenerator<TopicRecord> {
-        private long newest = Long.MIN_VALUE + Story.BOUND + 1;
-
-        @Override
-        public void onEvent(TopicRecord event, long time, WatermarkOutput output) {
-            newest = Math.max(newest, time);
-            output.emitWatermark(new Watermark(newest - Story.BOUND - 1));
-        }
-
-        @Override
-        public void onPeriodicEmit(WatermarkOutput output) {}
     }
 
     private static final class NoHindrance implements WatermarkGenerator<TopicRecord> {
@@ -109,13 +97,13 @@ final class PresenceRun {
                 .number("Latitude", fix.latitude())
                 .number("Longitude", fix.longitude())
                 .build();
-        return record(fix.id(), fix.time(), new String(entity.toBytes(), StandardCharsets.UTF_8));
+        return record(fix.id(), fix.time(), new String(entity.toBytes(), UTF_8));
     }
 
     static TopicRecord record(String key, long time, String value) {
-        byte[] bytes = value == null ? null : value.getBytes(StandardCharsets.UTF_8);
+        byte[] bytes = value == null ? null : value.getBytes(UTF_8);
         Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/");
-        return new TopicRecord("data.raw", 0, 7, time, key.getBytes(StandardCharsets.UTF_8), bytes, headers);
+        return new TopicRecord("data.raw", 0, 7, time, key.getBytes(UTF_8), bytes, headers);
     }
 
     /** As {@link PresenceOracle#line}. */

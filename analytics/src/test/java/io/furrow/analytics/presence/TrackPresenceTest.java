@@ -5,6 +5,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
 
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -14,10 +15,14 @@ import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.presence.Plot.Box;
 import io.furrow.flink.record.TopicRecord;
 
+import static io.furrow.analytics.presence.Story.fix;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 
 class TrackPresenceTest {
+    @AutoClose("stop")
+    private Following following;
+
     private static final Logger LOG = LoggerFactory.getLogger(TrackPresenceTest.class);
     private static final PresenceRules AT_ONCE = new PresenceRules(Duration.ofSeconds(60), Duration.ZERO);
     private static final Plot FIELD = new Plot("f", 0, List.of(new Box(1, 1, 1 + 5e-4, 1 + 5e-4)), null);
@@ -76,9 +81,9 @@ class TrackPresenceTest {
 
     @Test
     void goesByOtherRulesAsSoonAsTheyAreRestored() throws Exception {
-        Following following = new Following(
+        following = new Following(
                 new PresenceRules(Duration.ofSeconds(60), Duration.ofSeconds(10)), 1, List.of(FIELD.record(0)));
-        following.receive(Story.fix("d", 2, 2, 1000));
+        following.receive(fix("d", 2, 2, 1000));
         assertThat(following.advance(5000)).isEmpty();
 
         following.restart(new PresenceRules(Duration.ofSeconds(20), Duration.ofSeconds(3)));
@@ -87,16 +92,15 @@ class TrackPresenceTest {
                 .extracting(one -> one.phase().code() + " " + one.time() + " told " + one.emitted())
                 .containsExactly("entered 1000 told 4000", "left 21000 told 24000");
         assertThat(following.stateEntries()).isZero();
-        following.stop();
     }
 
     @Test
     void tellsHowLongADeviceStayed() throws Exception {
-        Following following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
-        following.receive(Story.fix("d", 9, 9, 1000));
-        following.receive(Story.fix("d", 2, 2, 2000));
-        following.receive(Story.fix("d", 3, 3, 5000));
-        following.receive(Story.fix("d", 9, 9, 7500));
+        following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
+        following.receive(fix("d", 9, 9, 1000));
+        following.receive(fix("d", 2, 2, 2000));
+        following.receive(fix("d", 3, 3, 5000));
+        following.receive(fix("d", 9, 9, 7500));
 
         List<PresenceTransition> passages = following.advance(8000);
 
@@ -104,15 +108,14 @@ class TrackPresenceTest {
                 .extracting(one -> one.phase().code() + " " + one.time() + " "
                         + (one.time() - one.stay().since()))
                 .containsExactly("entered 2000 0", "left 7500 5500");
-        following.stop();
     }
 
     @Test
     void judgesSilentDevicesAnewWhenTheirFieldChangesOrGoes() throws Exception {
-        Following following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
-        following.receive(Story.fix("stays", 1, 1, 1000));
-        following.receive(Story.fix("falls-out", 4, 4, 1000));
-        following.receive(Story.fix("comes-in", 7, 1, 1000));
+        following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
+        following.receive(fix("stays", 1, 1, 1000));
+        following.receive(fix("falls-out", 4, 4, 1000));
+        following.receive(fix("comes-in", 7, 1, 1000));
         assertThat(following.advance(1000)).hasSize(2);
 
         following.receive(new Plot("f", 3000, List.of(new Box(1, 1, 1 + 8e-4, 1 + 2e-4)), null).record(1));
@@ -129,14 +132,13 @@ class TrackPresenceTest {
                 .extracting(
                         one -> one.stay().fix().id() + " " + one.stay().cause().code() + " " + one.time())
                 .containsExactlyInAnyOrder("stays field-removed 20000", "comes-in field-removed 20000");
-        following.stop();
     }
 
     @Test
     void takesAVersionThatComesLateIntoAccountSoon() throws Exception {
-        Following following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
-        following.receive(Story.fix("d", 2, 2, 10_000));
-        following.receive(Story.fix("d", 3, 3, 11_500));
+        following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
+        following.receive(fix("d", 2, 2, 10_000));
+        following.receive(fix("d", 3, 3, 11_500));
         assertThat(following.advance(12_000)).hasSize(1);
 
         following.receive(new Plot("f", 11_000, List.of(), null).record(1));
@@ -147,66 +149,62 @@ class TrackPresenceTest {
                     assertThat(left.stay().cause()).isEqualTo(Cause.FIELD_REMOVED);
                     assertThat(left.time()).isBetween(12_000L, 12_000 + TrackPresence.AGAIN);
                 });
-        following.stop();
     }
 
     @Test
     void passesOverFlickerAtTheBorder() throws Exception {
-        Following following = new Following(
+        following = new Following(
                 new PresenceRules(Duration.ofSeconds(60), Duration.ofSeconds(3)), 1, List.of(FIELD.record(0)));
         int[] where = {2, 9, 2, 2, 2, 2, 9, 2, 9, 2, 9, 9, 9, 9};
         for (int second = 0; second < where.length; second++) {
-            following.receive(Story.fix("d", where[second], 2, 1000L * second));
+            following.receive(fix("d", where[second], 2, 1000L * second));
         }
 
         assertThat(following.advance(20_000).stream().map(PresenceOracle::line))
                 .containsExactly(
                         "data.raw|farm|/|d f entered at 2000 told 5000 from 1.0002,1.0002 moved since 2000",
                         "data.raw|farm|/|d f left at 10000 told 13000 from 1.0009,1.0002 moved since 2000");
-        following.stop();
     }
 
     @Test
     void showsTheLatePositionsThatAreTheNewestOfTheirDevice() throws Exception {
-        Following following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
-        following.receive(Story.fix("d", 2, 2, 10_000));
-        following.receive(Story.fix("e", 2, 2, 13_000));
+        following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
+        following.receive(fix("d", 2, 2, 10_000));
+        following.receive(fix("e", 2, 2, 13_000));
         following.advance(12_000);
 
-        following.receive(Story.fix("d", 9, 9, 9_000));
-        following.receive(Story.fix("d", 9, 9, 11_000));
-        following.receive(Story.fix("e", 9, 9, 11_000));
-        following.receive(Story.fix("f", 9, 9, 11_500));
+        following.receive(fix("d", 9, 9, 9_000));
+        following.receive(fix("d", 9, 9, 11_000));
+        following.receive(fix("e", 9, 9, 11_000));
+        following.receive(fix("f", 9, 9, 11_500));
 
         assertThat(following.late()).hasSize(4);
         assertThat(following.lagging())
                 .extracting(LaggingPosition::id, LaggingPosition::reached, LaggingPosition::counted)
                 .containsExactly(tuple("d", 12_000L, 10_000L), tuple("f", 12_000L, Long.MIN_VALUE));
-        following.stop();
     }
 
     @Test
     void setsAsideWhatComesBehindTheWatermarkAlsoAfterARestart() throws Exception {
-        Following following = new Following(AT_ONCE, 2, List.of(FIELD.record(0)));
-        following.receive(Story.fix("d", 2, 2, 10_000));
-        following.receive(Story.fix("e", 2, 2, 10_000));
+        following = new Following(AT_ONCE, 2, List.of(FIELD.record(0)));
+        following.receive(fix("d", 2, 2, 10_000));
+        following.receive(fix("e", 2, 2, 10_000));
         assertThat(following.advance(12_000)).hasSize(2);
 
-        following.receive(Story.fix("d", 9, 9, 12_000));
+        following.receive(fix("d", 9, 9, 12_000));
         following.restart(1);
-        following.receive(Story.fix("d", 9, 9, 11_000));
+        following.receive(fix("d", 9, 9, 11_000));
 
         assertThat(following.late()).extracting(PositionFix::time).containsExactlyInAnyOrder(12_000L, 11_000L);
-        following.stop();
     }
 
     @Test
     void takesWhatWasOnItsWayToASubtaskThatWasBehind() throws Exception {
-        Following following = new Following(AT_ONCE, 2, List.of(FIELD.record(0)));
-        PositionFix ahead = Story.fix("d", 9, 9, 11_000);
+        following = new Following(AT_ONCE, 2, List.of(FIELD.record(0)));
+        PositionFix ahead = fix("d", 9, 9, 11_000);
         PositionFix behind = null;
         for (int i = 0; behind == null || following.subtaskOf(behind) == following.subtaskOf(ahead); i++) {
-            behind = Story.fix("e" + i, 2, 2, 11_000);
+            behind = fix("e" + i, 2, 2, 11_000);
         }
         following.advance(following.subtaskOf(ahead), 12_000);
         following.advance(following.subtaskOf(behind), 10_000);
@@ -217,19 +215,17 @@ class TrackPresenceTest {
 
         assertThat(following.late()).containsExactly(ahead);
         assertThat(following.advance(12_000)).hasSize(1);
-        following.stop();
     }
 
     @Test
     void keepsOneTimerPerDevice() throws Exception {
-        Following following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
+        following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
         for (int step = 0; step < 50; step++) {
-            following.receive(Story.fix("d", step % 12, 2, 1000 + step));
-            following.receive(Story.fix("e", step % 12, 2, 1000 + step));
+            following.receive(fix("d", step % 12, 2, 1000 + step));
+            following.receive(fix("e", step % 12, 2, 1000 + step));
         }
         assertThat(following.timers()).isEqualTo(2);
         assertThat(following.advance(1020)).isNotEmpty();
         assertThat(following.timers()).isEqualTo(2);
-        following.stop();
     }
 }

@@ -6,7 +6,7 @@ import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
 import org.apache.flink.streaming.api.operators.co.CoBroadcastWithNonKeyedOperator;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.TwoInputStreamOperatorTestHarness;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.analytics.field.FieldRecords;
@@ -18,12 +18,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class AssignFieldsTest {
     private final FieldRecords fields = new FieldRecords();
-    private TwoInputStreamOperatorTestHarness<Reading, TopicRecord, FieldReading> operator;
 
-    @AfterEach
-    void close() throws Exception {
-        operator.close();
-    }
+    @AutoClose
+    private TwoInputStreamOperatorTestHarness<Reading, TopicRecord, FieldReading> operator;
 
     @Test
     void knowsTheFieldsBeforeTheStreamOfThemHasBroughtAny() throws Exception {

@@ -2,7 +2,6 @@ package io.furrow.analytics.temperature;
 
 import java.io.IOException;
 import java.lang.reflect.Modifier;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.stream.Stream;
@@ -13,6 +12,7 @@ import org.apache.flink.api.java.typeutils.PojoTypeInfo;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.analytics.field.Field;
+import io.furrow.files.Folders;
 import io.furrow.flink.record.TopicRecord;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -51,14 +51,12 @@ class FlowTypesTest {
     private static List<Class<?>> publicRecords() throws IOException {
         Path root = Path.of("target/classes");
         Path classes = root.resolve(Reading.class.getPackageName().replace('.', '/'));
-        try (Stream<Path> files = Files.walk(classes)) {
-            Stream<Class<?>> ours = files.map(file -> root.relativize(file).toString())
-                    .filter(file -> file.endsWith(".class") && !file.endsWith("package-info.class"))
-                    .map(file -> named(file.replace(".class", "").replace('/', '.')));
-            return Stream.concat(ours, Stream.of(TopicRecord.class))
-                    .filter(type -> type.isRecord() && Modifier.isPublic(type.getModifiers()))
-                    .toList();
-        }
+        Stream<Class<?>> ours = Folders.walk(classes).stream().map(file -> root.relativize(file).toString())
+                .filter(file -> file.endsWith(".class") && !file.endsWith("package-info.class"))
+                .map(file -> named(file.replace(".class", "").replace('/', '.')));
+        return Stream.concat(ours, Stream.of(TopicRecord.class))
+                .filter(type -> type.isRecord() && Modifier.isPublic(type.getModifiers()))
+                .toList();
     }
 
     private static Class<?> named(String name) {

@@ -18,11 +18,11 @@ import org.apache.flink.metrics.Counter;
 import org.apache.flink.metrics.Gauge;
 import org.apache.flink.metrics.Metric;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.awaitility.Awaitility;
 import org.awaitility.core.ConditionTimeoutException;
 
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.record.TopicRecord;
 
 /**
@@ -95,11 +95,7 @@ final class InTurn extends RichFilterFunction<TopicRecord> {
 
     private static MiniClusterExtension cluster(int slots, InMemoryReporter reporter) {
         metrics = reporter;
-        return new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-                .setNumberTaskManagers(1)
-                .setNumberSlotsPerTaskManager(slots)
-                .setConfiguration(metrics.addToConfiguration(new Configuration()))
-                .build());
+        return TestClusters.of(slots, metrics.addToConfiguration(new Configuration()));
     }
 
     /** What a counter of the job has counted at all subtasks. */
@@ -181,7 +177,6 @@ final class InTurn extends RichFilterFunction<TopicRecord> {
                 .pollInSameThread()
                 .pollDelay(Duration.ZERO)
                 .pollInterval(Duration.ofMillis(2))
-                .atMost(Duration.ofSeconds(60))
                 .until(condition);
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.analytics.temperature;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -15,6 +14,8 @@ import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
+import static io.furrow.analytics.temperature.Farm.north;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 @Timeout(60)
@@ -24,7 +25,7 @@ class TemperatureIntakeTest {
 
     @Test
     void countsReadingsFromOutsideOfAllFields() throws Exception {
-        JobRun run = JobRun.over(List.of(Farm.reading("near", 70, 49.99, 30, 4_000), Farm.north("t1", 18, 4_000)));
+        JobRun run = JobRun.over(List.of(Farm.reading("near", 70, 49.99, 30, 4_000), north("t1", 18, 4_000)));
 
         assertThat(run.averages()).containsOnlyKeys("north");
         assertThat(counted(run, "outside")).isEqualTo(1);
@@ -32,22 +33,21 @@ class TemperatureIntakeTest {
 
     @Test
     void countsARepeatedEventOnce() throws Exception {
-        TopicRecord first = Farm.north("t1", 10, 1_000);
-        TopicRecord last = Farm.north("t1", 30, 3_000);
+        TopicRecord first = north("t1", 10, 1_000);
+        TopicRecord last = north("t1", 30, 3_000);
 
-        assertThat(JobRun.over(List.of(first, Farm.north("t1", 11, 2_000), last))
-                        .averages())
+        assertThat(JobRun.over(List.of(first, north("t1", 11, 2_000), last)).averages())
                 .containsEntry("north", 11.0);
-        JobRun repeated = JobRun.over(List.of(first, Farm.north("t1", 11, 2_000), last, first, first, first));
+        JobRun repeated = JobRun.over(List.of(first, north("t1", 11, 2_000), last, first, first, first));
         assertThat(repeated.averages()).containsExactly(Map.entry("north", 11.0));
         assertThat(counted(repeated, "repeated")).isEqualTo(3);
     }
 
     @Test
     void sendsWhatComesTooLateToItsOwnTopicUnchanged() throws Exception {
-        TopicRecord inTime = Farm.north("t1", 10, 59_000);
-        TopicRecord next = Farm.north("t1", 12, 62_000);
-        TopicRecord late = Farm.north("t2", 90, 59_999);
+        TopicRecord inTime = north("t1", 10, 59_000);
+        TopicRecord next = north("t1", 12, 62_000);
+        TopicRecord late = north("t2", 90, 59_999);
 
         assertThat(JobRun.over(List.of(inTime, late, next)).to(Topics.TEMPERATURE_LATE))
                 .isEmpty();
@@ -72,8 +72,8 @@ class TemperatureIntakeTest {
     @Test
     void setsGarbageAsideAndLeavesTheRestUnharmed() throws Exception {
         List<TopicRecord> arrivals = new ArrayList<>(Farm.FOUR_DEVICES_ONE_DEFECTIVE);
-        byte[] noJson = "temperature=18".getBytes(StandardCharsets.UTF_8);
-        byte[] otherSchema = "{\"sensor\": 5, \"readings\": [18.1]}".getBytes(StandardCharsets.UTF_8);
+        byte[] noJson = "temperature=18".getBytes(UTF_8);
+        byte[] otherSchema = "{\"sensor\": 5, \"readings\": [18.1]}".getBytes(UTF_8);
         arrivals.add(1, Farm.garbage(noJson, 1_500).to("reports"));
         arrivals.add(2, Farm.garbage(otherSchema, 1_500).to("reports"));
         arrivals.add(3, Farm.garbage(noJson, 1_500));

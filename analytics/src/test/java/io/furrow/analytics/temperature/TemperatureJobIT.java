@@ -1,6 +1,5 @@
 package io.furrow.analytics.temperature;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -35,6 +34,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -47,7 +47,7 @@ class TemperatureJobIT {
     /** A topic that ingest does not read. */
     private static final String OTHER = "reports";
 
-    private static final byte[] GARBAGE = "temperature=18".getBytes(StandardCharsets.UTF_8);
+    private static final byte[] GARBAGE = "temperature=18".getBytes(UTF_8);
 
     @Test
     void readsReportedChangesAndWritesAveragesAndDeadLetters(@TempDir Path dir) throws Exception {
@@ -74,7 +74,7 @@ class TemperatureJobIT {
             ConsumerRecord<byte[], byte[]> result = first(kafka, Topics.TEMPERATURE);
             assertThat(Entity.parse(result.value()).number("averageTemperature"))
                     .contains(19.0);
-            assertThat(result.key()).isEqualTo("north".getBytes(StandardCharsets.UTF_8));
+            assertThat(result.key()).isEqualTo("north".getBytes(UTF_8));
             assertThat(result.timestamp()).isEqualTo(59_999);
             assertThat(header(result, HeaderNames.CE_SOURCE)).isEqualTo("/analytics/temperature");
 
@@ -116,7 +116,7 @@ class TemperatureJobIT {
             EmbeddedKafka kafka, KafkaConsumer<byte[], byte[]> results, int round, String... expected) {
         AtomicLong second = new AtomicLong(round * ROUND);
         TreeMap<Double, TreeSet<String>> windows = new TreeMap<>();
-        await().pollInSameThread().atMost(Duration.ofSeconds(60)).until(() -> {
+        await().pollInSameThread().until(() -> {
             write(kafka, List.of(Farm.reading("t1", 18, 55, 15, second.getAndAdd(1_000))));
             for (ConsumerRecord<byte[], byte[]> record : results.poll(Duration.ofMillis(100))) {
                 Entity result = Entity.parse(record.value());
@@ -140,16 +140,11 @@ class TemperatureJobIT {
         TemperatureOptions options = new TemperatureOptions();
         JobCommandLine.of(options)
                 .parseArgs(
-                        "--bootstrap-servers",
-                        kafka.bootstrapServers(),
-                        "--idle-timeout",
-                        "2s",
-                        "--parallelism",
-                        "1",
-                        "--window",
-                        "1s",
-                        "--out-of-orderness",
-                        "0s");
+                        "--bootstrap-servers", kafka.bootstrapServers(),
+                        "--idle-timeout", "2s",
+                        "--parallelism", "1",
+                        "--window", "1s",
+                        "--out-of-orderness", "0s");
         return options;
     }
 
@@ -158,8 +153,7 @@ class TemperatureJobIT {
                 new KafkaProducer<>(kafka.producerSettings(), new ByteArraySerializer(), new ByteArraySerializer())) {
             for (TopicRecord record : records) {
                 var out = new ProducerRecord<>(record.topic(), null, record.timestamp(), record.key(), record.value());
-                record.headers()
-                        .forEach((name, text) -> out.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));
+                record.headers().forEach((name, text) -> out.headers().add(name, text.getBytes(UTF_8)));
                 producer.send(out);
             }
             producer.flush();
@@ -187,7 +181,6 @@ class TemperatureJobIT {
         try (var consumer = consumer(kafka, topic)) {
             // A consumer is used from one thread only.
             return await().pollInSameThread()
-                    .atMost(Duration.ofSeconds(60))
                     .until(() -> consumer.poll(Duration.ofMillis(200)), polled -> !polled.isEmpty())
                     .iterator()
                     .next();
@@ -196,6 +189,6 @@ class TemperatureJobIT {
 
     private static String header(ConsumerRecord<byte[], byte[]> record, String name) {
         Header header = record.headers().lastHeader(name);
-        return new String(header.value(), StandardCharsets.UTF_8);
+        return new String(header.value(), UTF_8);
     }
 }

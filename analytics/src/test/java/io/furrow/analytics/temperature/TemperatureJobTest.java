@@ -1,6 +1,5 @@
 package io.furrow.analytics.temperature;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
@@ -20,6 +19,9 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static io.furrow.analytics.temperature.Farm.north;
+import static io.furrow.analytics.temperature.Farm.reading;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
@@ -45,12 +47,12 @@ class TemperatureJobTest {
              "windowEnd": {"type": "Integer", "value": 60000, "metadata": {}},
              "quality": {"type": "String", "value": "robust", "metadata": {}},
              "Domain": {"type": "TextUnrestricted", "value": "canary", "metadata": {}}}\
-            """.getBytes(StandardCharsets.UTF_8));
+            """.getBytes(UTF_8));
         assertThat(run.records()).hasSize(1);
         TopicRecord result = run.records().get(0);
         assertThat(NgsiJson.read(result.value())).isEqualTo(expected);
         assertThat(result.topic()).isEqualTo(Topics.TEMPERATURE);
-        assertThat(new String(result.key(), StandardCharsets.UTF_8)).isEqualTo("north");
+        assertThat(new String(result.key(), UTF_8)).isEqualTo("north");
         assertThat(result.timestamp()).as("the window's last instant").isEqualTo(59_999);
         assertThat(result.headers())
                 .containsEntry(HeaderNames.CE_SOURCE, "/analytics/temperature")
@@ -62,10 +64,10 @@ class TemperatureJobTest {
     @Test
     void countsDevicesOfOneIdAndTwoTypesEach() throws Exception {
         List<TopicRecord> arrivals = new ArrayList<>(Farm.FOUR_DEVICES_ONE_DEFECTIVE);
-        arrivals.add(Farm.north("Station", "t4", 19, 3_000));
-        arrivals.add(Farm.north("Station", "t1", 19, 5_000));
-        arrivals.add(Farm.north("a|b", "c", 19, 5_000));
-        arrivals.add(Farm.north("a", "b|c", 19, 5_000));
+        arrivals.add(north("Station", "t4", 19, 3_000));
+        arrivals.add(north("Station", "t1", 19, 5_000));
+        arrivals.add(north("a|b", "c", 19, 5_000));
+        arrivals.add(north("a", "b|c", 19, 5_000));
 
         JobRun run = JobRun.over(arrivals);
 
@@ -84,15 +86,15 @@ class TemperatureJobTest {
         for (long start = 0; start < 120_000; start += 60_000) {
             for (int device = 1; device <= 4; device++) {
                 long time = start + device;
-                arrivals.add(Farm.north("t" + device, device == 4 ? 18 : 17 + device, time));
-                arrivals.add(Farm.north("t" + device, device == 4 ? 60 : 17 + device, time)
+                arrivals.add(north("t" + device, device == 4 ? 18 : 17 + device, time));
+                arrivals.add(north("t" + device, device == 4 ? 60 : 17 + device, time)
                         .to(replay));
             }
         }
         TopicRecord same = arrivals.get(0); // also an event of one id is another one there
         arrivals.add(same.to(replay));
-        arrivals.add(Farm.north("t1", 18, 181_000));
-        arrivals.add(Farm.north("t2", 18, 1_000).to(replay));
+        arrivals.add(north("t1", 18, 181_000));
+        arrivals.add(north("t2", 18, 1_000).to(replay));
 
         JobRun run = JobRun.over(arrivals, "--out-of-orderness", "1s");
 
@@ -112,7 +114,7 @@ class TemperatureJobTest {
     void givesTheSameResultWhenReadingsArriveOutOfOrder() throws Exception {
         List<TopicRecord> arrivals = new ArrayList<>();
         for (int second = 0; second < 120; second++) {
-            arrivals.add(Farm.north("t" + second % 4, second % 4 == 3 ? 60 : 18 + second / 40.0, second * 1_000L));
+            arrivals.add(north("t" + second % 4, second % 4 == 3 ? 60 : 18 + second / 40.0, second * 1_000L));
         }
         JobRun inOrder = JobRun.over(arrivals, "--out-of-orderness", "2min");
         Collections.shuffle(arrivals, new Random(1));
@@ -126,10 +128,10 @@ class TemperatureJobTest {
     @Test
     void countsADeviceOnTheBorderInEveryFieldThatItTouches() throws Exception {
         JobRun run = JobRun.over(List.of(
-                Farm.reading("border", 10, 57, 15, 1_000),
-                Farm.reading("corner", 30, 50, 30, 2_000),
-                Farm.reading("hole", 50, 54, 35, 3_000),
-                Farm.reading("outside", 70, 49.99, 30, 4_000)));
+                reading("border", 10, 57, 15, 1_000),
+                reading("corner", 30, 50, 30, 2_000),
+                reading("hole", 50, 54, 35, 3_000),
+                reading("outside", 70, 49.99, 30, 4_000)));
 
         assertThat(run.averages())
                 .containsExactlyInAnyOrderEntriesOf(Map.of("north", 10.0, "overlap", 10.0, "ring", 40.0));
@@ -137,9 +139,9 @@ class TemperatureJobTest {
 
     @Test
     void givesEachDeviceOneVoteHoweverOftenItReports() throws Exception {
-        List<TopicRecord> arrivals = new ArrayList<>(List.of(Farm.north("quiet", 20, 30_000)));
+        List<TopicRecord> arrivals = new ArrayList<>(List.of(north("quiet", 20, 30_000)));
         for (int second = 0; second < 59; second++) {
-            arrivals.add(Farm.north("chatty", second == 0 ? 999 : 10, second * 1_000L));
+            arrivals.add(north("chatty", second == 0 ? 999 : 10, second * 1_000L));
         }
 
         JobRun run = JobRun.over(arrivals, "--out-of-orderness", "1min");
@@ -154,10 +156,10 @@ class TemperatureJobTest {
     void correctsAResultWithinTheAllowedLateness() throws Exception {
         JobRun run = JobRun.over(
                 List.of(
-                        Farm.north("t1", 10, 59_000),
-                        Farm.north("t1", 12, 62_000),
-                        Farm.north("t2", 30, 59_500),
-                        Farm.north("t2", 50, 59_600)),
+                        north("t1", 10, 59_000),
+                        north("t1", 12, 62_000),
+                        north("t2", 30, 59_500),
+                        north("t2", 50, 59_600)),
                 "--allowed-lateness",
                 "10s");
 
@@ -172,9 +174,7 @@ class TemperatureJobTest {
     @Test
     void slidesItsWindowsWhenAsked() throws Exception {
         JobRun run = JobRun.over(
-                List.of(Farm.north("t1", 10, 10_000), Farm.north("t1", 20, 40_000), Farm.north("t1", 30, 70_000)),
-                "--slide",
-                "30s");
+                List.of(north("t1", 10, 10_000), north("t1", 20, 40_000), north("t1", 30, 70_000)), "--slide", "30s");
 
         assertThat(run.results(Topics.TEMPERATURE).stream()
                         .map(result -> List.of(
@@ -187,9 +187,9 @@ class TemperatureJobTest {
 
     @Test
     void neverMixesTheDevicesOfTwoTenants() throws Exception {
-        Entity warm = JobRun.entity(Farm.north("t1", 30, 1_000));
-        JobRun run = JobRun.over(
-                List.of(Farm.north("t1", 10, 1_000), Farm.changed(new FiwareScope("other", "/"), 1_000, warm)));
+        Entity warm = JobRun.entity(north("t1", 30, 1_000));
+        JobRun run =
+                JobRun.over(List.of(north("t1", 10, 1_000), Farm.changed(new FiwareScope("other", "/"), 1_000, warm)));
 
         assertThat(run.to(Topics.TEMPERATURE))
                 .extracting(
@@ -213,7 +213,7 @@ class TemperatureJobTest {
                         .number("soilMoisture", 0.31)
                         .build());
         JobRun run = JobRun.over(
-                List.of(moist, Farm.north("t1", 18, 200_000), moist.with(HeaderNames.CE_ID, "another")),
+                List.of(moist, north("t1", 18, 200_000), moist.with(HeaderNames.CE_ID, "another")),
                 "--attribute",
                 "soilMoisture",
                 "--suspect-floor",

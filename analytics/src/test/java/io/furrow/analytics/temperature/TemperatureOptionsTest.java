@@ -3,19 +3,22 @@ package io.furrow.analytics.temperature;
 import java.nio.file.Path;
 import java.time.Duration;
 
+import org.assertj.core.api.ThrowableAssert.ThrowingCallable;
 import org.junit.jupiter.api.Test;
 import picocli.CommandLine.ParameterException;
 
 import io.furrow.flink.JobUids;
 import io.furrow.flink.job.JobCommandLine;
 
+import static io.furrow.analytics.temperature.Farm.FIELDS;
+import static io.furrow.analytics.temperature.Farm.options;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class TemperatureOptionsTest {
     @Test
     void haveTheDefaultsThatTheHelpNames() {
-        TemperatureOptions options = Farm.options(Farm.FIELDS);
+        TemperatureOptions options = options(FIELDS);
 
         assertThat(options.jobName()).isEqualTo("temperature");
         assertThat(options.attribute()).isEqualTo("Temperature");
@@ -29,37 +32,26 @@ class TemperatureOptionsTest {
 
     @Test
     void rememberEventsForAsLongAsARepetitionCouldCount() {
-        TemperatureOptions options = Farm.options(Farm.FIELDS, "--window", "5min", "--allowed-lateness", "1min");
+        TemperatureOptions options = options(FIELDS, "--window", "5min", "--allowed-lateness", "1min");
 
         assertThat(options.repeatWindow()).isEqualTo(Duration.ofMinutes(6));
-        assertThat(Farm.options(Farm.FIELDS, "--repeat-window", "1h").repeatWindow())
-                .isEqualTo(Duration.ofHours(1));
+        assertThat(options(FIELDS, "--repeat-window", "1h").repeatWindow()).isEqualTo(Duration.ofHours(1));
     }
 
     @Test
     void refuseWindowsThatDoNotFitTheirSlide() {
-        assertThat(Farm.options(Farm.FIELDS, "--slide", "20s").slide()).isEqualTo(Duration.ofSeconds(20));
-        assertThatThrownBy(() -> Farm.options(Farm.FIELDS, "--slide", "25s").slide())
-                .isInstanceOf(ParameterException.class)
-                .hasMessageContaining("--slide must be a whole part of --window");
-        assertThat(Farm.options(Farm.FIELDS, "--window", "1d", "--slide", "1min")
-                        .slide())
-                .isEqualTo(Duration.ofMinutes(1));
-        assertThatThrownBy(() -> Farm.options(Farm.FIELDS, "--window", "1d", "--slide", "1ms")
-                        .slide())
-                .isInstanceOf(ParameterException.class)
-                .hasMessageContaining("--slide puts each reading into more than 1440 windows");
+        assertThat(options(FIELDS, "--slide", "20s").slide()).isEqualTo(Duration.ofSeconds(20));
+        assertRefused(() -> options(FIELDS, "--slide", "25s").slide(), "--slide must be a whole part of --window");
+        assertThat(options(FIELDS, "--window", "1d", "--slide", "1min").slide()).isEqualTo(Duration.ofMinutes(1));
+        assertRefused(
+                () -> options(FIELDS, "--window", "1d", "--slide", "1ms").slide(),
+                "--slide puts each reading into more than 1440 windows");
     }
 
     @Test
     void refuseWhatIsNoLengthOfTime() {
-        assertThatThrownBy(() -> Farm.options(Farm.FIELDS, "--window", "0s").window())
-                .isInstanceOf(ParameterException.class)
-                .hasMessageContaining("--window must be longer than 0");
-        assertThatThrownBy(
-                        () -> Farm.options(Farm.FIELDS, "--suspect-floor", "-1").suspectFloor())
-                .isInstanceOf(ParameterException.class)
-                .hasMessageContaining("--suspect-floor must be 0 or");
+        assertRefused(() -> options(FIELDS, "--window", "0s").window(), "--window must be longer than 0");
+        assertRefused(() -> options(FIELDS, "--suspect-floor", "-1").suspectFloor(), "--suspect-floor must be 0 or");
     }
 
     @Test
@@ -73,24 +65,19 @@ class TemperatureOptionsTest {
 
     @Test
     void nameTheJobAfterAnyOtherAttribute() {
-        assertThat(Farm.options(Farm.FIELDS, "--attribute", "soilMoisture").jobName())
-                .isEqualTo("temperature-soilMoisture");
-        assertThat(Farm.options(Farm.FIELDS, "--attribute", "soil:moisture").jobName())
-                .isEqualTo("temperature-soil.moisture");
-        assertThatThrownBy(() -> Farm.options(Farm.FIELDS, "--attribute", "soil moisture")
-                        .attribute())
-                .isInstanceOf(ParameterException.class)
-                .hasMessageContaining("--attribute must be 1 to 40 of");
+        assertThat(options(FIELDS, "--attribute", "soilMoisture").jobName()).isEqualTo("temperature-soilMoisture");
+        assertThat(options(FIELDS, "--attribute", "soil:moisture").jobName()).isEqualTo("temperature-soil.moisture");
+        assertRefused(
+                () -> options(FIELDS, "--attribute", "soil moisture").attribute(), "--attribute must be 1 to 40 of");
     }
 
     @Test
     void knowHowMuchSoundDevicesDifferOfATemperatureOnly() {
-        assertThat(Farm.options(Farm.FIELDS, "--suspect-floor", "0.9").suspectFloor())
-                .isEqualTo(0.9);
-        assertThat(Farm.options(Farm.FIELDS, "--attribute", "soilMoisture", "--suspect-floor", "0")
+        assertThat(options(FIELDS, "--suspect-floor", "0.9").suspectFloor()).isEqualTo(0.9);
+        assertThat(options(FIELDS, "--attribute", "soilMoisture", "--suspect-floor", "0")
                         .suspectFloor())
                 .isZero();
-        assertThatThrownBy(() -> TemperatureJob.assemble(Farm.options(Farm.FIELDS, "--attribute", "soilMoisture")))
+        assertThatThrownBy(() -> TemperatureJob.assemble(options(FIELDS, "--attribute", "soilMoisture")))
                 .isInstanceOf(ParameterException.class)
                 .hasMessageStartingWith(
                         "--attribute soilMoisture needs --suspect-floor: by how much two sound devices");
@@ -98,8 +85,12 @@ class TemperatureOptionsTest {
 
     @Test
     void refuseToStartWithoutUsableFields() {
-        assertThatThrownBy(() -> TemperatureJob.assemble(Farm.options(Path.of("no.geojson"))))
+        assertThatThrownBy(() -> TemperatureJob.assemble(options(Path.of("no.geojson"))))
                 .isInstanceOf(ParameterException.class)
                 .hasMessage("--fields no.geojson: cannot be read; name a readable GeoJSON file");
+    }
+
+    private static void assertRefused(ThrowingCallable option, String reason) {
+        assertThatThrownBy(option).isInstanceOf(ParameterException.class).hasMessageContaining(reason);
     }
 }

@@ -61,8 +61,7 @@ class TemperatureOracleTest {
     void hasCasesOfEveryKind() {
         List<RandomCases> random =
                 seeds().mapToObj(seed -> RandomCases.of(seed, 1)).toList();
-        List<BatchRecomputation> cases =
-                random.stream().map(BatchRecomputation::of).toList();
+        var cases = random.stream().map(BatchRecomputation::of).toList();
 
         assertThat(cases.stream().mapToInt(each -> each.late().size())).anyMatch(late -> late > 0);
         assertThat(cases.stream().flatMap(each -> each.results().values().stream()))

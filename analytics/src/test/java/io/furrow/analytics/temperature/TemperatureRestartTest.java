@@ -1,55 +1,33 @@
 package io.furrow.analytics.temperature;
 
-import java.nio.file.Path;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
 import java.util.Set;
-import java.util.concurrent.TimeUnit;
 
-import org.apache.flink.runtime.minicluster.MiniCluster;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
-import org.apache.flink.test.junit5.InjectMiniCluster;
-import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Tag;
-import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.Timeout;
-import org.junit.jupiter.api.extension.RegisterExtension;
-import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.analytics.field.FieldInput;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.restart.JobCase;
+import io.furrow.flink.restart.RestartContract;
 import io.furrow.flink.restart.Restarts;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
-@Timeout(value = 10, unit = TimeUnit.HOURS)
 @Tag("full")
-class TemperatureRestartTest {
-    @RegisterExtension
-    static final MiniClusterExtension FLINK = Restarts.cluster();
-
-    @Test
-    void givesTheResultsOfAnUndisturbedRunWhereverItIsRestarted(
-            @InjectMiniCluster MiniCluster flink, @TempDir Path folder) throws Exception {
-        new Restarts(flink, folder).changeNothing(3, Case::new);
-    }
-
-    @Test
-    void goesOnFromTheSavepointsOfReleases(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
-            throws Exception {
-        new Restarts(flink, folder).goOnFromReleases("temperature", new Case(1));
+class TemperatureRestartTest extends RestartContract {
+    TemperatureRestartTest() {
+        super("temperature", Case::new);
     }
 
     /** One device is defective, one falls silent; some readings are late, some come twice, and some are corrections. */
-    private static final class Case implements JobCase {
+    private static final class Case extends JobCase {
         private static final long START = 1_700_000_000_000L;
         private static final int STEP = 250;
 
-        private final List<Arrival> arrivals = new ArrayList<>();
         private final boolean corrects;
 
         Case(long seed) {
@@ -76,11 +54,6 @@ class TemperatureRestartTest {
                     arrivals.add(new Arrival(Farm.north("t" + random.nextInt(3), 18.5, belated), true));
                 }
             }
-        }
-
-        @Override
-        public List<Arrival> arrivals() {
-            return arrivals;
         }
 
         @Override

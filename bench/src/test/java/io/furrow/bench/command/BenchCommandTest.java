@@ -16,17 +16,10 @@ import static org.assertj.core.api.Assertions.assertThat;
 class BenchCommandTest {
     @ParameterizedTest
     @CsvSource({
-        "bench --help, load",
-        "bench load --help, --devices",
-        "bench notifications --help, --new-connections",
-        "bench sink --help, --stand-in",
-        "bench control --help, --outstanding",
-        "bench whole --help, --against",
-        "bench evaluate --help, --sweeps",
-        "bench components --help, --turns",
-        "bench compare --help, BEFORE",
-        "bench --help, dashboard",
-        "bench dashboard --help, ./furrow soak page --help"
+        "bench --help, load", "bench load --help, --devices", "bench notifications --help, --new-connections",
+        "bench sink --help, --stand-in", "bench control --help, --outstanding", "bench whole --help, --against",
+        "bench evaluate --help, --sweeps", "bench components --help, --turns", "bench compare --help, BEFORE",
+        "bench --help, dashboard", "bench dashboard --help, ./furrow soak page --help"
     })
     void explainsItself(String words, String mentioned) {
         StringWriter out = new StringWriter();

@@ -16,9 +16,6 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class ComparisonTest {
-    @TempDir
-    private Path folder;
-
     @Test
     void tellsAChangeFromNoise() {
         assertThat(verdict(turns(50, 52, 48), turns(60, 61, 59))).isEqualTo("faster");
@@ -39,7 +36,7 @@ class ComparisonTest {
     }
 
     @Test
-    void hasTheTurnsOfTheCommitThatWasMeasuredLast() throws Exception {
+    void hasTheTurnsOfTheCommitThatWasMeasuredLast(@TempDir Path folder) throws Exception {
         Path file = folder.resolve("results.jsonl");
         ComponentResults results = ComponentResults.in(file);
         results.add("old", 1, Component.SINK, rates(1, 2));

@@ -21,8 +21,7 @@ class ControlMeasurementTest {
 
     @Test
     void countsRequestsThatAreAnsweredAsTheyShould() throws Exception {
-        ControlMeasurement.Report report =
-                new ControlMeasurement(client("changed", "created", "deleted"), "run").run(PLAN);
+        var report = new ControlMeasurement(client("changed", "created", "deleted"), "run").run(PLAN);
 
         assertThat(report.sent()).isPositive().isEqualTo(report.answered()).isEqualTo(ids.size());
         assertThat(report.isSound()).isTrue();

@@ -21,9 +21,6 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class EvaluationReportTest {
     private static final EvaluationResults.Run RUN = new EvaluationResults.Run("0123abc", 1024, 60);
 
-    @TempDir
-    private Path folder;
-
     @Test
     void hasTheRatesOfTheThesis() {
         assertThat(Sweep.PERIOD.points())
@@ -69,7 +66,7 @@ class EvaluationReportTest {
     }
 
     @Test
-    void goesOnWithWhatAnEarlierRunMeasured() throws Exception {
+    void goesOnWithWhatAnEarlierRunMeasured(@TempDir Path folder) throws Exception {
         Path file = folder.resolve("results.jsonl");
         Point point = Sweep.PERIOD.points().get(2);
         EvaluationResults.in(file).add(result(point, 100, 0));
@@ -87,14 +84,14 @@ class EvaluationReportTest {
     }
 
     @Test
-    void refusesAFileOfSomethingElse() throws Exception {
+    void refusesAFileOfSomethingElse(@TempDir Path folder) throws Exception {
         Path file = Files.writeString(folder.resolve("other.jsonl"), "hello\n");
 
         assertThatThrownBy(() -> EvaluationResults.in(file)).hasMessageContaining("--results");
     }
 
     @Test
-    void marksWhatWasLostOrCameTwiceAndDrawsWhatThereIs() throws Exception {
+    void marksWhatWasLostOrCameTwiceAndDrawsWhatThereIs(@TempDir Path folder) throws Exception {
         EvaluationResults known = EvaluationResults.in(folder.resolve("results.jsonl"));
         known.add(result(Sweep.PAYLOAD.points().get(0), 100, 0));
         known.add(result(Sweep.PAYLOAD.points().get(1), 99, 0));

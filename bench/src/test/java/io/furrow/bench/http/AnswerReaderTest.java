@@ -7,18 +7,22 @@ import java.net.InetSocketAddress;
 import java.nio.ByteBuffer;
 import java.nio.channels.ServerSocketChannel;
 import java.nio.channels.SocketChannel;
-import java.nio.charset.StandardCharsets;
 
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class AnswerReaderTest {
     private final AnswerReader reader = new AnswerReader();
+
+    @AutoClose
     private SocketChannel server;
+
+    @AutoClose
     private SocketChannel client;
 
     @BeforeEach
@@ -28,12 +32,6 @@ class AnswerReaderTest {
             client = SocketChannel.open(listening.getLocalAddress());
             server = listening.accept();
         }
-    }
-
-    @AfterEach
-    void close() throws IOException {
-        client.close();
-        server.close();
     }
 
     @Test
@@ -78,6 +76,6 @@ class AnswerReaderTest {
     }
 
     private void answer(String text) throws IOException {
-        server.write(ByteBuffer.wrap(text.getBytes(StandardCharsets.US_ASCII)));
+        server.write(ByteBuffer.wrap(text.getBytes(US_ASCII)));
     }
 }

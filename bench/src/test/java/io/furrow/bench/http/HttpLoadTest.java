@@ -7,7 +7,6 @@ import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.ServerSocket;
 import java.net.Socket;
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.TimeUnit;
@@ -16,6 +15,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class HttpLoadTest {
@@ -96,8 +96,7 @@ class HttpLoadTest {
 
     /** One connection. */
     private static void serve(ServerSocket listening, int status, Duration delayOfTheFirst) {
-        byte[] answer =
-                ("HTTP/1.1 " + status + " Status\r\nContent-Length: 0\r\n\r\n").getBytes(StandardCharsets.US_ASCII);
+        byte[] answer = ("HTTP/1.1 " + status + " Status\r\nContent-Length: 0\r\n\r\n").getBytes(US_ASCII);
         try (Socket socket = listening.accept()) {
             InputStream in = socket.getInputStream();
             readRequest(in);

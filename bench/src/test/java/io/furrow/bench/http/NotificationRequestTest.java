@@ -2,7 +2,6 @@ package io.furrow.bench.http;
 
 import java.net.InetSocketAddress;
 import java.nio.ByteBuffer;
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -13,6 +12,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.ngsi.Notification;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -27,7 +27,7 @@ class NotificationRequestTest {
 
         assertThat(request).contains("Content-Length: " + bytes + "\r\n");
         assertThat(body(request)).hasSize(bytes);
-        assertThat(Notification.read(body(request).getBytes(StandardCharsets.UTF_8), "normalized")
+        assertThat(Notification.read(body(request).getBytes(UTF_8), "normalized")
                         .entities())
                 .hasSize(1);
     }
@@ -40,7 +40,7 @@ class NotificationRequestTest {
         JsonNode entity = entity(request.with(1_234_567L, NOW));
 
         assertThat(entity.path("id").asText()).isEqualTo("urn:ngsi-ld:SoilProbe:000007");
-        assertThat(entity.path("sequence").path("value").asLong()).isEqualTo(100_000_001_234_567L);
+        assertThat(entity.at("/sequence/value").asLong()).isEqualTo(100_000_001_234_567L);
         assertThat(entity.at("/location/value/coordinates")).hasToString("[-3.7007,40.4]");
         assertThat(entity.findValues("TimeInstant"))
                 .hasSizeGreaterThan(3)
@@ -58,8 +58,7 @@ class NotificationRequestTest {
     @ParameterizedTest
     @ValueSource(strings = {"", "{}", "\"sequence\":{\"type\":\"Number\",\"value\":12"})
     void findsNoNumberWhereThereIsNone(String record) {
-        assertThat(NotificationRequest.numberIn(record.getBytes(StandardCharsets.UTF_8)))
-                .isEqualTo(-1);
+        assertThat(NotificationRequest.numberIn(record.getBytes(UTF_8))).isEqualTo(-1);
     }
 
     @Test
@@ -70,7 +69,7 @@ class NotificationRequestTest {
     }
 
     private static JsonNode entity(ByteBuffer request) throws Exception {
-        return new ObjectMapper().readTree(body(text(request))).path("data").path(0);
+        return new ObjectMapper().readTree(body(text(request))).at("/data/0");
     }
 
     private static String body(String request) {
@@ -78,6 +77,6 @@ class NotificationRequestTest {
     }
 
     private static String text(ByteBuffer request) {
-        return StandardCharsets.UTF_8.decode(request).toString();
+        return UTF_8.decode(request).toString();
     }
 }

@@ -5,7 +5,6 @@ import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.concurrent.atomic.AtomicLong;
 
-import org.apache.activemq.artemis.core.io.SequentialFileFactory;
 import org.apache.activemq.artemis.core.io.nio.NIOSequentialFileFactory;
 import org.apache.activemq.artemis.core.journal.RecordInfo;
 import org.apache.activemq.artemis.core.journal.impl.JournalImpl;
@@ -20,8 +19,7 @@ final class ArtemisJournal implements JournalComparison.Candidate {
     private final AtomicLong ids = new AtomicLong();
 
     ArtemisJournal(Path folder) throws Exception {
-        SequentialFileFactory files =
-                new NIOSequentialFileFactory(folder.toFile(), true, BUFFER, BUFFER_TIMEOUT_NANOS, 1, false);
+        var files = new NIOSequentialFileFactory(folder.toFile(), true, BUFFER, BUFFER_TIMEOUT_NANOS, 1, false);
         journal = new JournalImpl(FILE, 2, 10, 0, 0, files, "furrow", "journal", 1);
         journal.start();
         journal.load(new ArrayList<RecordInfo>(), new ArrayList<>(), null);

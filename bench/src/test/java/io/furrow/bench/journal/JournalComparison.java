@@ -6,14 +6,14 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.Arrays;
-import java.util.Comparator;
 import java.util.List;
 import java.util.Random;
 import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.AtomicReference;
 import java.util.stream.LongStream;
-import java.util.stream.Stream;
+
+import io.furrow.files.Folders;
 
 /**
  * Appends records of 1 kB from several threads to each journal; every append returns when the disk has it. Prints records per
@@ -66,7 +66,7 @@ public final class JournalComparison {
                     nanos[nanos.length / 2] / 1e6,
                     nanos[(int) (nanos.length * 0.99)] / 1e6);
         }
-        delete(folder);
+        Folders.delete(folder);
     }
 
     private static long[] run(Candidate journal, int appenders, Duration howLong) throws InterruptedException {
@@ -106,13 +106,5 @@ public final class JournalComparison {
             now = after;
         }
         return Arrays.copyOf(nanos, count);
-    }
-
-    private static void delete(Path folder) throws IOException {
-        try (Stream<Path> found = Files.walk(folder)) {
-            for (Path path : found.sorted(Comparator.reverseOrder()).toList()) {
-                Files.delete(path);
-            }
-        }
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.bench.ngsi;
 
-import java.nio.charset.StandardCharsets;
 import java.util.Set;
 import java.util.concurrent.TimeUnit;
 import java.util.stream.Collectors;
@@ -23,6 +22,8 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.position.EntityReader;
 import io.furrow.model.position.PositionReading;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Id, type, position and mission out of the bytes of an entity: with a tree of what is requested, and without one. */
 @State(Scope.Thread)
@@ -62,8 +63,7 @@ public class EntityReadingBenchmark {
                         + "\",\"metadata\":{}}";
             default -> measured();
         };
-        bytes = ("{\"id\":\"urn:ngsi-ld:Device:17\",\"type\":\"Device\"," + attributes + "}")
-                .getBytes(StandardCharsets.UTF_8);
+        bytes = ("{\"id\":\"urn:ngsi-ld:Device:17\",\"type\":\"Device\"," + attributes + "}").getBytes(UTF_8);
         reader = new EntityReader(ATTRIBUTES);
     }
 

@@ -1,6 +1,5 @@
 package io.furrow.bench.notifications;
 
-import java.nio.charset.StandardCharsets;
 import java.util.BitSet;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -8,6 +7,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.bench.http.NotificationRequest;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ArrivalCheckTest {
@@ -46,6 +46,6 @@ class ArrivalCheckTest {
 
     private void arrive(long number, long nanos) {
         String value = "{%s1%014d}}".formatted(NotificationRequest.BEFORE_NUMBER, number);
-        check.add(new ConsumerRecord<>("t", 0, 0, new byte[0], value.getBytes(StandardCharsets.UTF_8)), nanos);
+        check.add(new ConsumerRecord<>("t", 0, 0, new byte[0], value.getBytes(UTF_8)), nanos);
     }
 }

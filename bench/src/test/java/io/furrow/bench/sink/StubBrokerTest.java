@@ -7,13 +7,13 @@ import java.net.http.HttpRequest;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
 import java.net.http.HttpResponse.BodyHandlers;
-import java.nio.charset.StandardCharsets;
 import java.util.BitSet;
 
 import org.junit.jupiter.api.Test;
 
 import io.furrow.bench.http.NotificationRequest;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class StubBrokerTest {
@@ -21,8 +21,7 @@ class StubBrokerTest {
 
     @Test
     void notesTheEntitiesOfUpdatesAndKnowsNone() throws Exception {
-        NotificationRequest entities =
-                NotificationRequest.to(InetSocketAddress.createUnresolved("127.0.0.1", 0), 500, 10);
+        var entities = NotificationRequest.to(InetSocketAddress.createUnresolved("127.0.0.1", 0), 500, 10);
         String update = "{\"actionType\":\"append\",\"entities\":[%s,%s]}"
                 .formatted(text(entities.entityWith(3, 0)), text(entities.entityWith(5, 0)));
         try (StubBroker broker = StubBroker.start()) {
@@ -47,6 +46,6 @@ class StubBrokerTest {
     }
 
     private static String text(byte[] json) {
-        return new String(json, StandardCharsets.UTF_8);
+        return new String(json, UTF_8);
     }
 }

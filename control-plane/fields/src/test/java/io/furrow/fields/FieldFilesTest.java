@@ -1,7 +1,6 @@
 package io.furrow.fields;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.sql.Connection;
@@ -25,6 +24,7 @@ import io.furrow.model.field.ImportedField;
 import io.furrow.model.field.InvalidFileException;
 import io.furrow.model.ngsi.NgsiJson;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
@@ -122,10 +122,7 @@ public class FieldFilesTest {
     void choosesALayer() throws Exception {
         Path file = resource("geopackage-layers.gpkg");
 
-        assertThatThrownBy(() -> FieldFiles.read(file, PLAIN))
-                .isInstanceOf(InvalidFileException.class)
-                .hasMessageContaining("[fields, more]")
-                .hasMessageContaining("--layer");
+        assertUnusable(file, PLAIN, "[fields, more]", "--layer");
         FieldFile more = FieldFiles.read(file, new ImportOptions("more", null, "code", null, null, Instant.EPOCH));
         assertThat(more.crs()).contains("UTM zone 30N");
         assertThat(more.fields()).hasSize(2);
@@ -136,17 +133,14 @@ public class FieldFilesTest {
         Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("bare.SHP"));
         Files.copy(resource("shapefile-25830.dbf"), folder.resolve("bare.DBF"));
 
-        assertThatThrownBy(() -> FieldFiles.read(shp, named("code")))
-                .isInstanceOf(InvalidFileException.class)
-                .hasMessageContaining("--crs EPSG:25830");
+        assertUnusable(shp, named("code"), "--crs EPSG:25830");
         for (String crs :
                 List.of("EPSG:25830", "urn:ogc:def:crs:EPSG::25830", "http://www.opengis.net/def/crs/EPSG/0/25830")) {
             ImportOptions options = new ImportOptions(null, crs, "code", null, null, Instant.EPOCH);
             assertThat(FieldFiles.read(shp, options).fields()).hasSize(2);
         }
         ImportOptions wrong = new ImportOptions(null, "EPSG:99999", "code", null, null, Instant.EPOCH);
-        assertThatThrownBy(() -> FieldFiles.read(shp, wrong))
-                .hasMessageContaining("'EPSG:99999' is not a known coordinate system");
+        assertUnusable(shp, wrong, "'EPSG:99999' is not a known coordinate system");
     }
 
     /** The code page of a .cpg file, or else of the table, or else of its texts; as GDAL has it but for the last. */
@@ -225,20 +219,16 @@ public class FieldFilesTest {
 
     @Test
     void reportsWhatToWriteIntoACpgFileThatNamesNoCodePage() throws Exception {
-        Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("coded.shp"));
-        Files.copy(resource("shapefile-25830.dbf"), folder.resolve("coded.dbf"));
+        Path shp = copy("coded");
         Files.writeString(folder.resolve("coded.cpg"), "Klingon");
 
-        assertThatThrownBy(() -> FieldFiles.read(shp, named("code")))
-                .isInstanceOf(InvalidFileException.class)
-                .hasMessageContaining("names the unknown code page 'Klingon'; write into it");
+        assertUnusable(shp, named("code"), "names the unknown code page 'Klingon'; write into it");
     }
 
     /** Well-known text may define the northing first; the file has the easting first all the same. */
     @Test
     void readsEastingFirstWhateverTheTextDefines() throws Exception {
-        Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("north.shp"));
-        Files.copy(resource("shapefile-25830.dbf"), folder.resolve("north.dbf"));
+        Path shp = copy("north");
         String prj = Files.readString(resource("shapefile-25830.prj"));
         Files.writeString(
                 folder.resolve("north.prj"),
@@ -257,14 +247,10 @@ public class FieldFilesTest {
         nonsense
         """)
     void rejectsACoordinateSystemThatLeadsNowhere(String prj) throws Exception {
-        Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("lost.shp"));
-        Files.copy(resource("shapefile-25830.dbf"), folder.resolve("lost.dbf"));
+        Path shp = copy("lost");
         Files.writeString(folder.resolve("lost.prj"), prj);
 
-        assertThatThrownBy(() -> FieldFiles.read(shp, named("code")))
-                .isInstanceOf(InvalidFileException.class)
-                .hasMessageContaining("is not a known coordinate system")
-                .hasMessageContaining("--crs");
+        assertUnusable(shp, named("code"), "is not a known coordinate system", "--crs");
     }
 
     @Test
@@ -293,25 +279,35 @@ public class FieldFilesTest {
         assertUnusable("x", "neither GeoJSON nor a Shapefile");
         assertUnusable("{", "is not JSON");
         assertUnusable("{\"type\": \"Topology\"}", "not a GeoJSON FeatureCollection");
-        assertThatThrownBy(() -> FieldFiles.read(folder.resolve("missing"), PLAIN))
-                .hasMessageContaining("cannot be read");
-        assertThatThrownBy(() -> FieldFiles.read(resource("farm.geojson"), named("cod")))
-                .hasMessageContaining("--id-property cod: no feature of")
-                .hasMessageContaining("[Domain, code, crop, height, name]");
+        assertUnusable(folder.resolve("missing"), PLAIN, "cannot be read");
+        assertUnusable(
+                resource("farm.geojson"),
+                named("cod"),
+                "--id-property cod: no feature of",
+                "[Domain, code, crop, height, name]");
         byte[] shp = Files.readAllBytes(resource("shapefile-25830.shp"));
         Path broken = Files.write(folder.resolve("broken.shp"), Arrays.copyOf(shp, shp.length - 40));
-        assertThatThrownBy(() -> FieldFiles.read(broken, PLAIN)).hasMessageContaining("is truncated in record 2");
+        assertUnusable(broken, PLAIN, "is truncated in record 2");
         Path gpkg = Files.write(
                 folder.resolve("broken.gpkg"),
                 Arrays.copyOf(Files.readAllBytes(resource("geopackage-25830.gpkg")), 3000));
-        assertThatThrownBy(() -> FieldFiles.read(gpkg, PLAIN)).hasMessageContaining("is not a readable GeoPackage");
+        assertUnusable(gpkg, PLAIN, "is not a readable GeoPackage");
     }
 
     private void assertUnusable(String content, String message) throws IOException {
-        Path file = Files.writeString(folder.resolve("file"), content, StandardCharsets.UTF_8);
-        assertThatThrownBy(() -> FieldFiles.read(file, PLAIN))
+        assertUnusable(Files.writeString(folder.resolve("file"), content, UTF_8), PLAIN, message);
+    }
+
+    private static void assertUnusable(Path file, ImportOptions options, String... message) {
+        assertThatThrownBy(() -> FieldFiles.read(file, options))
                 .isInstanceOf(InvalidFileException.class)
-                .hasMessageContaining(message);
+                .hasMessageContainingAll(message);
+    }
+
+    /** The shapefile without a word about its coordinates. */
+    private Path copy(String name) throws IOException {
+        Files.copy(resource("shapefile-25830.dbf"), folder.resolve(name + ".dbf"));
+        return Files.copy(resource("shapefile-25830.shp"), folder.resolve(name + ".shp"));
     }
 
     private static ImportOptions named(String property) {

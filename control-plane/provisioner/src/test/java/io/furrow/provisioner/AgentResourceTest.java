@@ -11,7 +11,7 @@ import java.util.Properties;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -33,17 +33,13 @@ class AgentResourceTest {
     private final DesiredDeviceTable desired = new DesiredDeviceTable(DesiredDeviceFixture.SCOPE);
     private final DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
 
+    @AutoClose
     private FakeAgent agent;
 
     @BeforeEach
     void start() throws IOException {
-        agent = FakeAgent.start();
+        agent = new FakeAgent();
         desired.take(device.version().key(), device);
-    }
-
-    @AfterEach
-    void stop() {
-        agent.close();
     }
 
     @ParameterizedTest

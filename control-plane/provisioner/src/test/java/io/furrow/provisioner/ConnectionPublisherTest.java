@@ -24,6 +24,7 @@ import io.furrow.model.device.DeviceConnection.UnreadablePayload;
 import io.furrow.model.topic.Topics;
 import io.furrow.provisioner.account.LoginReport;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 
@@ -37,13 +38,12 @@ class ConnectionPublisherTest {
     private final DesiredDeviceTable desired = new DesiredDeviceTable(DesiredDeviceFixture.SCOPE);
     private final DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
     private final String key = device.version().key();
-    private final String user =
-            DesiredDeviceFixture.SECRET.device("hoeing", device.device()).user();
+    private final String user = SECRET.device("hoeing", device.device()).user();
     private final Map<String, LoginReport> logins = new HashMap<>();
     private UnreadablePayload unreadable;
     private final ConnectionPublisher publisher = publisher(new ConnectionSources(
             List.of(() -> logins),
-            (apiKey, id) -> apiKey.equals(DesiredDeviceFixture.SECRET.apiKey("hoeing")) && id.equals(device.device())
+            (apiKey, id) -> apiKey.equals(SECRET.apiKey("hoeing")) && id.equals(device.device())
                     ? Optional.ofNullable(unreadable)
                     : Optional.empty()));
 
@@ -70,9 +70,7 @@ class ConnectionPublisherTest {
     /** After a rotation, or on another mission, it tries with what it has. */
     @Test
     void countsLoginsWithOldCredentialsForTheDevice() throws Exception {
-        String old = DesiredDeviceFixture.SECRET
-                .device("weeding", device.device(), 3)
-                .user();
+        String old = SECRET.device("weeding", device.device(), 3).user();
         RefusedLogin refused = new RefusedLogin(7, START + 2, DeviceConnection.UNKNOWN_USER, old);
         logins.put(old, new LoginReport(null, refused, null));
         logins.put(user, new LoginReport(START + 1, null, null));
@@ -87,7 +85,7 @@ class ConnectionPublisherTest {
     @Test
     void takesTheLoginOfTheGatewayThatSpeaksForADevice() throws Exception {
         ForeignTopic foreign = new ForeignTopic(1, START, "/k/e/attrs");
-        logins.put(DesiredDeviceFixture.SECRET.gateway("hoeing").user(), new LoginReport(START + 1, null, foreign));
+        logins.put(SECRET.gateway("hoeing").user(), new LoginReport(START + 1, null, foreign));
 
         publish(Set.of(key));
 
@@ -144,7 +142,7 @@ class ConnectionPublisherTest {
         ProvisioningSettings settings = new ProvisioningSettings(
                 new Properties(),
                 DesiredDeviceFixture.SCOPE,
-                SecretSource.of(DesiredDeviceFixture.SECRET),
+                SecretSource.of(SECRET),
                 null,
                 List.of(),
                 true,

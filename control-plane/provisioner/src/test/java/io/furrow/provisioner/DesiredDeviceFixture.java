@@ -1,6 +1,5 @@
 package io.furrow.provisioner;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
@@ -11,9 +10,11 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.event.FiwareScope;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
+
 /** Wanted devices for tests. */
 public final class DesiredDeviceFixture {
-    public static final FarmSecret SECRET = new FarmSecret("sixteen bytes or more".getBytes(StandardCharsets.UTF_8));
+    public static final FarmSecret SECRET = new FarmSecret("sixteen bytes or more".getBytes(UTF_8));
     static final FiwareScope SCOPE = new FiwareScope("farm", "/");
 
     private DesiredDeviceFixture() {}

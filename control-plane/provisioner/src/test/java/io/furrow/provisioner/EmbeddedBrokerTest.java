@@ -1,6 +1,5 @@
 package io.furrow.provisioner;
 
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
@@ -10,8 +9,8 @@ import org.eclipse.paho.client.mqttv3.MqttClient;
 import org.eclipse.paho.client.mqttv3.MqttConnectOptions;
 import org.eclipse.paho.client.mqttv3.MqttException;
 import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
-import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
@@ -24,6 +23,8 @@ import io.furrow.model.device.FarmSecret;
 import io.furrow.provisioner.account.InMemoryAccounts;
 import io.furrow.provisioner.account.MqttAccount;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -32,10 +33,11 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class EmbeddedBrokerTest {
     private static final InMemoryAccounts ACCOUNTS = new InMemoryAccounts();
-    private static final String KEY = "/" + DesiredDeviceFixture.SECRET.apiKey("hoeing");
+    private static final String KEY = "/" + SECRET.apiKey("hoeing");
     private static final long TIMEOUT_MS = 20_000;
-    private static final FarmSecret.Login DEVICE = DesiredDeviceFixture.SECRET.device("hoeing", "d");
+    private static final FarmSecret.Login DEVICE = SECRET.device("hoeing", "d");
 
+    @AutoClose
     private static EmbeddedMqtt mqtt;
 
     private final Map<String, String> heard = new ConcurrentHashMap<>();
@@ -50,21 +52,12 @@ class EmbeddedBrokerTest {
                         ACCOUNTS::authenticates, ACCOUNTS::exists, ACCOUNTS::mayWrite, ACCOUNTS::mayRead));
     }
 
-    @AfterAll
-    static void stopBroker() {
-        mqtt.close();
-    }
-
     @BeforeEach
     void listen() throws MqttException {
         ACCOUNTS.replace(
-                List.of(
-                        MqttAccount.device(DesiredDeviceFixture.SECRET, "hoeing", "d"),
-                        MqttAccount.gateway(DesiredDeviceFixture.SECRET, "hoeing")),
-                Set.of());
+                List.of(MqttAccount.device(SECRET, "hoeing", "d"), MqttAccount.gateway(SECRET, "hoeing")), Set.of());
         agent = connect(new FarmSecret.Login("agent", "plough"));
-        agent.subscribe(
-                "#", 1, (topic, message) -> heard.put(topic, new String(message.getPayload(), StandardCharsets.UTF_8)));
+        agent.subscribe("#", 1, (topic, message) -> heard.put(topic, new String(message.getPayload(), UTF_8)));
     }
 
     @AfterEach
@@ -75,8 +68,8 @@ class EmbeddedBrokerTest {
     @Test
     void letsADevicePublishAsItselfOnly() throws MqttException {
         MqttClient device = connect(DEVICE);
-        device.publish(KEY + "/e/attrs", "forged".getBytes(StandardCharsets.UTF_8), 0, false);
-        device.publish(KEY + "/d/attrs", "1".getBytes(StandardCharsets.UTF_8), 1, false);
+        device.publish(KEY + "/e/attrs", "forged".getBytes(UTF_8), 0, false);
+        device.publish(KEY + "/d/attrs", "1".getBytes(UTF_8), 1, false);
 
         await().until(() -> "1".equals(heard.get(KEY + "/d/attrs")));
         assertThat(heard).doesNotContainKey(KEY + "/e/attrs");
@@ -89,8 +82,8 @@ class EmbeddedBrokerTest {
     void acknowledgesAndDiscardsWhatADeviceMayNotPublish(int qos) throws MqttException {
         MqttClient device = connect(DEVICE);
         device.setTimeToWait(TIMEOUT_MS);
-        device.publish(KEY + "/e/attrs", "forged".getBytes(StandardCharsets.UTF_8), qos, true);
-        device.publish(KEY + "/d/attrs", "qos %d".formatted(qos).getBytes(StandardCharsets.UTF_8), qos, false);
+        device.publish(KEY + "/e/attrs", "forged".getBytes(UTF_8), qos, true);
+        device.publish(KEY + "/d/attrs", "qos %d".formatted(qos).getBytes(UTF_8), qos, false);
 
         await().until(() -> "qos %d".formatted(qos).equals(heard.get(KEY + "/d/attrs")));
         assertThat(heard).doesNotContainKey(KEY + "/e/attrs");
@@ -102,7 +95,7 @@ class EmbeddedBrokerTest {
         MqttClient device = new MqttClient(mqtt.uri().toString(), "forger", new MemoryPersistence());
         for (String topic : List.of("/e/attrs", "/d/attrs")) {
             MqttConnectOptions options = options(DEVICE);
-            options.setWill(KEY + topic, "gone".getBytes(StandardCharsets.UTF_8), 1, false);
+            options.setWill(KEY + topic, "gone".getBytes(UTF_8), 1, false);
             device.connect(options);
             device.disconnectForcibly(0, TIMEOUT_MS, false);
         }
@@ -115,9 +108,9 @@ class EmbeddedBrokerTest {
     @Test
     void closesTheConnectionOfAUserWhoseAccountIsRemoved() throws MqttException {
         MqttClient device = connect(DEVICE);
-        MqttClient gateway = connect(DesiredDeviceFixture.SECRET.gateway("hoeing"));
+        MqttClient gateway = connect(SECRET.gateway("hoeing"));
 
-        ACCOUNTS.replace(List.of(MqttAccount.gateway(DesiredDeviceFixture.SECRET, "hoeing")), Set.of());
+        ACCOUNTS.replace(List.of(MqttAccount.gateway(SECRET, "hoeing")), Set.of());
 
         await().until(() -> !device.isConnected());
         assertThat(gateway.isConnected()).isTrue();
@@ -131,11 +124,9 @@ class EmbeddedBrokerTest {
         Map<String, String> commands = new ConcurrentHashMap<>();
         assertThatThrownBy(() -> device.subscribe("#", 1)).isInstanceOf(MqttException.class);
         device.subscribe(
-                KEY + "/d/cmd",
-                1,
-                (topic, message) -> commands.put(topic, new String(message.getPayload(), StandardCharsets.UTF_8)));
-        agent.publish(KEY + "/e/cmd", "on".getBytes(StandardCharsets.UTF_8), 1, false);
-        agent.publish(KEY + "/d/cmd", "off".getBytes(StandardCharsets.UTF_8), 1, false);
+                KEY + "/d/cmd", 1, (topic, message) -> commands.put(topic, new String(message.getPayload(), UTF_8)));
+        agent.publish(KEY + "/e/cmd", "on".getBytes(UTF_8), 1, false);
+        agent.publish(KEY + "/d/cmd", "off".getBytes(UTF_8), 1, false);
 
         await().until(() -> "off".equals(commands.get(KEY + "/d/cmd")));
         assertThat(commands).containsOnlyKeys(KEY + "/d/cmd");
@@ -154,16 +145,15 @@ class EmbeddedBrokerTest {
 
     @Test
     void letsAMissionHaveTheNameOfAUserOfTheStart() throws MqttException {
-        ACCOUNTS.replace(List.of(MqttAccount.gateway(DesiredDeviceFixture.SECRET, "agent")), Set.of());
-        MqttClient gateway = connect(DesiredDeviceFixture.SECRET.gateway("agent"));
+        ACCOUNTS.replace(List.of(MqttAccount.gateway(SECRET, "agent")), Set.of());
+        MqttClient gateway = connect(SECRET.gateway("agent"));
 
         assertThatThrownBy(() -> gateway.subscribe("#", 1)).isInstanceOf(MqttException.class);
         leave(gateway);
     }
 
     private static MqttClient connect(FarmSecret.Login login) throws MqttException {
-        MqttClient client =
-                new MqttClient(mqtt.uri().toString(), MqttClient.generateClientId(), new MemoryPersistence());
+        var client = new MqttClient(mqtt.uri().toString(), MqttClient.generateClientId(), new MemoryPersistence());
         try {
             client.connect(options(login));
             return client;

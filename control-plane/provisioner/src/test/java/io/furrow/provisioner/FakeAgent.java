@@ -1,11 +1,8 @@
 package io.furrow.provisioner;
 
 import java.io.IOException;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.URI;
 import java.net.URLDecoder;
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.HashSet;
 import java.util.LinkedHashMap;
@@ -20,9 +17,11 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.sun.net.httpserver.HttpExchange;
-import com.sun.net.httpserver.HttpServer;
 
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.stub.StubServer;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * An IoT Agent JSON 3.14 of one tenant, as its answers were recorded and its library is written: no group is 404; the devices of a
@@ -59,7 +58,7 @@ final class FakeAgent implements AutoCloseable {
     /** Run at each request that changes something. */
     volatile Runnable onChange = () -> {};
 
-    private final HttpServer server;
+    private final StubServer server = new StubServer(this::handle);
     private final List<JsonNode> unfinished = new ArrayList<>();
 
     /** A refusal. */
@@ -76,20 +75,8 @@ final class FakeAgent implements AutoCloseable {
         }
     }
 
-    private FakeAgent(HttpServer server) {
-        this.server = server;
-    }
-
-    static FakeAgent start() throws IOException {
-        FakeAgent agent =
-                new FakeAgent(HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0));
-        agent.server.createContext("/", agent::handle);
-        agent.server.start();
-        return agent;
-    }
-
     URI uri() {
-        return URI.create("http://127.0.0.1:" + server.getAddress().getPort());
+        return server.uri("");
     }
 
     synchronized Set<String> deviceIds() {
@@ -115,7 +102,7 @@ final class FakeAgent implements AutoCloseable {
 
     @Override
     public void close() {
-        server.stop(0);
+        server.close();
     }
 
     private synchronized void handle(HttpExchange exchange) throws IOException {
@@ -127,7 +114,7 @@ final class FakeAgent implements AutoCloseable {
                 throw new Refusal(proxy, "PROXY", "no token");
             }
             if (garbage != null && exchange.getRequestMethod().equals("GET")) {
-                answer(exchange, 200, garbage.getBytes(StandardCharsets.UTF_8));
+                answer(exchange, 200, garbage.getBytes(UTF_8));
                 return;
             }
             answer(exchange, exchange.getRequestMethod().equals("POST") ? 201 : 200, NgsiJson.write(route(exchange)));
@@ -170,7 +157,7 @@ final class FakeAgent implements AutoCloseable {
     }
 
     private static String id(String path) {
-        return URLDecoder.decode(path.substring("/iot/devices/".length()), StandardCharsets.UTF_8);
+        return URLDecoder.decode(path.substring("/iot/devices/".length()), UTF_8);
     }
 
     private static Map<String, String> query(HttpExchange exchange) {
@@ -178,7 +165,7 @@ final class FakeAgent implements AutoCloseable {
         for (String part :
                 String.valueOf(exchange.getRequestURI().getRawQuery()).split("&")) {
             String[] pair = part.split("=", 2);
-            query.put(pair[0], pair.length == 1 ? null : URLDecoder.decode(pair[1], StandardCharsets.UTF_8));
+            query.put(pair[0], pair.length == 1 ? null : URLDecoder.decode(pair[1], UTF_8));
         }
         return query;
     }

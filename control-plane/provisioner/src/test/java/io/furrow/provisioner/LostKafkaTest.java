@@ -18,6 +18,7 @@ import io.furrow.provisioner.RemovalGuard.Origin;
 import io.furrow.provisioner.account.MosquittoFiles;
 import io.furrow.provisioner.account.MqttAccounts;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** A Kafka that is empty, or not the one for which devices were provisioned. */
@@ -50,11 +51,11 @@ class LostKafkaTest extends ProvisioningFixture {
     void retainsTheDevicesOfTheAgentWhereNoFileSaysForWhichKafkaTheyAre() throws Exception {
         provisionTen();
 
-        provisioning = provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), false), EMPTY);
+        provisioning = provisioning(settings(SecretSource.of(SECRET), false), EMPTY);
         assertThat(provisioning.step().retained().devices()).hasSize(10);
         assertThat(agent.deviceIds()).hasSize(10);
 
-        provisioning = provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), false), SAME);
+        provisioning = provisioning(settings(SecretSource.of(SECRET), false), SAME);
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(agent.deviceIds()).isEmpty();
     }
@@ -141,7 +142,7 @@ class LostKafkaTest extends ProvisioningFixture {
     void takesNoEmptyAnswerOfTheAgentForAllThatItHas() throws Exception {
         provisionTen();
         addDesired(DesiredDeviceFixture.thermometer("weeding", 1));
-        provisioning = provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), false), EMPTY);
+        provisioning = provisioning(settings(SecretSource.of(SECRET), false), EMPTY);
         agent.garbage = NOTHING;
         assertThat(provisioning.step()).isEqualTo(DONE);
 
@@ -199,9 +200,7 @@ class LostKafkaTest extends ProvisioningFixture {
     @Test
     void removesOnlyAccountsOfAKeyWhoseTimeIsOver() throws Exception {
         provisionTen();
-        FarmSecret rotated = DesiredDeviceFixture.SECRET
-                .rotated(Instant.now(), Instant.EPOCH, false)
-                .at(Instant.now());
+        FarmSecret rotated = SECRET.rotated(Instant.now(), Instant.EPOCH, false).at(Instant.now());
 
         Outcome outcome =
                 provisioning(files(SecretSource.of(rotated), false), EMPTY).step();
@@ -211,9 +210,7 @@ class LostKafkaTest extends ProvisioningFixture {
     }
 
     private static String user(DesiredDevice device, int generation) {
-        return DesiredDeviceFixture.SECRET
-                .device("hoeing", device.device(), generation)
-                .user();
+        return SECRET.device("hoeing", device.device(), generation).user();
     }
 
     private void addTenDesired() {
@@ -234,7 +231,7 @@ class LostKafkaTest extends ProvisioningFixture {
     }
 
     private ProvisioningSettings files(boolean forgets) {
-        return files(SecretSource.of(DesiredDeviceFixture.SECRET), forgets);
+        return files(SecretSource.of(SECRET), forgets);
     }
 
     private ProvisioningSettings files(SecretSource secret, boolean forgets) {

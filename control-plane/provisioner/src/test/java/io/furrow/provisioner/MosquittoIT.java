@@ -7,7 +7,7 @@ import java.util.List;
 import java.util.Set;
 
 import org.eclipse.paho.client.mqttv3.MqttException;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -19,7 +19,6 @@ import io.furrow.provisioner.account.MosquittoPassword;
 import io.furrow.provisioner.account.MqttAccount;
 
 import static io.furrow.provisioner.ProvisionedMosquitto.AGENT;
-import static io.furrow.provisioner.ProvisionedMosquitto.TIMEOUT;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -37,15 +36,16 @@ class MosquittoIT {
             MqttAccount.device(SECRET, "hoeing", DEVICE),
             MqttAccount.device(SECRET, "weeding", "other"));
 
-    @TempDir
-    Path directory;
-
+    @AutoClose
     private ProvisionedMosquitto broker;
+
     private MosquittoFiles files;
+
+    @AutoClose
     private MqttPeer agent;
 
     @BeforeEach
-    void startWithTheAgentAsItsOnlyUser() throws Exception {
+    void startWithTheAgentAsItsOnlyUser(@TempDir Path directory) throws Exception {
         broker = start(directory);
         files = broker.files();
         agent = broker.connect(AGENT, "agent").subscribe("#");
@@ -56,19 +56,12 @@ class MosquittoIT {
         return new ProvisionedMosquitto(folder);
     }
 
-    @AfterEach
-    void stop() throws Exception {
-        agent.close();
-        broker.close();
-    }
-
     @Test
     void letsADeviceInWithItsPasswordAndWithNoOther() throws Exception {
         Login right = SECRET.device("hoeing", DEVICE);
         try (MqttPeer device = broker.comesIn(right)) {
             device.publish(KEY + "/" + DEVICE + "/attrs", "1");
-            await().atMost(TIMEOUT)
-                    .until(() -> agent.newest(KEY + "/" + DEVICE + "/attrs").equals("1"));
+            await().until(() -> agent.newest(KEY + "/" + DEVICE + "/attrs").equals("1"));
         }
         Login guessed = new Login(right.user(), SECRET.device("hoeing", "d").password());
         assertThatThrownBy(() -> broker.connect(guessed, "guess"))
@@ -90,9 +83,8 @@ class MosquittoIT {
             device.publish("/json" + KEY + "/" + DEVICE + "/attrs", "2");
 
             // One connection keeps its order: what was forged would have come before.
-            await().atMost(TIMEOUT)
-                    .until(() -> agent.newest("/json" + KEY + "/" + DEVICE + "/attrs")
-                            .equals("2"));
+            await().until(() ->
+                    agent.newest("/json" + KEY + "/" + DEVICE + "/attrs").equals("2"));
             assertThat(foreign)
                     .allSatisfy(topic -> assertThat(agent.newest(topic)).isEmpty());
         }
@@ -107,8 +99,7 @@ class MosquittoIT {
             agent.publish(KEY + "/" + DEVICE + "/attrs", "3");
             agent.publish(KEY + "/" + DEVICE + "/cmd", "off");
 
-            await().atMost(TIMEOUT)
-                    .until(() -> device.newest(KEY + "/" + DEVICE + "/cmd").equals("off"));
+            await().until(() -> device.newest(KEY + "/" + DEVICE + "/cmd").equals("off"));
             assertThat(device.topics()).containsOnly(KEY + "/" + DEVICE + "/cmd");
         }
     }
@@ -121,8 +112,8 @@ class MosquittoIT {
             gateway.subscribe(KEY + "/+/cmd");
             agent.publish(KEY + "/any/cmd", "on");
 
-            await().atMost(TIMEOUT).until(() -> agent.newest(KEY + "/any/attrs").equals("4"));
-            await().atMost(TIMEOUT).until(() -> gateway.newest(KEY + "/any/cmd").equals("on"));
+            await().until(() -> agent.newest(KEY + "/any/attrs").equals("4"));
+            await().until(() -> gateway.newest(KEY + "/any/cmd").equals("on"));
             assertThat(agent.newest(OTHER_KEY + "/other/attrs")).isEmpty();
         }
     }
@@ -132,7 +123,7 @@ class MosquittoIT {
         try (MqttPeer device = broker.comesIn(SECRET.device("hoeing", DEVICE))) {
             files.replace(List.of(), Set.of());
 
-            await().atMost(TIMEOUT).until(() -> !device.isConnected());
+            await().until(() -> !device.isConnected());
             assertThatThrownBy(() -> broker.connect(SECRET.device("hoeing", DEVICE), "again"))
                     .isInstanceOf(MqttException.class);
             assertThat(agent.isConnected()).isTrue();
@@ -149,7 +140,7 @@ class MosquittoIT {
             gateway.publish(KEY + "/" + DEVICE + "/attrs", "forged");
             gateway.publish(key + "/d/attrs", "5");
 
-            await().atMost(TIMEOUT).until(() -> again.newest(key + "/d/attrs").equals("5"));
+            await().until(() -> again.newest(key + "/d/attrs").equals("5"));
             assertThat(again.newest(KEY + "/" + DEVICE + "/attrs")).isEmpty();
             assertThat(agent.isConnected()).isTrue();
         }
@@ -185,7 +176,7 @@ class MosquittoIT {
                             SECRET.device("hoeing", DEVICE, 1).user(),
                             SECRET.device("weeding", "other").user()),
                     any -> true);
-            await().atMost(TIMEOUT).until(() -> !thief.isConnected());
+            await().until(() -> !thief.isConnected());
             files.replace(rotated, Set.of());
 
             broker.comesIn(SECRET.device("hoeing", DEVICE, 1)).close();

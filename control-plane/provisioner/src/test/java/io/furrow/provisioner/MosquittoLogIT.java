@@ -20,11 +20,8 @@ import static org.awaitility.Awaitility.await;
 class MosquittoLogIT {
     private static final FarmSecret.Login DEVICE = DesiredDeviceFixture.SECRET.device("hoeing", "d");
 
-    @TempDir
-    Path directory;
-
     @Test
-    void reportsWhenADeviceConnectedAndWhereItPublishedThoughItMayNot() throws Exception {
+    void reportsWhenADeviceConnectedAndWhereItPublishedThoughItMayNot(@TempDir Path directory) throws Exception {
         long start = Instant.now().getEpochSecond() * 1000;
         try (ProvisionedMosquitto broker = new ProvisionedMosquitto(directory)) {
             broker.files().replace(List.of(MqttAccount.device(DesiredDeviceFixture.SECRET, "hoeing", "d")), Set.of());

@@ -1,6 +1,5 @@
 package io.furrow.provisioner;
 
-import java.nio.charset.StandardCharsets;
 import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
@@ -11,6 +10,8 @@ import org.eclipse.paho.client.mqttv3.MqttException;
 import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
 
 import io.furrow.model.device.FarmSecret;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** An MQTT client, and the newest message of each topic that came to it. */
 final class MqttPeer implements AutoCloseable {
@@ -36,15 +37,12 @@ final class MqttPeer implements AutoCloseable {
     }
 
     MqttPeer subscribe(String filter) throws MqttException {
-        client.subscribe(
-                filter,
-                1,
-                (topic, message) -> newest.put(topic, new String(message.getPayload(), StandardCharsets.UTF_8)));
+        client.subscribe(filter, 1, (topic, message) -> newest.put(topic, new String(message.getPayload(), UTF_8)));
         return this;
     }
 
     void publish(String topic, String message) throws MqttException {
-        client.publish(topic, message.getBytes(StandardCharsets.UTF_8), 1, false);
+        client.publish(topic, message.getBytes(UTF_8), 1, false);
     }
 
     /** Empty if nothing came. */

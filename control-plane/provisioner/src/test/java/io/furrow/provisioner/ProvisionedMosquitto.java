@@ -56,7 +56,7 @@ final class ProvisionedMosquitto implements AutoCloseable {
                 .start();
         reload = "kill -HUP " + process.pid();
         stop = () -> stop(process);
-        await().atMost(TIMEOUT).until(this::isListening);
+        await().until(this::isListening);
     }
 
     static void writeAgent(Path directory) throws IOException {
@@ -89,9 +89,7 @@ final class ProvisionedMosquitto implements AutoCloseable {
 
     /** Connects as soon as the login is known: Mosquitto reads its files a moment after it is told to. */
     MqttPeer comesIn(FarmSecret.Login login) {
-        return await().atMost(TIMEOUT)
-                .ignoreExceptions()
-                .until(() -> connect(login, login.user()), MqttPeer::isConnected);
+        return await().ignoreExceptions().until(() -> connect(login, login.user()), MqttPeer::isConnected);
     }
 
     @Override

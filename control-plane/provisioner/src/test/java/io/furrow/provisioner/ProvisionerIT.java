@@ -3,21 +3,17 @@ package io.furrow.provisioner;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
+import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
-import java.util.Properties;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
@@ -34,13 +30,12 @@ import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.topic.Topics;
 import io.furrow.provisioner.account.InMemoryAccounts;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.thermometer;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 @Tag("full")
 class ProvisionerIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
-
     @TempDir
     Path directory;
 
@@ -52,8 +47,8 @@ class ProvisionerIT {
     @BeforeEach
     void start() throws Exception {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
-        agent = FakeAgent.start();
-        producer = new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
+        agent = new FakeAgent();
+        producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
         createTopics();
     }
 
@@ -65,22 +60,22 @@ class ProvisionerIT {
     }
 
     @Test
-    void followsTheTopicAndRemovesAfterARestartWhatWentInTheMeantime() {
-        DesiredDevice one = DesiredDeviceFixture.thermometer("hoeing", 1);
-        DesiredDevice two = DesiredDeviceFixture.thermometer("hoeing", 2);
+    void followsTheTopicAndRemovesAfterARestartWhatWentInTheMeantime() throws Exception {
+        DesiredDevice one = thermometer("hoeing", 1);
+        DesiredDevice two = thermometer("hoeing", 2);
         try (Provisioner provisioner = provisioner()) {
             put(one);
             put(two);
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
+            await().until(() -> agent.deviceIds().size() == 2);
             awaitThatRemovalIsAllowed();
             assertThat(provisioner).isNotNull();
         }
         producer.send(new ProducerRecord<>(Topics.DEVICES, one.version().key(), null));
         try (Provisioner provisioner = provisioner()) {
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);
+            await().until(() -> agent.deviceIds().size() == 1);
             assertThat(agent.deviceIds()).containsExactly(two.device());
             put(DesiredDeviceFixture.stopped(two));
-            await().atMost(TIMEOUT).until(() -> agent.apiKeys().isEmpty());
+            await().until(() -> agent.apiKeys().isEmpty());
             assertThat(agent.deviceIds()).isEmpty();
             assertThat(provisioner).isNotNull();
         }
@@ -91,20 +86,18 @@ class ProvisionerIT {
     }
 
     @Test
-    void reportsWhyADeviceIsNotProvisionedAndProvisionsItOnceTheCauseIsGone() {
-        DesiredDevice before = DesiredDeviceFixture.thermometer("hoeing", 1);
-        DesiredDevice after = DesiredDeviceFixture.thermometer("hoeing", 2);
-        DesiredDevice disliked = DesiredDeviceFixture.thermometer("hoeing", 3);
+    void reportsWhyADeviceIsNotProvisionedAndProvisionsItOnceTheCauseIsGone() throws Exception {
+        DesiredDevice before = thermometer("hoeing", 1);
+        DesiredDevice after = thermometer("hoeing", 2);
+        DesiredDevice disliked = thermometer("hoeing", 3);
         agent.disliked.add(disliked.device());
         try (Provisioner provisioner = provisioner()) {
             put(before);
             put(disliked);
-            await().atMost(TIMEOUT)
-                    .until(() -> statuses().containsKey(disliked.version().key()));
+            await().until(() -> statuses().containsKey(disliked.version().key()));
             agent.unavailable = true;
             put(after);
-            await().atMost(TIMEOUT)
-                    .until(() -> statuses().containsKey(after.version().key()));
+            await().until(() -> statuses().containsKey(after.version().key()));
 
             assertThat(statuses()).doesNotContainKey(before.version().key());
             assertThat(statuses().get(disliked.version().key()).reason()).contains("not provisioned", "422");
@@ -115,21 +108,21 @@ class ProvisionerIT {
 
             agent.disliked.clear();
             agent.unavailable = false;
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 3);
+            await().until(() -> agent.deviceIds().size() == 3);
             assertThat(provisioner).isNotNull();
         }
     }
 
     @Test
-    void restoresWhatARestartedAgentHasLostAtTheNextInterval() {
-        put(DesiredDeviceFixture.thermometer("hoeing", 1));
-        put(DesiredDeviceFixture.thermometer("hoeing", 2));
+    void restoresWhatARestartedAgentHasLostAtTheNextInterval() throws Exception {
+        put(thermometer("hoeing", 1));
+        put(thermometer("hoeing", 2));
         try (Provisioner provisioner = provisioner()) {
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
+            await().until(() -> agent.deviceIds().size() == 2);
 
             agent.restart();
 
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
+            await().until(() -> agent.deviceIds().size() == 2);
             assertThat(agent.apiKeys()).containsExactly(DesiredDeviceFixture.SECRET.apiKey("hoeing"));
             assertThat(provisioner).isNotNull();
         }
@@ -139,9 +132,9 @@ class ProvisionerIT {
     /** A Kafka that knows nothing of them says so on a topic until it is told to forget them. */
     @Test
     void retainsWhatAnotherKafkaHasProvisioned() throws Exception {
-        put(DesiredDeviceFixture.thermometer("hoeing", 1));
+        put(thermometer("hoeing", 1));
         try (Provisioner provisioner = provisioner()) {
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);
+            await().until(() -> agent.deviceIds().size() == 1);
             assertThat(provisioner).isNotNull();
         }
         kafka.close();
@@ -149,9 +142,9 @@ class ProvisionerIT {
         createTopics();
         int changes = agent.changes.size();
         try (Provisioner provisioner = provisioner();
-                CommittedReader<String> faults = CommittedReader.open(client(), Topics.FAULTS)) {
+                CommittedReader<String> faults = CommittedReader.open(kafka.client(), Topics.FAULTS)) {
             List<ConsumerRecord<String, byte[]>> records = new ArrayList<>();
-            await().atMost(TIMEOUT).until(() -> {
+            await().until(() -> {
                 faults.poll(Duration.ofMillis(100)).forEach(records::add);
                 return !records.isEmpty();
             });
@@ -162,7 +155,7 @@ class ProvisionerIT {
         assertThat(agent.changes).hasSize(changes);
 
         try (Provisioner provisioner = Provisioner.start(settings(true))) {
-            await().atMost(TIMEOUT).until(() -> agent.apiKeys().isEmpty());
+            await().until(() -> agent.apiKeys().isEmpty());
             assertThat(agent.deviceIds()).isEmpty();
             assertThat(provisioner).isNotNull();
         }
@@ -171,14 +164,14 @@ class ProvisionerIT {
     @Test
     void leavesTheWorkToOneOfTwoInstancesAndThenToTheOther() {
         Provisioner first = provisioner();
-        put(DesiredDeviceFixture.thermometer("hoeing", 1));
-        await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);
+        put(thermometer("hoeing", 1));
+        await().until(() -> agent.deviceIds().size() == 1);
         try (Provisioner second = provisioner()) {
-            put(DesiredDeviceFixture.thermometer("hoeing", 2));
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
+            put(thermometer("hoeing", 2));
+            await().until(() -> agent.deviceIds().size() == 2);
             first.close();
-            put(DesiredDeviceFixture.thermometer("weeding", 1));
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 3);
+            put(thermometer("weeding", 1));
+            await().until(() -> agent.deviceIds().size() == 3);
             assertThat(second).isNotNull();
         } finally {
             first.close();
@@ -190,12 +183,11 @@ class ProvisionerIT {
 
     /** It notes with its offset that the devices of this Kafka are those of the agent. */
     private void awaitThatRemovalIsAllowed() {
-        try (Admin admin = Admin.create(client())) {
-            await().atMost(TIMEOUT)
-                    .until(() -> !admin.listConsumerGroupOffsets(ProvisioningWorker.GROUP)
-                            .partitionsToOffsetAndMetadata()
-                            .get()
-                            .isEmpty());
+        try (Admin admin = Admin.create(kafka.client())) {
+            await().until(() -> !admin.listConsumerGroupOffsets(ProvisioningWorker.GROUP)
+                    .partitionsToOffsetAndMetadata()
+                    .get()
+                    .isEmpty());
         }
     }
 
@@ -205,7 +197,7 @@ class ProvisionerIT {
 
     private ProvisioningSettings settings(boolean forgets) {
         return new ProvisioningSettings(
-                client(),
+                kafka.client(),
                 DesiredDeviceFixture.SCOPE,
                 SecretSource.of(DesiredDeviceFixture.SECRET),
                 AgentSettings.at(agent.uri()).withInterval(Duration.ofSeconds(1)),
@@ -228,36 +220,15 @@ class ProvisionerIT {
         producer.flush();
     }
 
-    private Map<String, DeviceStatus> statuses() {
-        Map<String, DeviceStatus> statuses = new java.util.HashMap<>();
-        List<Exception> unreadable = new ArrayList<>();
-        try (KafkaConsumer<String, byte[]> consumer =
-                new KafkaConsumer<>(client(), new StringDeserializer(), new ByteArrayDeserializer())) {
-            TopicPartition all = new TopicPartition(Topics.DEVICES_STATUS, 0);
-            consumer.assign(List.of(all));
-            consumer.seekToBeginning(List.of(all));
-            long end = consumer.endOffsets(List.of(all)).get(all);
-            while (consumer.position(all) < end) {
-                consumer.poll(Duration.ofMillis(100)).forEach(record -> {
-                    try {
-                        statuses.put(record.key(), DeviceStatus.read(record.value()));
-                    } catch (Exception e) {
-                        unreadable.add(e);
-                    }
-                });
-            }
+    private Map<String, DeviceStatus> statuses() throws Exception {
+        Map<String, DeviceStatus> statuses = new HashMap<>();
+        try (CommittedReader<String> reader = CommittedReader.open(kafka.client(), Topics.DEVICES_STATUS)) {
+            reader.readToEnd(record -> statuses.put(record.key(), DeviceStatus.read(record.value())));
         }
-        assertThat(unreadable).isEmpty();
         return statuses;
     }
 
     private static NewTopic topic(String name) {
         return new NewTopic(name, Optional.of(1), Optional.empty()).configs(Map.of("cleanup.policy", "compact"));
-    }
-
-    private Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
     }
 }

@@ -4,12 +4,8 @@ import java.io.IOException;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Map;
-import java.util.Properties;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
-import org.junit.jupiter.api.AfterEach;
-import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -19,33 +15,14 @@ import org.junit.jupiter.params.provider.ValueSource;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.provisioner.ProvisioningReconciler.Outcome;
-import io.furrow.provisioner.account.InMemoryAccounts;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 /** An IoT Agent that forgets, refuses, fails or is slow. */
 @Tag("full")
-class ProvisioningFailuresTest {
-    private static final Outcome DONE = new Outcome(Map.of(), null, null, true);
-    private static final String KEY = FakeAgent.key("/iot/json", DesiredDeviceFixture.SECRET.apiKey("hoeing"));
-
-    private final DesiredDeviceTable desired = new DesiredDeviceTable(DesiredDeviceFixture.SCOPE);
-
-    private FakeAgent agent;
-    private ProvisioningReconciler provisioning;
-    private volatile long now;
-
-    @BeforeEach
-    void start() throws IOException {
-        agent = FakeAgent.start();
-        provisioning = provisioning();
-    }
-
-    @AfterEach
-    void stop() {
-        agent.close();
-    }
+class ProvisioningFailuresTest extends ProvisioningFixture {
+    private static final String GROUP = FakeAgent.key("/iot/json", KEY);
 
     @ParameterizedTest
     @ValueSource(strings = {"all", "groups", "devices", "a device"})
@@ -64,7 +41,7 @@ class ProvisioningFailuresTest {
         assertThat(provisioning.step()).isEqualTo(DONE);
 
         assertThat(agent.deviceIds()).containsExactlyInAnyOrder(id(1), id(2), id(3));
-        assertThat(agent.groups).containsOnlyKeys(KEY);
+        assertThat(agent.groups).containsOnlyKeys(GROUP);
         assertThat(agent.changes).hasSize(lost.equals("all") ? 2 : 1);
     }
 
@@ -153,7 +130,7 @@ class ProvisioningFailuresTest {
         assertThat(outcome.done()).isTrue();
         assertThat(outcome.stuck()).contains("500", "cannot remove");
         assertThat(agent.deviceIds()).containsExactly(id(1));
-        assertThat(agent.groups).containsOnlyKeys(KEY);
+        assertThat(agent.groups).containsOnlyKeys(GROUP);
 
         agent.broken.clear();
         assertThat(provisioning.step()).isEqualTo(DONE);
@@ -163,20 +140,23 @@ class ProvisioningFailuresTest {
     /** Time passes in requests only: three seconds in each. */
     @Test
     void removesManySlowDevicesInStepsThatLeaveTimeToPoll() throws Exception {
+        clock = passed::get;
+        provisioning = provisioning();
         List<DesiredDevice> devices = addDesired(100);
         while (!provisioning.step().done()) {
             assertThat(agent.deviceIds()).hasSizeLessThan(100);
         }
         devices.forEach(device -> desired.take(device.version().key(), null));
-        agent.onChange = () -> now += Duration.ofSeconds(3).toNanos();
+        agent.onChange = () -> passed.addAndGet(Duration.ofSeconds(3).toNanos());
 
         int steps = 0;
         boolean done = false;
         while (!done) {
-            long before = now;
+            long before = passed.get();
             done = provisioning.step().done();
             steps++;
-            assertThat(Duration.ofNanos(now - before)).isLessThanOrEqualTo(ProvisioningReconciler.STEP.plusSeconds(3));
+            assertThat(Duration.ofNanos(passed.get() - before))
+                    .isLessThanOrEqualTo(ProvisioningReconciler.STEP.plusSeconds(3));
         }
 
         assertThat(steps).isBetween(20, 101);
@@ -220,8 +200,7 @@ class ProvisioningFailuresTest {
         addDesired(1);
         DesiredDevice device = DesiredDeviceFixture.thermometer("old", 1);
         DeviceVersion of = device.version();
-        DeviceVersion version =
-                new DeviceVersion(of.id(), "", "/", of.domain(), of.mission(), 0, null, of.sequence(), null);
+        var version = new DeviceVersion(of.id(), "", "/", of.domain(), of.mission(), 0, null, of.sequence(), null);
         desired.take(
                 version.key(),
                 DesiredDevice.simulated(
@@ -238,18 +217,6 @@ class ProvisioningFailuresTest {
         assertThat(agent.services).containsExactly("farm");
     }
 
-    private ProvisioningReconciler provisioning() {
-        return new ProvisioningReconciler(
-                new ProvisioningSettings(
-                        new Properties(),
-                        DesiredDeviceFixture.SCOPE,
-                        DesiredDeviceFixture.SECRET,
-                        AgentSettings.at(agent.uri()),
-                        List.of(new InMemoryAccounts())),
-                desired,
-                () -> now);
-    }
-
     private static String id(int number) {
         return "urn:ngsi-ld:Thermometer:hoeing-" + number;
     }
@@ -263,7 +230,7 @@ class ProvisioningFailuresTest {
         for (int i = 1; i <= count; i++) {
             DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", i);
             devices.add(device);
-            desired.take(device.version().key(), device);
+            addDesired(device);
         }
         return devices;
     }

@@ -1,7 +1,6 @@
 package io.furrow.provisioner;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.HashSet;
@@ -10,10 +9,11 @@ import java.util.Map;
 import java.util.Properties;
 import java.util.Set;
 import java.util.concurrent.atomic.AtomicLong;
+import java.util.function.LongSupplier;
 import java.util.function.Predicate;
 import java.util.stream.Collectors;
 
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 
 import io.furrow.kafka.secret.SecretSource;
@@ -23,6 +23,8 @@ import io.furrow.provisioner.ProvisioningReconciler.Outcome;
 import io.furrow.provisioner.account.InMemoryAccounts;
 import io.furrow.provisioner.account.MqttAccount;
 import io.furrow.provisioner.account.MqttAccounts;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** A provisioner in a test's hands: what is requested, and what the agent and the MQTT brokers are told. */
 abstract class ProvisioningFixture {
@@ -41,18 +43,17 @@ abstract class ProvisioningFixture {
     /** How much later it is than by the clock. */
     final AtomicLong passed = new AtomicLong();
 
+    LongSupplier clock = () -> System.nanoTime() + passed.get();
+
+    @AutoClose
     FakeAgent agent;
+
     ProvisioningReconciler provisioning;
 
     @BeforeEach
     void start() throws IOException {
-        agent = FakeAgent.start();
+        agent = new FakeAgent();
         provisioning = provisioning();
-    }
-
-    @AfterEach
-    void stop() {
-        agent.close();
     }
 
     ProvisioningReconciler provisioning() {
@@ -60,8 +61,7 @@ abstract class ProvisioningFixture {
     }
 
     ProvisioningReconciler provisioning(ProvisioningSettings settings, RemovalGuard.Origin origin) {
-        ProvisioningReconciler begun =
-                new ProvisioningReconciler(settings, desired, () -> System.nanoTime() + passed.get());
+        ProvisioningReconciler begun = new ProvisioningReconciler(settings, desired, () -> clock.getAsLong());
         begun.startAnew(origin);
         return begun;
     }
@@ -87,7 +87,7 @@ abstract class ProvisioningFixture {
     }
 
     boolean authenticates(FarmSecret.Login login) {
-        return accounts.authenticates(login.user(), login.password().getBytes(StandardCharsets.UTF_8));
+        return accounts.authenticates(login.user(), login.password().getBytes(UTF_8));
     }
 
     /** Counts accounts at each change, and refuses users that somebody else has. */

@@ -15,6 +15,7 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.provisioner.ProvisioningReconciler.Outcome;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -77,7 +78,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
 
         assertThat(counts).containsExactly(2);
         String device = "urn:ngsi-ld:Thermometer:hoeing-1";
-        var login = DesiredDeviceFixture.SECRET.device("hoeing", device);
+        var login = SECRET.device("hoeing", device);
         assertThat(accounts.authenticates(login.user(), login.password().getBytes()))
                 .isTrue();
         assertThat(accounts.mayWrite(login.user(), "/" + KEY + "/" + device + "/attrs"))
@@ -87,11 +88,11 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     @Test
     void givesMissionsAGatewayOnlyWhereOneIsUsed() throws Exception {
         addDesired(DesiredDeviceFixture.thermometer("hoeing", 1));
-        String gateway = DesiredDeviceFixture.SECRET.gateway("hoeing").user();
+        String gateway = SECRET.gateway("hoeing").user();
         provisioning.step();
         assertThat(accounts.mayRead(gateway, "/" + KEY + "/+/cmd")).isFalse();
 
-        provisioning = provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), true), SAME);
+        provisioning = provisioning(settings(SecretSource.of(SECRET), true), SAME);
         provisioning.step();
 
         assertThat(counts).containsExactly(1, 2);
@@ -109,12 +110,9 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         addDesired(DesiredDeviceFixture.stopped(first));
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(agent.deviceIds()).containsExactly(second.device());
-        assertThat(agent.apiKeys()).containsExactly(DesiredDeviceFixture.SECRET.apiKey("weeding"));
+        assertThat(agent.apiKeys()).containsExactly(SECRET.apiKey("weeding"));
         assertThat(accounts.mayRead(
-                        DesiredDeviceFixture.SECRET
-                                .device("hoeing", first.device())
-                                .user(),
-                        "/" + KEY + "/" + first.device() + "/cmd"))
+                        SECRET.device("hoeing", first.device()).user(), "/" + KEY + "/" + first.device() + "/cmd"))
                 .isFalse();
 
         desired.take(second.version().key(), null);
@@ -221,8 +219,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
         addDesired(device);
         addDesired(DesiredDeviceFixture.thermometer("hoeing", 2));
-        refused.put(
-                DesiredDeviceFixture.SECRET.device("hoeing", device.device()).user(), "somebody else's");
+        refused.put(SECRET.device("hoeing", device.device()).user(), "somebody else's");
 
         assertThat(provisioning.step().refused())
                 .containsExactly(Map.entry(device.version().key(), "somebody else's"));

@@ -2,14 +2,11 @@ package io.furrow.provisioner;
 
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Clock;
 import java.time.Duration;
 import java.time.Instant;
-import java.time.ZoneId;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
-import java.util.Properties;
 import java.util.stream.Stream;
 
 import org.apache.kafka.clients.admin.NewTopic;
@@ -24,6 +21,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.clock.SettableClock;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.kafka.secret.SecretFile;
 import io.furrow.kafka.secret.SecretSource;
@@ -34,7 +32,6 @@ import io.furrow.model.device.FarmSecretCodec;
 import io.furrow.model.topic.Topics;
 
 import static io.furrow.provisioner.ProvisionedMosquitto.AGENT;
-import static io.furrow.provisioner.ProvisionedMosquitto.TIMEOUT;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -44,13 +41,10 @@ import static org.awaitility.Awaitility.await;
 class RotationIT {
     private static final Duration ACCEPTED = Duration.ofDays(30);
 
-    @TempDir
-    Path directory;
-
     private final DesiredDevice first = DesiredDeviceFixture.thermometer("hoeing", 1);
     private final DesiredDevice second = DesiredDeviceFixture.thermometer("hoeing", 2);
     private final List<AutoCloseable> open = new ArrayList<>();
-    private final MovedClock clock = new MovedClock();
+    private final SettableClock clock = new SettableClock(Instant.parse("2026-03-01T08:00:00Z"));
     private EmbeddedKafka kafka;
     private ProvisionedMosquitto broker;
     private FakeAgent iotAgent;
@@ -60,19 +54,19 @@ class RotationIT {
     private FarmSecret old;
 
     @BeforeEach
-    void startWithTwoDevices() throws Exception {
+    void startWithTwoDevices(@TempDir Path directory) throws Exception {
         kafka = open(EmbeddedKafka.start(directory.resolve("kafka")));
         kafka.createTopics(Stream.of(Topics.DEVICES, Topics.DEVICES_STATUS, Topics.MISSION_DEVICES, Topics.SECRETS)
                 .map(topic -> new NewTopic(topic, 1, (short) 1).configs(Map.of("cleanup.policy", "compact")))
                 .toList());
         broker = open(new ProvisionedMosquitto(Files.createDirectory(directory.resolve("mosquitto"))));
-        iotAgent = open(FakeAgent.start());
+        iotAgent = open(new FakeAgent());
         agent = open(broker.connect(AGENT, "agent").subscribe("#"));
         old = FarmSecret.generate();
         file = Files.writeString(directory.resolve("secret"), FarmSecretCodec.write(old));
-        secret = SecretFile.open(file, new SecretTopic(client(), null), clock);
+        secret = SecretFile.open(file, new SecretTopic(kafka.client(), null), clock);
         open(Provisioner.start(new ProvisioningSettings(
-                client(),
+                kafka.client(),
                 DesiredDeviceFixture.SCOPE,
                 secret,
                 AgentSettings.at(iotAgent.uri()),
@@ -99,15 +93,15 @@ class RotationIT {
 
         MqttPeer renewed = open(broker.comesIn(rotated.device("hoeing", first.device())));
         renewed.publish(measures, "new");
-        await().atMost(TIMEOUT).until(() -> agent.newest(measures).equals("new"));
+        await().until(() -> agent.newest(measures).equals("new"));
         moved.publish(measures, "old");
-        await().atMost(TIMEOUT).until(() -> agent.newest(measures).equals("old"));
+        await().until(() -> agent.newest(measures).equals("old"));
         open(broker.connect(old.device("hoeing", second.device()), "again"));
         assertThat(late.isConnected()).isTrue();
 
-        clock.move(ACCEPTED);
+        clock.pass(ACCEPTED);
 
-        await().atMost(TIMEOUT).until(() -> !late.isConnected() && !moved.isConnected());
+        await().until(() -> !late.isConnected() && !moved.isConnected());
         assertThatThrownBy(() -> broker.connect(old.device("hoeing", second.device()), "too-late"))
                 .isInstanceOf(MqttException.class)
                 .hasMessageContaining("Not authorized");
@@ -124,7 +118,7 @@ class RotationIT {
 
         put(first.withGeneration(1));
 
-        await().atMost(TIMEOUT).until(() -> !thief.isConnected());
+        await().until(() -> !thief.isConnected());
         broker.comesIn(old.device("hoeing", first.device(), 1)).close();
         assertThatThrownBy(() -> broker.connect(old.device("hoeing", first.device()), "thief"))
                 .isInstanceOf(MqttException.class);
@@ -135,9 +129,8 @@ class RotationIT {
     void retainsEverythingAsItIsWhereTheFileIsReplacedByAnothersSecret() throws Exception {
         MqttPeer device = open(broker.comesIn(old.device("hoeing", first.device())));
         Files.writeString(file, FarmSecretCodec.write(FarmSecret.generate()));
-        await().atMost(TIMEOUT)
-                .untilAsserted(() -> assertThat(secret.problem())
-                        .hasValueSatisfying(why -> assertThat(why).contains("this farm has another secret")));
+        await().untilAsserted(() -> assertThat(secret.problem())
+                .hasValueSatisfying(why -> assertThat(why).contains("this farm has another secret")));
         DesiredDevice third = DesiredDeviceFixture.thermometer("hoeing", 3);
         put(third);
 
@@ -155,8 +148,7 @@ class RotationIT {
     }
 
     private void put(DesiredDevice... devices) {
-        try (KafkaProducer<String, byte[]> producer =
-                new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer())) {
+        try (var producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer())) {
             for (DesiredDevice device : devices) {
                 producer.send(
                         new ProducerRecord<>(Topics.DEVICES, device.version().key(), device.toBytes()));
@@ -164,38 +156,8 @@ class RotationIT {
         }
     }
 
-    private Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
-    }
-
     private <T extends AutoCloseable> T open(T part) {
         open.add(part);
         return part;
-    }
-
-    /** Continues only where a test moves it. */
-    private static final class MovedClock extends Clock {
-        private volatile Instant now = Instant.parse("2026-03-01T08:00:00Z");
-
-        void move(Duration time) {
-            now = now.plus(time);
-        }
-
-        @Override
-        public Instant instant() {
-            return now;
-        }
-
-        @Override
-        public ZoneId getZone() {
-            return ZoneId.of("Z");
-        }
-
-        @Override
-        public Clock withZone(ZoneId zone) {
-            return this;
-        }
     }
 }

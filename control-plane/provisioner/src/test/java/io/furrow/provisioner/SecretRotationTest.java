@@ -10,6 +10,7 @@ import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -25,20 +26,18 @@ class SecretRotationTest extends ProvisioningFixture {
         assertThat(provisioning.isSecretChanged()).isFalse();
         agent.changes.clear();
         Instant until = Instant.parse("2026-03-01T08:00:00Z");
-        FarmSecret rotated = DesiredDeviceFixture.SECRET.rotated(until.minusSeconds(60), until, false);
+        FarmSecret rotated = SECRET.rotated(until.minusSeconds(60), until, false);
 
         secret.current = rotated.at(until.minusSeconds(1));
         assertThat(provisioning.isSecretChanged()).isTrue();
         provisioning.step();
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", device.device())))
-                .isTrue();
+        assertThat(authenticates(SECRET.device("hoeing", device.device()))).isTrue();
         assertThat(authenticates(rotated.device("hoeing", device.device()))).isTrue();
 
         secret.current = rotated.at(until);
         assertThat(provisioning.isSecretChanged()).isTrue();
         provisioning.step();
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", device.device())))
-                .isFalse();
+        assertThat(authenticates(SECRET.device("hoeing", device.device()))).isFalse();
         assertThat(authenticates(rotated.device("hoeing", device.device()))).isTrue();
         assertThat(agent.changes).isEmpty();
         assertThat(counts).containsExactly(1, 2, 1);
@@ -59,9 +58,7 @@ class SecretRotationTest extends ProvisioningFixture {
                         .put("apikey", "secret"));
         desired.clear();
         addDesired(device);
-        secret.current = DesiredDeviceFixture.SECRET
-                .rotated(Instant.now(), Instant.EPOCH, true)
-                .at(Instant.now());
+        secret.current = SECRET.rotated(Instant.now(), Instant.EPOCH, true).at(Instant.now());
 
         assertThat(provisioning(settings(secret, false), SAME).step()).isEqualTo(DONE);
 
@@ -86,19 +83,14 @@ class SecretRotationTest extends ProvisioningFixture {
         addDesired(stolen.withGeneration(1));
 
         assertThatThrownBy(provisioning::step).isInstanceOf(IOException.class).hasMessageContaining("503");
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", stolen.device())))
-                .isFalse();
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", other.device())))
-                .isTrue();
+        assertThat(authenticates(SECRET.device("hoeing", stolen.device()))).isFalse();
+        assertThat(authenticates(SECRET.device("hoeing", other.device()))).isTrue();
 
         agent.unavailable = false;
         provisioning.step();
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", stolen.device(), 1)))
-                .isTrue();
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", stolen.device())))
-                .isFalse();
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", other.device())))
-                .isTrue();
+        assertThat(authenticates(SECRET.device("hoeing", stolen.device(), 1))).isTrue();
+        assertThat(authenticates(SECRET.device("hoeing", stolen.device()))).isFalse();
+        assertThat(authenticates(SECRET.device("hoeing", other.device()))).isTrue();
         assertThat(agent.changes)
                 .filteredOn(change -> change.startsWith("DELETE"))
                 .isEmpty();
@@ -119,13 +111,13 @@ class SecretRotationTest extends ProvisioningFixture {
 
         assertThat(agent.changes).isEmpty();
         assertThat(counts).isEmpty();
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")))
+        assertThat(authenticates(SECRET.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")))
                 .isTrue();
     }
 
     /** The farm's secret, as long as nobody says that it is not. */
     private static final class Secret implements SecretSource {
-        private FarmSecret current = DesiredDeviceFixture.SECRET;
+        private FarmSecret current = SECRET;
         private String foreign;
 
         @Override

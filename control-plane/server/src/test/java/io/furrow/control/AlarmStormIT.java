@@ -1,28 +1,21 @@
 package io.furrow.control;
 
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
-import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
 import java.util.Map;
-import java.util.Properties;
 import java.util.concurrent.CountDownLatch;
-import java.util.concurrent.ExecutorService;
-import java.util.concurrent.Executors;
 import java.util.concurrent.TimeUnit;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.sun.net.httpserver.HttpServer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -41,7 +34,9 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
+import io.furrow.stub.StubServer;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -58,46 +53,40 @@ class AlarmStormIT {
     private final List<JsonNode> posted = Collections.synchronizedList(new ArrayList<>());
     private final List<Long> stopped = Collections.synchronizedList(new ArrayList<>());
     private final CountDownLatch hanging = new CountDownLatch(1);
-    private final ExecutorService threads = Executors.newCachedThreadPool();
     private EmbeddedKafka kafka;
     private KafkaProducer<String, byte[]> producer;
-    private HttpServer hook;
-    private HttpServer broker;
     private volatile boolean hangs;
     private volatile String failing = "";
+
+    @AutoClose
+    private final StubServer hook = new StubServer(exchange -> {
+        JsonNode alarm = NgsiJson.mapper().readTree(exchange.getRequestBody());
+        if (hangs) {
+            awaitEnd();
+        }
+        boolean fails = alarm.path("kind").asText().equals(failing);
+        if (!fails) {
+            posted.add(alarm);
+        }
+        StubServer.answer(exchange, fails ? 500 : 204, "");
+    });
+
+    @AutoClose
+    private final StubServer broker = new StubServer(exchange -> {
+        stopped.add(System.nanoTime());
+        StubServer.answer(exchange, 204, "");
+    });
 
     @BeforeEach
     void start() throws Exception {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
-        producer = new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
-        hook = server();
-        hook.createContext("/", exchange -> {
-            JsonNode alarm = NgsiJson.mapper().readTree(exchange.getRequestBody());
-            if (hangs) {
-                awaitEnd();
-            }
-            boolean fails = alarm.path("kind").asText().equals(failing);
-            if (!fails) {
-                posted.add(alarm);
-            }
-            exchange.sendResponseHeaders(fails ? 500 : 204, -1);
-            exchange.close();
-        });
-        broker = server();
-        broker.createContext("/", exchange -> {
-            stopped.add(System.nanoTime());
-            exchange.sendResponseHeaders(204, -1);
-            exchange.close();
-        });
+        producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
     }
 
     @AfterEach
     void stop() {
         hanging.countDown();
         producer.close();
-        hook.stop(0);
-        broker.stop(0);
-        threads.shutdownNow();
         kafka.close();
     }
 
@@ -132,7 +121,7 @@ class AlarmStormIT {
                     report("urn:ngsi-ld:Thermometer:m-" + i, "Thermometer");
                 }
                 producer.flush();
-                return new TopicContent(client(), Topics.DEVICES_HEALTH)
+                return new TopicContent(kafka.client(), Topics.DEVICES_HEALTH)
                                 .newest()
                                 .size()
                         > DEVICES;
@@ -155,31 +144,21 @@ class AlarmStormIT {
     }
 
     private long silent() {
-        return new TopicContent(client(), Topics.DEVICES_HEALTH)
+        return new TopicContent(kafka.client(), Topics.DEVICES_HEALTH)
                 .newest().values().stream()
-                        .filter(health -> new String(health, StandardCharsets.UTF_8).contains("\"silent\":true"))
+                        .filter(health -> new String(health, UTF_8).contains("\"silent\":true"))
                         .count();
     }
 
     private FarmWatch watch() throws Exception {
         WatchOptions options = WatchOptions.DEFAULT
-                .with(Webhook.Settings.of(uri(hook)))
-                .with(StopRobots.Settings.of(new DeviceCommands(uri(broker), FiwareScope.DEFAULT, AccessToken.NONE)));
+                .with(Webhook.Settings.of(hook.uri("")))
+                .with(StopRobots.Settings.of(
+                        new DeviceCommands(broker.uri(""), FiwareScope.DEFAULT, AccessToken.NONE)));
         return FarmWatch.start(
                 ControlPlaneProcess.settings(
                         kafka.bootstrapServers(), directory.resolve("state").toString()),
                 options);
-    }
-
-    private HttpServer server() throws Exception {
-        HttpServer server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        server.setExecutor(threads);
-        server.start();
-        return server;
-    }
-
-    private static URI uri(HttpServer server) {
-        return URI.create("http://127.0.0.1:" + server.getAddress().getPort());
     }
 
     private void awaitEnd() {
@@ -212,11 +191,5 @@ class AlarmStormIT {
                 .number("distance", 12)
                 .number("dcpa", 0.5);
         producer.send(new ProducerRecord<>(Topics.COLLISION, first + "-" + second, entity.toBytes()));
-    }
-
-    private Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
     }
 }

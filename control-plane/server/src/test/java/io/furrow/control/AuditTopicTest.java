@@ -1,6 +1,5 @@
 package io.furrow.control;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
@@ -14,7 +13,7 @@ import org.apache.kafka.common.serialization.StringDeserializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.apache.kafka.streams.StreamsConfig;
 import org.apache.kafka.streams.TopologyTestDriver;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.mission.MissionSettings;
@@ -23,11 +22,13 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class AuditTopicTest {
     private static final Instant START = Instant.parse("2026-03-01T08:00:00Z");
 
+    @AutoClose
     private final TopologyTestDriver driver = new TopologyTestDriver(
             ControlTopology.of(
                     Duration.ofHours(1),
@@ -35,11 +36,6 @@ class AuditTopicTest {
                     ReplaySettings.DEFAULT),
             settings(),
             START);
-
-    @AfterEach
-    void close() {
-        driver.close();
-    }
 
     @Test
     void reportsForEachCommandWhoGaveItWhatItWasWhenAndWhatCameOfIt() throws Exception {
@@ -100,13 +96,13 @@ class AuditTopicTest {
     }
 
     private static byte[] bytes(String json) {
-        return json.replace('\'', '"').getBytes(StandardCharsets.UTF_8);
+        return json.replace('\'', '"').getBytes(UTF_8);
     }
 
     private static JsonNode json(String template) throws Exception {
         String json =
                 template.formatted(START.toEpochMilli()).replace('\'', '"').replace('\u0001', '\'');
-        return NgsiJson.read(json.getBytes(StandardCharsets.UTF_8));
+        return NgsiJson.read(json.getBytes(UTF_8));
     }
 
     private static Properties settings() {

@@ -1,6 +1,5 @@
 package io.furrow.control;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
 import java.util.stream.Collectors;
@@ -8,13 +7,14 @@ import java.util.stream.IntStream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.streams.test.TestRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ContextEntitiesTest {
@@ -24,12 +24,8 @@ class ContextEntitiesTest {
             + "'deviceCount':3,'running':true,'start':5,'created':1,'sequence':2}";
     private static final Duration SECOND = Duration.ofSeconds(1);
 
+    @AutoClose
     private final FarmWatchFixture farm = new FarmWatchFixture();
-
-    @AfterEach
-    void close() {
-        farm.close();
-    }
 
     @Test
     void makesADomainAnEntityWithItsMissionsAndWhatItsFieldsAreLike() throws Exception {
@@ -48,7 +44,7 @@ class ContextEntitiesTest {
         Entity entity = Entity.parse(record.value());
         assertThat(entity.type()).isEqualTo("Domain");
         assertThat(entity.text("description")).hasValue("Behind the \"barn\"");
-        assertThat(entity.json().path("description").path("type").asText()).isEqualTo("TextUnrestricted");
+        assertThat(entity.json().at("/description/type").asText()).isEqualTo("TextUnrestricted");
         assertThat(entity.number("averageTemperature")).hasValue(19.0);
         assertThat(entity.number("suspectCount")).hasValue(1.0);
         assertThat(entity.number("missionCount")).hasValue(1.0);
@@ -176,6 +172,6 @@ class ContextEntitiesTest {
     }
 
     private static String header(TestRecord<String, byte[]> record, String name) {
-        return new String(record.headers().lastHeader(name).value(), StandardCharsets.UTF_8);
+        return new String(record.headers().lastHeader(name).value(), UTF_8);
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.control;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -11,21 +10,18 @@ import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
-import java.util.Properties;
 import java.util.Set;
+import java.util.concurrent.Callable;
 import java.util.stream.Collectors;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.config.ConfigResource;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
 import org.apache.kafka.common.serialization.StringSerializer;
+import org.awaitility.Awaitility;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
@@ -45,9 +41,9 @@ import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.Requests;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
-import static org.awaitility.Awaitility.await;
 
 class ControlPlaneIT {
     private static final int GROUPS = 10;
@@ -85,8 +81,7 @@ class ControlPlaneIT {
                 create(producer, i); // as a client does that has heard nothing
                 if (i == ANSWERED_BEFORE_THE_KILL) {
                     producer.flush();
-                    await().atMost(TIMEOUT)
-                            .until(() -> answers(Topics.DOMAIN_MANAGER).size() > ANSWERED_BEFORE_THE_KILL);
+                    await(() -> answers(Topics.DOMAIN_MANAGER).size() > ANSWERED_BEFORE_THE_KILL);
                 } else if (i == SENT_BEFORE_THE_KILL) {
                     producer.flush();
                     first.destroyForcibly().waitFor(); // with requests under way
@@ -95,13 +90,13 @@ class ControlPlaneIT {
             }
             producer.flush();
             run("second", 0); // knows nothing but what is in Kafka
-            await().atMost(TIMEOUT).until(() -> answers(Topics.DOMAIN_MANAGER).size() >= REQUESTS);
+            await(() -> answers(Topics.DOMAIN_MANAGER).size() >= REQUESTS);
 
             // Whatever was answered twice would be answered by then.
             producer.send(new ProducerRecord<>(
                     Topics.DOMAIN_MANAGER, Requests.write("last", new DomainCommand.Delete("nosuch", false))));
             producer.flush();
-            await().atMost(TIMEOUT).until(() -> answers(Topics.DOMAIN_MANAGER).size() > REQUESTS);
+            await(() -> answers(Topics.DOMAIN_MANAGER).size() > REQUESTS);
         }
 
         List<CommandResult> answers = answers(Topics.DOMAIN_MANAGER);
@@ -126,14 +121,14 @@ class ControlPlaneIT {
                 replay(producer, i);
                 if (i == ANSWERED_BEFORE_THE_KILL / 2) {
                     producer.flush();
-                    await().atMost(TIMEOUT).until(() -> answers().size() == 2 * (ANSWERED_BEFORE_THE_KILL / 2 + 1));
+                    await(() -> answers().size() == 2 * (ANSWERED_BEFORE_THE_KILL / 2 + 1));
                 } else if (i == SENT_BEFORE_THE_KILL / 2) {
                     producer.flush();
                     first.destroyForcibly().waitFor();
                 }
             }
             producer.flush();
-            await().atMost(TIMEOUT).until(() -> answers().size() >= REQUESTS);
+            await(() -> answers().size() >= REQUESTS);
         }
 
         Set<String> ids = new HashSet<>();
@@ -157,7 +152,7 @@ class ControlPlaneIT {
                 group(producer, i);
             }
             producer.flush();
-            await().atMost(TIMEOUT).until(() -> answers(Topics.REPLAY_MANAGER).size() == GROUPS);
+            await(() -> answers(Topics.REPLAY_MANAGER).size() == GROUPS);
             for (CommandResult answer : answers(Topics.REPLAY_MANAGER)) {
                 groups.add(answer.json().path("group").asText());
             }
@@ -174,7 +169,7 @@ class ControlPlaneIT {
             }
             producer.flush();
             int requested = GROUPS + commands;
-            await().atMost(TIMEOUT).until(() -> answers(Topics.REPLAY_MANAGER).size() >= requested);
+            await(() -> answers(Topics.REPLAY_MANAGER).size() >= requested);
         }
 
         assertThat(answers(Topics.REPLAY_MANAGER))
@@ -233,15 +228,15 @@ class ControlPlaneIT {
         ControlPlane first = plane(one);
         try (KafkaProducer<String, byte[]> producer = producer();
                 ControlPlane second = plane(two)) {
-            await().atMost(TIMEOUT).until(() -> first.isHealthy() && second.isHealthy());
+            await(() -> first.isHealthy() && second.isHealthy());
             create(producer, 0);
-            await().atMost(TIMEOUT).until(() -> answers(Topics.DOMAIN_MANAGER).size() == 1);
+            await(() -> answers(Topics.DOMAIN_MANAGER).size() == 1);
             first.close();
             producer.send(new ProducerRecord<>(
                     Topics.MISSION_MANAGER,
                     Requests.write(
                             "m", new MissionCommand.Start("m", "d-0", new MissionPlan.Unspecified(), null, null))));
-            await().atMost(TIMEOUT).until(() -> answers(Topics.MISSION_MANAGER).size() == 1);
+            await(() -> answers(Topics.MISSION_MANAGER).size() == 1);
             assertThat(answers(Topics.MISSION_MANAGER).get(0).status()).isEqualTo("created");
             assertThat(second.isHealthy()).isTrue();
         } finally {
@@ -258,11 +253,11 @@ class ControlPlaneIT {
                 assertThat(plane.state()).isNotEqualTo("ERROR");
                 send(producer, null, new DomainCommand.Create("north", DomainDetails.NONE));
                 send(producer, null, new DomainCommand.Delete("north", false));
-                await().atMost(TIMEOUT)
-                        .until(() -> answers(Topics.DOMAIN_MANAGER).size() == 2);
+                await(() -> answers(Topics.DOMAIN_MANAGER).size() == 2);
             }
-            try (Admin admin = Admin.create(client())) {
-                await().atMost(TIMEOUT)
+            try (Admin admin = Admin.create(kafka.client())) {
+                Awaitility.await()
+                        .atMost(TIMEOUT)
                         .ignoreExceptions()
                         .until(() -> admin.deleteConsumerGroups(List.of(ControlSettings.APPLICATION))
                                         .all()
@@ -272,9 +267,8 @@ class ControlPlaneIT {
             try (ControlPlane plane = plane(state)) {
                 assertThat(plane.state()).isNotEqualTo("ERROR");
                 send(producer, "last", new DomainCommand.Delete("nosuch", false));
-                await().atMost(TIMEOUT)
-                        .until(() -> answers(Topics.DOMAIN_MANAGER).stream()
-                                .anyMatch(answer -> answer.requestId().equals(Optional.of("last"))));
+                await(() -> answers(Topics.DOMAIN_MANAGER).stream()
+                        .anyMatch(answer -> answer.requestId().equals(Optional.of("last"))));
             }
         }
         assertThat(answers(Topics.DOMAIN_MANAGER)).hasSize(3);
@@ -285,16 +279,15 @@ class ControlPlaneIT {
     @Test
     void putsTheCleanupPolicyOfItsTopicsRight() throws Exception {
         try (KafkaProducer<String, byte[]> producer = producer()) {
-            producer.send(new ProducerRecord<>(Topics.DEVICES, "k", "{}".getBytes(StandardCharsets.UTF_8)))
+            producer.send(new ProducerRecord<>(Topics.DEVICES, "k", "{}".getBytes(UTF_8)))
                     .get();
         }
         ServiceTopics.prepare(ControlPlaneProcess.settings(kafka.bootstrapServers(), directory.toString()));
         ServiceTopics.prepare(ControlPlaneProcess.settings(kafka.bootstrapServers(), directory.toString()));
 
-        await().atMost(TIMEOUT)
-                .until(() -> policy(Topics.DEVICES).equals("compact")
-                        && policy(Topics.MISSIONS_STATUS).equals("compact")
-                        && policy(Topics.MISSION_MANAGER).equals("delete"));
+        await(() -> policy(Topics.DEVICES).equals("compact")
+                && policy(Topics.MISSIONS_STATUS).equals("compact")
+                && policy(Topics.MISSION_MANAGER).equals("delete"));
     }
 
     private ControlPlane plane(Path state) throws Exception {
@@ -325,7 +318,7 @@ class ControlPlaneIT {
     }
 
     private KafkaProducer<String, byte[]> producer() {
-        return new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
+        return new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
     }
 
     private List<CommandResult> answers() throws Exception {
@@ -337,36 +330,20 @@ class ControlPlaneIT {
     private List<CommandResult> answers(String topic) throws Exception {
         List<CommandResult> answers = new ArrayList<>();
         for (ConsumerRecord<String, byte[]> record : records(topic)) {
-            if (new String(record.value(), StandardCharsets.UTF_8).contains("\"type\":\"response\"")) {
+            if (new String(record.value(), UTF_8).contains("\"type\":\"response\"")) {
                 answers.add(CommandResult.read(record.value()));
             }
         }
         return answers;
     }
 
-    /** All that is committed. */
     private List<ConsumerRecord<String, byte[]>> records(String topic) {
-        Properties settings = client();
-        settings.setProperty("isolation.level", "read_committed");
-        try (KafkaConsumer<String, byte[]> consumer =
-                new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer())) {
-            List<TopicPartition> all = consumer.partitionsFor(topic).stream()
-                    .map(each -> new TopicPartition(each.topic(), each.partition()))
-                    .toList();
-            consumer.assign(all);
-            consumer.seekToBeginning(all);
-            Map<TopicPartition, Long> ends = consumer.endOffsets(all);
-            List<ConsumerRecord<String, byte[]>> records = new ArrayList<>();
-            while (all.stream().anyMatch(one -> consumer.position(one) < ends.get(one))) {
-                consumer.poll(Duration.ofMillis(100)).forEach(records::add);
-            }
-            return records;
-        }
+        return new TopicContent(kafka.client(), topic).records();
     }
 
     private String policy(String topic) throws Exception {
         ConfigResource resource = new ConfigResource(ConfigResource.Type.TOPIC, topic);
-        try (Admin admin = Admin.create(client())) {
+        try (Admin admin = Admin.create(kafka.client())) {
             return admin.describeConfigs(List.of(resource))
                     .all()
                     .get()
@@ -376,9 +353,7 @@ class ControlPlaneIT {
         }
     }
 
-    private Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
+    private static void await(Callable<Boolean> condition) {
+        Awaitility.await().atMost(TIMEOUT).until(condition);
     }
 }

@@ -5,14 +5,15 @@ import java.io.IOException;
 import java.nio.file.Path;
 import java.util.Properties;
 
+import io.furrow.process.TestProcess;
+
 /** A control plane in a process of its own, which can be killed. */
 public final class ControlPlaneProcess {
     private ControlPlaneProcess() {}
 
     /** Runs until it is killed. */
     public static void main(String[] args) throws Exception {
-        ControlPlane plane =
-                ControlPlane.start(settings(args[0], args[1]).withStandbyReplicas(Integer.parseInt(args[2])));
+        var plane = ControlPlane.start(settings(args[0], args[1]).withStandbyReplicas(Integer.parseInt(args[2])));
         Thread.currentThread().join();
         plane.close();
     }
@@ -25,16 +26,7 @@ public final class ControlPlaneProcess {
     }
 
     static Process start(String bootstrapServers, Path directory, int standbyReplicas) throws IOException {
-        String java = Path.of(System.getProperty("java.home"), "bin", "java").toString();
-        return new ProcessBuilder(
-                        java,
-                        "-Xmx256m",
-                        "-cp",
-                        System.getProperty("java.class.path"),
-                        ControlPlaneProcess.class.getName(),
-                        bootstrapServers,
-                        directory.toString(),
-                        Integer.toString(standbyReplicas))
+        return TestProcess.java("-Xmx256m", ControlPlaneProcess.class, bootstrapServers, directory, standbyReplicas)
                 .redirectErrorStream(true)
                 .redirectOutput(new File(directory + ".log"))
                 .start();

@@ -1,6 +1,5 @@
 package io.furrow.control;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -9,7 +8,7 @@ import java.util.Set;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.streams.test.TestRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.mission.MissionSettings;
@@ -25,23 +24,24 @@ import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static io.furrow.control.ManagerFixture.REMEMBERED;
+import static io.furrow.control.ManagerFixture.error;
+import static io.furrow.control.ManagerFixture.response;
+import static io.furrow.control.ManagerFixture.text;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ControlTopologyTest {
+    @AutoClose
     private final ManagerFixture farm = new ManagerFixture();
-
-    @AfterEach
-    void close() {
-        farm.close();
-    }
 
     /** As the WeLASER dashboard asks. */
     @Test
     void answersARequestForANewDomainOnTheTopicOfTheRequest() throws Exception {
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
 
         TestRecord<String, byte[]> answer = farm.only(Topics.DOMAIN_MANAGER);
-        assertThat(ManagerFixture.text(answer.value()))
+        assertThat(text(answer.value()))
                 .isEqualTo(
                         "{\"type\":\"response\",\"status\":\"created\",\"domain\":\"north\",\"topic\":\"data.north.realtime\"}");
         assertThat(answer.key()).isNull();
@@ -64,32 +64,29 @@ class ControlTopologyTest {
     /** Else whoever asks for something new would take the answer of something old for its own. */
     @Test
     void rejectsAnotherRequestUnderTheSameId() {
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1','user':'ann','domain':'north'}");
-        assertThat(ManagerFixture.response(farm.only(Topics.DOMAIN_MANAGER)).status())
-                .isEqualTo("created");
+        farm.request(Topics.DOMAIN_MANAGER, "'requestId':'r-1','user':'ann','domain':'north'");
+        assertThat(response(farm.only(Topics.DOMAIN_MANAGER)).status()).isEqualTo("created");
         for (String other : List.of(
                 "'user':'ann','domain':'south'",
                 "'user':'bob','domain':'north'",
                 "'user':'ann','command':'nonsense','domain':'north'")) {
-            farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1'," + other + "}");
-            assertThat(ManagerFixture.error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("request-id-reused");
+            farm.request(Topics.DOMAIN_MANAGER, "'requestId':'r-1'," + other);
+            assertThat(error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("request-id-reused");
         }
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1','user':'ann','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'requestId':'r-1','user':'ann','domain':'north'");
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).isEmpty();
         assertThat(farm.read(Topics.DOMAINS)).hasSize(1);
     }
 
     @Test
     void endsTheFieldsOfADomainThatIsDeletedAndReportsSo() throws Exception {
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
         FieldVersion field = new FieldVersion(
-                "f",
-                0,
-                (ObjectNode) NgsiJson.read("{\"type\":\"Polygon\"}".getBytes(StandardCharsets.UTF_8)),
-                (ObjectNode) NgsiJson.read("{\"Domain\":\"north\"}".getBytes(StandardCharsets.UTF_8)));
+                "f", 0, (ObjectNode) NgsiJson.read("{\"type\":\"Polygon\"}".getBytes(UTF_8)), (ObjectNode)
+                        NgsiJson.read("{\"Domain\":\"north\"}".getBytes(UTF_8)));
         farm.pipe(Topics.FIELDS, field.key(), field.toBytes());
         farm.pipe(Topics.FIELDS, "g", new byte[] {'?'});
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'command':'delete','domain':'north'");
 
         TestRecord<String, byte[]> end = farm.only(Topics.FIELDS);
         assertThat(end.key()).isEqualTo("f@2026-03-01T08:00:00.000Z");
@@ -107,10 +104,9 @@ class ControlTopologyTest {
         farm.request(Topics.DOMAIN_MANAGER, null, domain);
 
         TestRecord<String, byte[]> answer = farm.only(Topics.DOMAIN_MANAGER);
-        assertThat(ManagerFixture.error(answer)).isEqualTo("too-large");
-        assertThat(ManagerFixture.response(answer).json().path("domain").asText())
-                .isEqualTo("north");
-        assertThat(ManagerFixture.response(answer).json().path("reason").asText())
+        assertThat(error(answer)).isEqualTo("too-large");
+        assertThat(response(answer).json().path("domain").asText()).isEqualTo("north");
+        assertThat(response(answer).json().path("reason").asText())
                 .contains(Integer.toString(domain.length()), "524288");
         assertThat(farm.read(Topics.DOMAINS)).isEmpty();
         assertThat(farm.read(Topics.AUDIT)).hasSize(1);
@@ -124,9 +120,7 @@ class ControlTopologyTest {
         farm.request(Topics.MISSION_MANAGER, "mine", "{'type':'request',");
 
         List<TestRecord<String, byte[]>> answers = farm.read(Topics.MISSION_MANAGER);
-        assertThat(answers)
-                .extracting(answer -> ManagerFixture.error(answer))
-                .containsExactly("unknown-command", "not-json");
+        assertThat(answers).extracting(answer -> error(answer)).containsExactly("unknown-command", "not-json");
         assertThat(answers).extracting(TestRecord::key).containsExactly("r-1", "mine");
     }
 
@@ -134,81 +128,77 @@ class ControlTopologyTest {
     void forgetsIdsOfRequestsAfterTheTimeForThat() {
         String request = "{'type':'request','requestId':'r-1','domain':'north'}";
         farm.request(Topics.DOMAIN_MANAGER, null, request);
-        farm.pass(ManagerFixture.REMEMBERED.minusSeconds(1));
+        farm.pass(REMEMBERED.minusSeconds(1));
         farm.request(Topics.DOMAIN_MANAGER, null, request);
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).hasSize(1);
-        farm.pass(ManagerFixture.REMEMBERED.dividedBy(4));
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-2','domain':'south'}");
+        farm.pass(REMEMBERED.dividedBy(4));
+        farm.request(Topics.DOMAIN_MANAGER, "'requestId':'r-2','domain':'south'");
         farm.read(Topics.DOMAIN_MANAGER);
         farm.request(Topics.DOMAIN_MANAGER, null, request);
-        assertThat(ManagerFixture.error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("domain-exists");
+        assertThat(error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("domain-exists");
         assertThat(farm.remembered("domain-answers")).isEqualTo(2);
     }
 
     @Test
     void passesOverAnswersAndRecordsWithoutAValue() {
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
         TestRecord<String, byte[]> answer = farm.only(Topics.DOMAIN_MANAGER);
         farm.pipe(Topics.DOMAIN_MANAGER, answer.key(), answer.value());
         farm.pipe(Topics.DOMAIN_MANAGER, null, null);
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).isEmpty();
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'south'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'south'");
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).hasSize(1);
     }
 
     @Test
     void takesAMissionThroughItsLifeAsHostsReport() throws Exception {
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
         farm.request(
                 Topics.MISSION_MANAGER,
-                null,
-                "{'type':'request','command':'start','mission':'m','domain':'north','devices':[{'type':'Camera','count':2,'simulated':true}]}");
+                "'command':'start','mission':'m','domain':'north','devices':[{'type':'Camera','count':2,'simulated':true}]");
         assertThat(farm.state("m")).isEqualTo("starting");
         assertThat(farm.hostAll(DeviceStatus.State.RUNNING)).isEqualTo(2);
         assertThat(farm.state("m")).isEqualTo("running");
 
-        farm.request(Topics.MISSION_MANAGER, null, "{'type':'request','command':'stop','mission':'m'}");
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
+        farm.request(Topics.MISSION_MANAGER, "'command':'stop','mission':'m'");
+        farm.request(Topics.DOMAIN_MANAGER, "'command':'delete','domain':'north'");
         assertThat(farm.read(Topics.DOMAIN_MANAGER))
-                .extracting(record -> ManagerFixture.response(record)
-                        .error()
-                        .orElse(ManagerFixture.response(record).status()))
+                .extracting(record ->
+                        response(record).error().orElse(response(record).status()))
                 .containsExactly("created", "missions-running");
         assertThat(farm.state("m")).isEqualTo("stopping");
         assertThat(farm.hostAll(DeviceStatus.State.STOPPED)).isEqualTo(2);
         assertThat(farm.state("m")).isEqualTo("stopped");
 
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'command':'delete','domain':'north'");
         assertThat(farm.only(Topics.MISSIONS_STATUS).value()).isNull();
         assertThat(farm.read(Topics.DEVICES)).extracting(TestRecord::value).containsOnlyNulls();
     }
 
     @Test
     void countsARealDeviceByTheReportThatTheFarmWatchSaw() throws Exception {
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
         farm.request(
                 Topics.MISSION_MANAGER,
-                null,
-                "{'type':'request','command':'start','mission':'m','domain':'north','devices':[{'type':'Camera'}]}");
+                "'command':'start','mission':'m','domain':'north','devices':[{'type':'Camera'}]");
         farm.hostAll(DeviceStatus.State.RUNNING);
         farm.pass(Duration.ofHours(1));
         assertThat(farm.state("m")).isEqualTo("starting");
 
         String heard = "{\"id\":\"urn:ngsi-ld:Camera:m-1\",\"heard\":%d}"
                 .formatted(ManagerFixture.START.plus(Duration.ofMinutes(1)).toEpochMilli());
-        farm.pipe(Topics.DEVICES_HEALTH, "farm|/|urn:ngsi-ld:Camera:m-1", heard.getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.DEVICES_HEALTH, "farm|/|urn:ngsi-ld:Camera:m-1", heard.getBytes(UTF_8));
         assertThat(farm.state("m")).isEqualTo("running");
-        farm.pipe(Topics.DEVICES_HEALTH, "x", "[]".getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.DEVICES_HEALTH, "x", "[]".getBytes(UTF_8));
         assertThat(farm.read(Topics.dead(Topics.DEVICES_HEALTH))).hasSize(1);
     }
 
     @Test
     void startsAMissionAtItsDateAndHasTheMissionOfTheThesisAtHand() throws Exception {
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
         farm.request(
                 Topics.MISSION_MANAGER,
-                null,
-                "{'type':'request','command':'start','mission':'m','domain':'north','template':'thesis-demo','start':'2026-03-01T08:01:00Z'}");
+                "'command':'start','mission':'m','domain':'north','template':'thesis-demo','start':'2026-03-01T08:01:00Z'");
         assertThat(farm.state("m")).isEqualTo("created");
         assertThat(farm.only(Topics.TEMPLATES).key()).isEqualTo("thesis-demo@1");
         farm.pass(Duration.ofSeconds(59));
@@ -220,90 +210,67 @@ class ControlTopologyTest {
 
     @Test
     void setsAsideWhatIsNoStatus() {
-        farm.pipe(Topics.DEVICES_STATUS, "farm|/|x", "{\"sequence\":1}".getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.DEVICES_STATUS, "farm|/|x", "{\"sequence\":1}".getBytes(UTF_8));
         farm.pipe(Topics.DEVICES_STATUS, "farm|/|x", null);
 
         TestRecord<String, byte[]> dead = farm.only(Topics.dead(Topics.DEVICES_STATUS));
-        assertThat(ManagerFixture.text(dead.value())).isEqualTo("{\"sequence\":1}");
-        assertThat(ManagerFixture.text(
-                        dead.headers().lastHeader(DeadLetter.REASON).value()))
-                .isEqualTo("not-an-event");
+        assertThat(text(dead.value())).isEqualTo("{\"sequence\":1}");
+        assertThat(text(dead.headers().lastHeader(DeadLetter.REASON).value())).isEqualTo("not-an-event");
     }
 
     @Test
     void handsReplaysOnAndForgetsThemWhenTheyAreOver() throws Exception {
         farm.request(
-                Topics.REPLAY_MANAGER,
-                null,
-                "{'type':'request','command':'start','mission':'m','speed':'max','from':1000,'devices':['urn:x']}");
-        CommandResult created = ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
+                Topics.REPLAY_MANAGER, "'command':'start','mission':'m','speed':'max','from':1000,'devices':['urn:x']");
+        CommandResult created = response(farm.only(Topics.REPLAY_MANAGER));
         String replay = created.json().path("replay").asText();
         assertThat(replay).matches("m\\.[0-9a-f]{8}");
         assertThat(created.json().path("topic").asText()).isEqualTo("data.m.replay." + replay.substring(2));
 
         for (String command : List.of("step", "pause", "step", "step", "seek", "resume", "resume", "stop", "stop")) {
-            farm.request(
-                    Topics.REPLAY_MANAGER,
-                    null,
-                    "{'type':'request','command':'" + command + "','to':5000,'replay':'" + replay + "'}");
+            farm.request(Topics.REPLAY_MANAGER, "'command':'" + command + "','to':5000,'replay':'" + replay + "'");
         }
         assertThat(farm.read(Topics.REPLAY_MANAGER))
-                .extracting(record -> ManagerFixture.response(record)
-                        .error()
-                        .orElse(ManagerFixture.response(record).status()))
-                .containsExactly(
-                        "wrong-state",
-                        "paused",
-                        "paused",
-                        "paused",
-                        "paused",
-                        "running",
-                        "wrong-state",
-                        "deleted",
-                        "wrong-state");
+                .extracting(record ->
+                        response(record).error().orElse(response(record).status()))
+                .containsExactly("""
+                                wrong-state paused paused paused paused running wrong-state deleted wrong-state""".split("\\s+"));
         List<TestRecord<String, byte[]>> desired = farm.read(Topics.REPLAYS);
-        assertThat(ManagerFixture.text(desired.get(desired.size() - 1).value()))
+        assertThat(text(desired.get(desired.size() - 1).value()))
                 .contains("\"from\":1000,", "\"speed\":\"max\"", "\"wanted\":\"stopped\"")
                 .contains("\"seek\":{\"to\":5000,\"sequence\":5},\"step\":{\"total\":2,\"sequence\":4}")
                 .endsWith("\"sequence\":7}");
 
-        farm.pipe(
-                Topics.REPLAYS_STATUS, replay, "{\"sequence\":6,\"state\":\"ended\"}".getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.REPLAYS_STATUS, replay, "{\"sequence\":6,\"state\":\"ended\"}".getBytes(UTF_8));
         farm.pipe(
                 Topics.REPLAYS_STATUS,
                 replay,
-                "{\"sequence\":7,\"state\":\"stopped\",\"settled\":false}".getBytes(StandardCharsets.UTF_8));
+                "{\"sequence\":7,\"state\":\"stopped\",\"settled\":false}".getBytes(UTF_8));
         assertThat(farm.read(Topics.REPLAYS)).as("older, or not settled").isEmpty();
-        farm.pipe(
-                Topics.REPLAYS_STATUS,
-                replay,
-                "{\"sequence\":7,\"state\":\"stopped\"}".getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.REPLAYS_STATUS, replay, "{\"sequence\":7,\"state\":\"stopped\"}".getBytes(UTF_8));
         assertThat(farm.only(Topics.REPLAYS).value()).isNull();
-        farm.request(Topics.REPLAY_MANAGER, null, "{'type':'request','command':'stop','replay':'" + replay + "'}");
-        assertThat(ManagerFixture.error(farm.only(Topics.REPLAY_MANAGER))).isEqualTo("unknown-replay");
+        farm.request(Topics.REPLAY_MANAGER, "'command':'stop','replay':'" + replay + "'");
+        assertThat(error(farm.only(Topics.REPLAY_MANAGER))).isEqualTo("unknown-replay");
     }
 
     private String startReplay(String members) {
-        farm.request(Topics.REPLAY_MANAGER, null, "{'type':'request','command':'start','mission':'m'" + members + "}");
-        String replay = ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER))
-                .json()
-                .path("replay")
-                .asText();
+        farm.request(Topics.REPLAY_MANAGER, "'command':'start','mission':'m'" + members);
+        String replay =
+                response(farm.only(Topics.REPLAY_MANAGER)).json().path("replay").asText();
         farm.read(Topics.REPLAYS);
         return replay;
     }
 
     private CommandResult steer(String replay, String command) {
-        farm.request(
-                Topics.REPLAY_MANAGER, null, "{'type':'request','replay':'" + replay + "','command':" + command + "}");
-        return ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
+        farm.request(Topics.REPLAY_MANAGER, "'replay':'" + replay + "','command':" + command);
+        return response(farm.only(Topics.REPLAY_MANAGER));
     }
 
     /** Its recording lasts from 1 s to 9 s. */
     private void report(String replay, long sequence, ReplayStatus.State state, boolean settled) {
         String status = """
                 {"sequence":%d,"state":"%s","settled":%s,"progress":{"position":9000,"from":1000,"to":9000}}""".formatted(sequence, state.code(), settled);
-        farm.pipe(Topics.REPLAYS_STATUS, replay, status.getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.REPLAYS_STATUS, replay, status.getBytes(UTF_8));
     }
 
     @Test
@@ -314,7 +281,7 @@ class ControlTopologyTest {
         }
         String group = "{'type':'request','command':'start','missions':['a','b'],'from':1000,'to':9000}";
         farm.request(Topics.REPLAY_MANAGER, null, group);
-        CommandResult refused = ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
+        CommandResult refused = response(farm.only(Topics.REPLAY_MANAGER));
         assertThat(refused.error()).contains("quota-exceeded");
         assertThat(refused.json().path("reason").asText())
                 .isEqualTo(
@@ -323,8 +290,7 @@ class ControlTopologyTest {
         report(replays.get(0), 1, ReplayStatus.State.ENDED, false);
         farm.request(Topics.REPLAY_MANAGER, null, group);
 
-        assertThat(ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER)).status())
-                .isEqualTo("created");
+        assertThat(response(farm.only(Topics.REPLAY_MANAGER)).status()).isEqualTo("created");
     }
 
     @Test
@@ -338,8 +304,7 @@ class ControlTopologyTest {
         assertThat(farm.read(Topics.REPLAYS)).isEmpty();
 
         assertThat(steer(replay, "'seek','to':5000").status()).isEqualTo("running");
-        assertThat(ManagerFixture.text(farm.only(Topics.REPLAYS).value()))
-                .contains("\"seek\":{\"to\":5000,\"sequence\":2}");
+        assertThat(text(farm.only(Topics.REPLAYS).value())).contains("\"seek\":{\"to\":5000,\"sequence\":2}");
         farm.pass(Duration.ofMinutes(61));
         assertThat(farm.read(Topics.REPLAYS)).as("sought, and not played yet").isEmpty();
         report(replay, 2, ReplayStatus.State.RUNNING, false);
@@ -359,14 +324,14 @@ class ControlTopologyTest {
         String replay = startReplay("");
         report(replay, 1, ReplayStatus.State.ENDED, true);
         assertThat(steer(replay, "'step','count':-3").status()).isEqualTo("paused");
-        assertThat(ManagerFixture.text(farm.only(Topics.REPLAYS).value()))
+        assertThat(text(farm.only(Topics.REPLAYS).value()))
                 .contains("\"wanted\":\"paused\"", "\"step\":{\"total\":-3,\"sequence\":2}");
         assertThat(steer(replay, "'resume'").status()).isEqualTo("running");
         farm.read(Topics.REPLAYS);
 
         report(replay, 3, ReplayStatus.State.ENDED, true);
         assertThat(steer(replay, "'loop','from':2000,'to':3000").status()).isEqualTo("running");
-        assertThat(ManagerFixture.text(farm.only(Topics.REPLAYS).value()))
+        assertThat(text(farm.only(Topics.REPLAYS).value()))
                 .contains("\"seek\":{\"to\":2000,\"sequence\":4}", "\"range\":{\"from\":2000,\"to\":3000}");
     }
 
@@ -440,38 +405,18 @@ class ControlTopologyTest {
     @Test
     void hasANameForEveryStoreAndEveryTopicOfItsOwn() {
         assertThat(ControlTopology.of(
-                                ManagerFixture.REMEMBERED,
-                                new MissionSettings(ManagerFixture.REMEMBERED, FiwareScope.DEFAULT, false),
+                                REMEMBERED,
+                                new MissionSettings(REMEMBERED, FiwareScope.DEFAULT, false),
                                 ReplaySettings.DEFAULT)
                         .describe()
                         .toString())
                 .doesNotContain("-0000")
                 .contains("domain-requests-repartition", "mission-requests-repartition", "replay-requests-repartition");
-        assertThat(farm.stores())
-                .isEqualTo(Set.of(
-                        "domains",
-                        "farm-sequence",
-                        "domain-answers",
-                        "domain-positions",
-                        "missions",
-                        "mission-statuses",
-                        "devices",
-                        "mission-device-lists",
-                        "mission-rollouts",
-                        "templates",
-                        "template-versions",
-                        "mission-answers",
-                        "mission-positions",
-                        "device-statuses-positions",
-                        "device-healths-positions",
-                        "device-connections-positions",
-                        "replays",
-                        "replay-reports",
-                        "recordings",
-                        "fields",
-                        "replay-sequence",
-                        "replay-answers",
-                        "replay-positions",
-                        "replay-statuses-positions"));
+        assertThat(farm.stores()).isEqualTo(Set.of("""
+                                domains farm-sequence domain-answers domain-positions missions mission-statuses
+                                devices mission-device-lists mission-rollouts templates template-versions
+                                mission-answers mission-positions device-statuses-positions device-healths-positions
+                                device-connections-positions replays replay-reports recordings fields replay-sequence
+                                replay-answers replay-positions replay-statuses-positions""".split("\\s+")));
     }
 }

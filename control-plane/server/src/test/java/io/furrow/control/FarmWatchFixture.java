@@ -1,6 +1,5 @@
 package io.furrow.control;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
@@ -28,6 +27,7 @@ import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** The topology of the farm watch in a test's hands: what comes in, what goes out, how time passes. */
@@ -98,8 +98,12 @@ final class FarmWatchFixture implements AutoCloseable {
         pipe(Topics.CLOCKS, device, entity.toBytes());
     }
 
+    void request(String manager, String members) {
+        pipe(manager, null, "{'type':'request'," + members + "}");
+    }
+
     void pipe(String topic, String key, String json) {
-        pipe(topic, key, json.replace('\'', '"').getBytes(StandardCharsets.UTF_8));
+        pipe(topic, key, json.replace('\'', '"').getBytes(UTF_8));
     }
 
     void pipe(String topic, String key, byte[] value) {
@@ -109,7 +113,7 @@ final class FarmWatchFixture implements AutoCloseable {
     void pipe(String topic, String tenant, String key, byte[] value) {
         RecordHeaders headers = new RecordHeaders();
         Map.of(HeaderNames.SERVICE, tenant, HeaderNames.SERVICE_PATH, "/")
-                .forEach((name, text) -> headers.add(name, text.getBytes(StandardCharsets.UTF_8)));
+                .forEach((name, text) -> headers.add(name, text.getBytes(UTF_8)));
         pipe(topic, new TestRecord<>(key, value, headers, now));
     }
 
@@ -124,8 +128,7 @@ final class FarmWatchFixture implements AutoCloseable {
 
     void addDesired(String id, String type, String mission, boolean running) {
         Long until = running ? null : Long.valueOf(now.toEpochMilli());
-        DeviceVersion version =
-                new DeviceVersion(id, "farm", "/", "north", mission, START.toEpochMilli(), until, 1, null);
+        var version = new DeviceVersion(id, "farm", "/", "north", mission, START.toEpochMilli(), until, 1, null);
         DesiredDevice device = DesiredDevice.simulated(
                 version,
                 type,

@@ -1,24 +1,21 @@
 package io.furrow.control;
 
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
-import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
-import java.util.Properties;
+import java.util.concurrent.Callable;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.sun.net.httpserver.HttpServer;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
+import org.awaitility.Awaitility;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -36,10 +33,11 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
+import io.furrow.stub.StubServer;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
-import static org.awaitility.Awaitility.await;
 
 /** The farm watch against a real Kafka, with a webhook that does not always answer. */
 class FarmWatchIT {
@@ -53,35 +51,31 @@ class FarmWatchIT {
     private final List<String> sent = Collections.synchronizedList(new ArrayList<>());
     private EmbeddedKafka kafka;
     private KafkaProducer<String, byte[]> producer;
-    private HttpServer hook;
     private volatile boolean hookIsUp = true;
     private WatchOptions options;
+
+    @AutoClose
+    private final StubServer hook = new StubServer(exchange -> {
+        JsonNode alarm = NgsiJson.mapper().readTree(exchange.getRequestBody());
+        StubServer.answer(exchange, hookIsUp ? 204 : 503, "");
+        if (hookIsUp) {
+            posted.add(alarm);
+        }
+    });
 
     @BeforeEach
     void start() throws Exception {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
-        producer = new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
-        hook = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        hook.createContext("/", exchange -> {
-            JsonNode alarm = NgsiJson.mapper().readTree(exchange.getRequestBody());
-            exchange.sendResponseHeaders(hookIsUp ? 204 : 503, -1);
-            exchange.close();
-            if (hookIsUp) {
-                posted.add(alarm);
-            }
-        });
-        hook.start();
-        URI url = URI.create("http://127.0.0.1:" + hook.getAddress().getPort());
+        producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
         options = WatchOptions.DEFAULT
                 .withCollisionHolds(Duration.ofSeconds(1))
-                .with(Webhook.Settings.of(url).withGroupWait(Duration.ZERO))
+                .with(Webhook.Settings.of(hook.uri("")).withGroupWait(Duration.ZERO))
                 .with(StopRobots.Settings.of((device, type, command, value) -> sent.add(device + " " + command)));
     }
 
     @AfterEach
     void stop() {
         producer.close();
-        hook.stop(0);
         kafka.close();
     }
 
@@ -90,18 +84,18 @@ class FarmWatchIT {
         try (FarmWatch watch = watch("one")) {
             assertThat(watch.state()).isNotEqualTo("ERROR");
             addDesired();
-            await().atMost(TIMEOUT).until(() -> {
+            await(() -> {
                 report();
                 return !records(Topics.DEVICES_HEALTH).isEmpty()
                         && newest(Topics.DEVICES_HEALTH).path("lastSeen").isIntegralNumber();
             });
-            await().atMost(TIMEOUT).until(() -> state("silent-device").equals("open"));
-            await().atMost(TIMEOUT).until(() -> !posted.isEmpty());
-            await().atMost(TIMEOUT).until(() -> {
+            await(() -> state("silent-device").equals("open"));
+            await(() -> !posted.isEmpty());
+            await(() -> {
                 report();
                 return state("silent-device").equals("closed");
             });
-            await().atMost(TIMEOUT).until(() -> posted.size() >= 2);
+            await(() -> posted.size() >= 2);
         }
         assertThat(posted)
                 .extracting(alarm -> alarm.path("id").asText())
@@ -115,10 +109,10 @@ class FarmWatchIT {
         hookIsUp = false;
         try (FarmWatch watch = watch("one")) {
             encounter("started");
-            await().atMost(TIMEOUT).until(() -> state("collision").equals("open"));
+            await(() -> state("collision").equals("open"));
             encounter("ended");
-            await().atMost(TIMEOUT).until(() -> state("collision").equals("closed"));
-            await().atMost(TIMEOUT).until(() -> watch.workers().get(0).detail().contains("it responded with 503"));
+            await(() -> state("collision").equals("closed"));
+            await(() -> watch.workers().get(0).detail().contains("it responded with 503"));
             assertThat(watch.workers())
                     .extracting(ComponentStatus::name, ComponentStatus::state)
                     .containsExactly(
@@ -129,13 +123,13 @@ class FarmWatchIT {
         }
         hookIsUp = true;
         try (FarmWatch watch = watch("two")) {
-            await().atMost(TIMEOUT).until(() -> !posted.isEmpty());
-            await().atMost(TIMEOUT).until(() -> watch.workers().get(0).lastSuccess() != null);
+            await(() -> !posted.isEmpty());
+            await(() -> watch.workers().get(0).lastSuccess() != null);
         }
         assertThat(posted).extracting(alarm -> alarm.path("id").asText()).containsExactly("collision-1:2");
         try (FarmWatch watch = watch("three")) {
             encounter("started");
-            await().atMost(TIMEOUT).until(() -> posted.size() > 1);
+            await(() -> posted.size() > 1);
             assertThat(watch.workers().get(0).detail()).contains("0 rejected");
         }
         assertThat(posted)
@@ -150,13 +144,13 @@ class FarmWatchIT {
         try (FarmWatch watch = watch("one")) {
             assertThat(watch.state()).isNotEqualTo("ERROR");
             addDesired();
-            await().atMost(TIMEOUT).until(() -> {
+            await(() -> {
                 report();
                 return !records(Topics.DEVICES_HEALTH).isEmpty()
                         && newest(Topics.DEVICES_HEALTH).path("type").asText().equals("ROBOT");
             });
             predict();
-            await().atMost(TIMEOUT).until(() -> audited().size() == 2);
+            await(() -> audited().size() == 2);
         }
         assertThat(audited())
                 .satisfiesExactlyInAnyOrder(
@@ -170,15 +164,13 @@ class FarmWatchIT {
             predict();
             producer.send(new ProducerRecord<>(
                     Topics.ALARM_MANAGER, Requests.write("r", new AlarmCommand.Acknowledge(alarm, "ann"))));
-            await().atMost(TIMEOUT)
-                    .until(() -> audited().stream()
-                                    .filter(entry -> entry.contains("somebody"))
-                                    .count()
-                            == 2); // so it has seen the prediction
-            await().atMost(TIMEOUT).until(() -> state("predicted-encounter").equals("acknowledged"));
-            await().atMost(TIMEOUT)
-                    .until(() -> posted.stream()
-                            .anyMatch(each -> each.path("change").asText().equals("acknowledged")));
+            await(() -> audited().stream()
+                            .filter(entry -> entry.contains("somebody"))
+                            .count()
+                    == 2); // so it has seen the prediction
+            await(() -> state("predicted-encounter").equals("acknowledged"));
+            await(() -> posted.stream()
+                    .anyMatch(each -> each.path("change").asText().equals("acknowledged")));
         }
         assertThat(sent).hasSize(1);
     }
@@ -188,22 +180,22 @@ class FarmWatchIT {
     void goesOnWhereAnotherInstanceLeaves() throws Exception {
         try (FarmWatch second = watch("two")) {
             try (FarmWatch first = watch("one")) {
-                await().atMost(TIMEOUT).until(() -> first.isHealthy() && second.isHealthy());
+                await(() -> first.isHealthy() && second.isHealthy());
                 addDesired();
-                await().atMost(TIMEOUT).until(() -> {
+                await(() -> {
                     report();
                     return !records(Topics.DEVICES_HEALTH).isEmpty()
                             && newest(Topics.DEVICES_HEALTH).path("lastSeen").isIntegralNumber();
                 });
-                await().atMost(TIMEOUT).until(() -> state("silent-device").equals("open"));
+                await(() -> state("silent-device").equals("open"));
             }
-            await().atMost(TIMEOUT).until(() -> {
+            await(() -> {
                 report();
                 return state("silent-device").equals("closed");
             });
         }
         List<String> opened = records(Topics.ALARMS).stream()
-                .filter(record -> new String(record.value(), StandardCharsets.UTF_8).contains("\"opened\""))
+                .filter(record -> new String(record.value(), UTF_8).contains("\"opened\""))
                 .map(ConsumerRecord::key)
                 .toList();
         assertThat(opened).startsWith("silent-device-1").doesNotHaveDuplicates();
@@ -215,8 +207,7 @@ class FarmWatchIT {
     }
 
     private void addDesired() {
-        DeviceVersion version =
-                new DeviceVersion(ROBOT, "", "/", "north", "m", System.currentTimeMillis(), null, 1, null);
+        var version = new DeviceVersion(ROBOT, "", "/", "north", "m", System.currentTimeMillis(), null, 1, null);
         DesiredDevice device = DesiredDevice.simulated(
                 version,
                 null,
@@ -260,7 +251,7 @@ class FarmWatchIT {
 
     private List<String> audited() {
         return records(Topics.AUDIT).stream()
-                .map(record -> new String(record.value(), StandardCharsets.UTF_8))
+                .map(record -> new String(record.value(), UTF_8))
                 .toList();
     }
 
@@ -270,12 +261,10 @@ class FarmWatchIT {
     }
 
     private List<ConsumerRecord<String, byte[]>> records(String topic) {
-        return new TopicContent(client(), topic).records();
+        return new TopicContent(kafka.client(), topic).records();
     }
 
-    private Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
+    private static void await(Callable<Boolean> condition) {
+        Awaitility.await().atMost(TIMEOUT).until(condition);
     }
 }

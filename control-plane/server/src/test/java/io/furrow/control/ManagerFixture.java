@@ -1,6 +1,5 @@
 package io.furrow.control;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
@@ -25,6 +24,7 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** The topology of the managers in a test's hands: what is asked, what is answered, what hosts report. */
@@ -65,8 +65,13 @@ final class ManagerFixture implements AutoCloseable {
         return remembered;
     }
 
+    /** A request without a key and with these members. */
+    void request(String manager, String members) {
+        request(manager, null, "{'type':'request'," + members + "}");
+    }
+
     void request(String topic, String key, String json) {
-        pipe(topic, key, json.replace('\'', '"').getBytes(StandardCharsets.UTF_8));
+        pipe(topic, key, json.replace('\'', '"').getBytes(UTF_8));
     }
 
     void pipe(String topic, String key, byte[] value) {
@@ -118,7 +123,7 @@ final class ManagerFixture implements AutoCloseable {
     }
 
     static String text(byte[] bytes) {
-        return new String(bytes, StandardCharsets.UTF_8);
+        return new String(bytes, UTF_8);
     }
 
     private static Properties settings() {

@@ -4,7 +4,7 @@ import java.time.Duration;
 import java.util.List;
 
 import org.apache.kafka.streams.test.TestRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.topic.Topics;
@@ -15,12 +15,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 class ReadAgainTest {
     private static final String LINE = FarmWatch.APPLICATION + "-collisions-repartition";
 
+    @AutoClose
     private final FarmWatchFixture farm = new FarmWatchFixture();
-
-    @AfterEach
-    void close() {
-        farm.close();
-    }
 
     @Test
     void raisesNoSecondAlarmOfAnEncounterThatHasEnded() throws Exception {

@@ -1,6 +1,5 @@
 package io.furrow.control;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashSet;
@@ -8,7 +7,7 @@ import java.util.List;
 import java.util.Set;
 
 import org.apache.kafka.streams.test.TestRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -21,22 +20,20 @@ import io.furrow.model.control.RecordedMission;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Replays of several missions that follow one clock. Missions a and b are stored, from 10 s to 60 s and from 20 s to 90 s. */
 class ReplayGroupTopologyTest {
     private static final long NOW = ManagerFixture.START.toEpochMilli();
 
+    @AutoClose
     private final ManagerFixture farm = new ManagerFixture(true);
+
     private long sequence;
 
-    @AfterEach
-    void close() {
-        farm.close();
-    }
-
     private CommandResult request(String members) {
-        farm.request(Topics.REPLAY_MANAGER, null, "{'type':'request'," + members + "}");
+        farm.request(Topics.REPLAY_MANAGER, members);
         return ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
     }
 
@@ -273,7 +270,7 @@ class ReplayGroupTopologyTest {
     void findsMissionsAsLongAsTheyAreListed() throws Exception {
         start("");
         farm.pipe(Topics.RECORDINGS, "a", null);
-        farm.pipe(Topics.RECORDINGS, "b", "no JSON".getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.RECORDINGS, "b", "no JSON".getBytes(UTF_8));
         assertThat(request("'command':'start','mission':'a'").error()).contains("unknown-mission");
         assertThat(request("'command':'start','mission':'b'").error()).contains("unknown-mission");
         assertThat(request("'command':'start','mission':'a','source':{'file':'a.jsonl'}")

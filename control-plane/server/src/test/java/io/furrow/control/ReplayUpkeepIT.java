@@ -1,6 +1,5 @@
 package io.furrow.control;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
@@ -55,6 +54,7 @@ import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.Requests;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -77,12 +77,9 @@ class ReplayUpkeepIT {
                 directory.resolve("kafka"),
                 0,
                 Map.of(
-                        "authorizer.class.name",
-                        "org.apache.kafka.metadata.authorizer.StandardAuthorizer",
-                        "allow.everyone.if.no.acl.found",
-                        "true")));
-        client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+                        "authorizer.class.name", "org.apache.kafka.metadata.authorizer.StandardAuthorizer",
+                        "allow.everyone.if.no.acl.found", "true")));
+        client = kafka.client();
         client.setProperty("state.dir", directory.resolve("state").toString());
         ServiceTopics.prepare(ControlSettings.of(client));
         producer = opened(new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer()));
@@ -111,8 +108,7 @@ class ReplayUpkeepIT {
         MongoDatabase missions = opened(MongoClients.create(mongo.uri())).getDatabase("persistence");
         missions.getCollection("mission_weeding")
                 .insertMany(List.of(new Document("_time", new Date(1000)), new Document("_time", new Date(3000))));
-        ReplaySettings settings =
-                ReplaySettings.DEFAULT.withMongo(mongo.uri()).withPollInterval(Duration.ofMillis(100));
+        var settings = ReplaySettings.DEFAULT.withMongo(mongo.uri()).withPollInterval(Duration.ofMillis(100));
         TopicContent recordings = new TopicContent(client, Topics.RECORDINGS);
         for (int i = 0; i < 2; i++) {
             opened(RecordingWatch.start(client, settings, Clock.systemUTC()));
@@ -149,11 +145,9 @@ class ReplayUpkeepIT {
     void deletesTheTopicsOfAReplayThatIsOverAndNoOthers() throws Exception {
         String own = "data.show.replay.0000000a";
         List<String> removed = List.of(own, own + ".collision", own + ".collision.late", own + ".clocks");
-        List<String> retained = List.of(
-                "data.b.replay.0000000b",
-                "data.b.replay.0000000b.collision",
-                "data.show.replay.0000000ab",
-                "data.a.realtime");
+        List<String> retained = List.of("""
+                        data.b.replay.0000000b data.b.replay.0000000b.collision data.show.replay.0000000ab
+                        data.a.realtime""".split("\\s+"));
         kafka.createTopics(Stream.concat(removed.stream(), retained.stream())
                 .map(name -> new NewTopic(name, 1, (short) 1))
                 .toList());
@@ -185,7 +179,7 @@ class ReplayUpkeepIT {
                 .toList());
         long now = System.currentTimeMillis();
         for (String mission : List.of("weeding", "mowing", "sowing", "played")) {
-            send(Topics.MISSIONS, mission, "{\"domain\":\"farm\"}".getBytes(StandardCharsets.UTF_8));
+            send(Topics.MISSIONS, mission, "{\"domain\":\"farm\"}".getBytes(UTF_8));
             long reported =
                     mission.equals("sowing") ? now + Duration.ofMinutes(30).toMillis() : now - 1_000;
             producer.send(new ProducerRecord<>("data.farm.realtime." + mission, 0, reported, "d", new byte[1]))
@@ -223,12 +217,9 @@ class ReplayUpkeepIT {
         Instant later = clock.updateAndGet(instant -> instant.plusMillis(1));
         await().until(() -> later.equals(cleanup.status().lastSuccess()));
 
-        assertThat(names())
-                .contains(
-                        "data.farm.realtime.mowing",
-                        "data.farm.realtime.sowing",
-                        "data.farm.realtime.played",
-                        "data.farm.realtime.own");
+        assertThat(names()).contains("""
+                                data.farm.realtime.mowing data.farm.realtime.sowing data.farm.realtime.played
+                                data.farm.realtime.own""".split("\\s+"));
     }
 
     @Test
@@ -249,7 +240,7 @@ class ReplayUpkeepIT {
                 .get();
         for (String topic : Stream.concat(guarded.stream(), Stream.of(free)).toList()) {
             String mission = topic.substring(topic.lastIndexOf('.') + 1);
-            send(Topics.MISSIONS, mission, "{\"domain\":\"farm\"}".getBytes(StandardCharsets.UTF_8));
+            send(Topics.MISSIONS, mission, "{\"domain\":\"farm\"}".getBytes(UTF_8));
             send(Topics.MISSIONS, mission, null);
         }
 

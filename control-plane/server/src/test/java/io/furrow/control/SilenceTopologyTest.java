@@ -4,9 +4,10 @@ import java.time.Duration;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.function.IntFunction;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.ngsi.Entity;
@@ -19,17 +20,13 @@ class SilenceTopologyTest {
     private static final Duration REMEMBERED = Duration.ofHours(1);
     private static final String THERMOMETER = "urn:ngsi-ld:Thermometer:m-1";
 
+    @AutoClose
     private final FarmWatchFixture farm = new FarmWatchFixture();
-
-    @AfterEach
-    void close() {
-        farm.close();
-    }
 
     @Test
     void raisesAnAlarmOfADeviceThatIsSilentAndEndsItWhenItReportsAgain() throws Exception {
         farm.addDesired(THERMOMETER, "Thermometer", true);
-        farm.report(Entity.builder(THERMOMETER, "Thermometer"));
+        report("");
         farm.pass(Duration.ofSeconds(30));
         assertThat(farm.read(Topics.ALARMS)).isEmpty();
         farm.pass(Duration.ofSeconds(1));
@@ -37,11 +34,11 @@ class SilenceTopologyTest {
         JsonNode alarm = farm.newest(Topics.ALARMS);
         assertThat(alarm.path("kind").asText()).isEqualTo("silent-device");
         assertThat(alarm.path("subject").asText()).isEqualTo("urn:ngsi-ld:Mission:m");
-        assertThat(alarm.path("devices").path(0).path("type").asText()).isEqualTo("Thermometer");
+        assertThat(alarm.at("/devices/0/type").asText()).isEqualTo("Thermometer");
         assertThat(farm.newest(Topics.DEVICES_HEALTH).path("silent").asBoolean())
                 .isTrue();
 
-        farm.report(Entity.builder(THERMOMETER, "Thermometer"));
+        report("");
         farm.pass(Duration.ofSeconds(1));
         assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("closed");
         assertThat(farm.newest(Topics.DEVICES_HEALTH).path("silent").asBoolean(true))
@@ -50,10 +47,7 @@ class SilenceTopologyTest {
 
     @Test
     void raisesOneAlarmForAllSilentDevicesOfAMission() throws Exception {
-        for (int i = 1; i <= 40; i++) {
-            farm.addDesired(THERMOMETER + i, "Thermometer", true);
-            farm.report(Entity.builder(THERMOMETER + i, "Thermometer"));
-        }
+        addThermometers(i -> "m");
         passTimeWithReports(3, 40);
         List<JsonNode> alarms = farm.all(Topics.ALARMS);
         assertThat(alarms).extracting(each -> each.path("alarm").asText()).containsOnly("silent-device-1");
@@ -71,10 +65,7 @@ class SilenceTopologyTest {
     @Test
     void reportsThatAMissionIsUnavailableRatherThanItsDevices() throws Exception {
         farm.addDesired(THERMOMETER, "Thermometer", "other", true);
-        for (int i = 1; i <= 40; i++) {
-            farm.addDesired(THERMOMETER + i, "Thermometer", true);
-            farm.report(Entity.builder(THERMOMETER + i, "Thermometer"));
-        }
+        addThermometers(i -> "m");
         passTimeWithReports(0, 0);
         List<JsonNode> newest = newestOfEach(farm.all(Topics.ALARMS));
         assertThat(newest)
@@ -93,10 +84,7 @@ class SilenceTopologyTest {
 
     @Test
     void reportsOnceThatNothingArrivesAnyMore() throws Exception {
-        for (int i = 1; i <= 40; i++) {
-            farm.addDesired(THERMOMETER + i, "Thermometer", "m" + i % 10, true);
-            farm.report(Entity.builder(THERMOMETER + i, "Thermometer"));
-        }
+        addThermometers(i -> "m" + i % 10);
         for (int i = 0; i < 120; i++) {
             farm.pass(Duration.ofSeconds(1));
         }
@@ -113,10 +101,7 @@ class SilenceTopologyTest {
 
     @Test
     void deliversNoAlarmOfAMissionWhileReportsComeBack() throws Exception {
-        for (int i = 1; i <= 40; i++) {
-            farm.addDesired(THERMOMETER + i, "Thermometer", "m" + i % 10, true);
-            farm.report(Entity.builder(THERMOMETER + i, "Thermometer"));
-        }
+        addThermometers(i -> "m" + i % 10);
         for (int i = 0; i < 120; i++) {
             farm.pass(Duration.ofSeconds(1));
         }
@@ -126,7 +111,7 @@ class SilenceTopologyTest {
         for (int second = 0; second < 90; second++) {
             farm.pass(Duration.ofSeconds(1));
             for (int i = 1; i <= Math.min(40, second); i++) {
-                farm.report(Entity.builder(THERMOMETER + i, "Thermometer"));
+                report(i);
             }
         }
         assertThat(farm.all(Topics.ALARMS))
@@ -141,14 +126,11 @@ class SilenceTopologyTest {
     @Test
     void doesNotReportThatNothingArrivesWhileOneDeviceReports() throws Exception {
         farm.addDesired(THERMOMETER, "Thermometer", "other", true);
-        for (int i = 1; i <= 40; i++) {
-            farm.addDesired(THERMOMETER + i, "Thermometer", true);
-            farm.report(Entity.builder(THERMOMETER + i, "Thermometer"));
-        }
+        addThermometers(i -> "m");
         for (int second = 0; second < 300; second++) {
             farm.pass(Duration.ofSeconds(1));
             if (second % 5 == 0) {
-                farm.report(Entity.builder(THERMOMETER, "Thermometer"));
+                report("");
             }
         }
         assertThat(farm.all(Topics.ALARMS))
@@ -161,23 +143,35 @@ class SilenceTopologyTest {
     @Test
     void doesNotLetASilenceBeClosedByHandWhileItLasts() throws Exception {
         farm.addDesired(THERMOMETER, "Thermometer", true);
-        farm.report(Entity.builder(THERMOMETER, "Thermometer"));
+        report("");
         farm.pass(Duration.ofSeconds(30));
         farm.pass(Duration.ofSeconds(1));
         farm.pass(Duration.ofSeconds(1));
-        farm.pipe(Topics.ALARM_MANAGER, null, "{'type':'request','command':'close','alarm':'silent-device-1'}");
+        farm.request(Topics.ALARM_MANAGER, "'command':'close','alarm':'silent-device-1'");
         assertThat(farm.newest(Topics.ALARM_MANAGER).path("reason").asText())
                 .contains("silent-device-1", "1 of 1 device of mission m is silent", "mute");
         assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("open");
+    }
+
+    /** Forty, each of which reports once. */
+    private void addThermometers(IntFunction<String> mission) throws Exception {
+        for (int i = 1; i <= 40; i++) {
+            farm.addDesired(THERMOMETER + i, "Thermometer", mission.apply(i), true);
+            report(i);
+        }
+    }
+
+    private void report(Object number) throws Exception {
+        farm.report(Entity.builder(THERMOMETER + number, "Thermometer"));
     }
 
     /** Two minutes, in which some of the devices continue reporting. */
     private void passTimeWithReports(int from, int to) throws Exception {
         for (int i = 0; i < 120; i++) {
             farm.pass(Duration.ofSeconds(1));
-            farm.report(Entity.builder(THERMOMETER, "Thermometer"));
+            report("");
             for (int device = from; device <= to && from > 0; device++) {
-                farm.report(Entity.builder(THERMOMETER + device, "Thermometer"));
+                report(device);
             }
         }
     }

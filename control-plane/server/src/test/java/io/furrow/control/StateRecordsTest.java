@@ -1,12 +1,11 @@
 package io.furrow.control;
 
-import java.nio.charset.StandardCharsets;
-
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.model.ngsi.StateJson;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** The records on topics and in stores are written as they were read, member by member, whole and without what may be missing. */
@@ -27,7 +26,7 @@ class StateRecordsTest {
             """)
     void areWrittenAsTheyWereRead(String type, String record) throws ClassNotFoundException {
         String json = record.replace('\'', '"');
-        Object read = StateJson.read(json.getBytes(StandardCharsets.UTF_8), Class.forName("io.furrow.control." + type));
-        assertThat(new String(StateJson.write(read), StandardCharsets.UTF_8)).isEqualTo(json);
+        Object read = StateJson.read(json.getBytes(UTF_8), Class.forName("io.furrow.control." + type));
+        assertThat(new String(StateJson.write(read), UTF_8)).isEqualTo(json);
     }
 }

@@ -29,18 +29,14 @@ import static org.awaitility.Awaitility.await;
 class StreamsApplicationIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
 
-    @TempDir
-    Path directory;
-
     private final AtomicInteger failures = new AtomicInteger();
     private final AtomicInteger handled = new AtomicInteger();
 
     /** What no handler of exceptions is asked about: an error of the JVM; and then a client that cannot be made at first. */
     @Test
-    void startsAgainAfterAClientHasEnded() throws Exception {
+    void startsAgainAfterAClientHasEnded(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory.resolve("kafka"))) {
-            Properties client = new Properties();
-            client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+            Properties client = kafka.client();
             client.setProperty("state.dir", directory.resolve("state").toString());
             ControlSettings settings = ControlSettings.of(client);
             ServiceTopics.prepare(settings);

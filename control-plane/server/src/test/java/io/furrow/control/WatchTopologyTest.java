@@ -1,13 +1,12 @@
 package io.furrow.control;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
 import java.util.Set;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.streams.test.TestRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.control.Limits;
@@ -17,6 +16,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class WatchTopologyTest {
@@ -24,12 +24,8 @@ class WatchTopologyTest {
     private static final Duration WINDOW = Duration.ofSeconds(30);
     private static final String THERMOMETER = "urn:ngsi-ld:Thermometer:m-1";
 
+    @AutoClose
     private final FarmWatchFixture farm = new FarmWatchFixture();
-
-    @AfterEach
-    void close() {
-        farm.close();
-    }
 
     @Test
     void publishesWhenADeviceWasLastSeenAndHowFullItsBatteryIs() throws Exception {
@@ -63,7 +59,7 @@ class WatchTopologyTest {
     void raisesACollisionAnewThatWasClosedByHandWhileTheEncounterLasts() throws Exception {
         farm.encounter("started", 3.2);
         farm.pass(Duration.ofMinutes(2));
-        farm.pipe(Topics.ALARM_MANAGER, null, "{'type':'request','command':'close','alarm':'collision-1'}");
+        farm.request(Topics.ALARM_MANAGER, "'command':'close','alarm':'collision-1'");
         assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("closed");
         farm.encounter("ongoing", 3.2);
         JsonNode again = farm.newest(Topics.ALARMS);
@@ -84,7 +80,7 @@ class WatchTopologyTest {
         farm.encounter("predicted", 3.2);
         JsonNode predicted = farm.newest(Topics.ALARMS);
         assertThat(predicted.path("kind").asText()).isEqualTo("predicted-encounter");
-        assertThat(predicted.path("devices").path(0).path("type").asText()).isEqualTo("ROBOT");
+        assertThat(predicted.at("/devices/0/type").asText()).isEqualTo("ROBOT");
         farm.encounter("predicted", 3.2);
         assertThat(farm.read(Topics.ALARMS)).isEmpty();
         farm.encounter("started", 3.2);
@@ -193,7 +189,7 @@ class WatchTopologyTest {
         assertThat(closedClocks()).isZero();
         farm.pass(Duration.ofSeconds(1));
         assertThat(closedClocks()).isEqualTo(1);
-        farm.pipe(Topics.CLOCKS, "x", "{}".getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.CLOCKS, "x", "{}".getBytes(UTF_8));
         assertThat(farm.read(Topics.dead(Topics.CLOCKS))).hasSize(1);
     }
 
@@ -213,7 +209,7 @@ class WatchTopologyTest {
         assertThat(alarms).allMatch(alarm -> alarm.path("subject").asText().equals("r"));
         assertThat(alarms.get(1).path("devices"))
                 .hasToString("[{\"id\":\"r\",\"type\":\"ROBOT\",\"service\":\"other\"}]");
-        farm.pipe(Topics.ALARM_MANAGER, null, "{'type':'request','command':'acknowledge','alarm':'clock-behind-2'}");
+        farm.request(Topics.ALARM_MANAGER, "'command':'acknowledge','alarm':'clock-behind-2'");
         assertThat(farm.all(Topics.ALARMS))
                 .singleElement()
                 .extracting(alarm -> alarm.path("identity").asText())
@@ -371,16 +367,12 @@ class WatchTopologyTest {
     void answersWhatIsRequestedOfAlarms() throws Exception {
         farm.encounter("started", 3.2);
         farm.newest(Topics.ALARMS);
-        farm.pipe(
-                Topics.ALARM_MANAGER,
-                null,
-                "{'type':'request','requestId':'r','command':'acknowledge','alarm':'collision-1','user':'ann'}");
-        farm.pipe(
-                Topics.ALARM_MANAGER,
-                null,
-                "{'type':'request','requestId':'r','command':'acknowledge','alarm':'collision-1','user':'ann'}");
-        farm.pipe(Topics.ALARM_MANAGER, null, "{'type':'request','command':'mute','kind':'collision','for':'PT1H'}");
-        farm.pipe(Topics.ALARM_MANAGER, null, "{'type':'request','command':'close','alarm':'collision-9'}");
+        farm.request(
+                Topics.ALARM_MANAGER, "'requestId':'r','command':'acknowledge','alarm':'collision-1','user':'ann'");
+        farm.request(
+                Topics.ALARM_MANAGER, "'requestId':'r','command':'acknowledge','alarm':'collision-1','user':'ann'");
+        farm.request(Topics.ALARM_MANAGER, "'command':'mute','kind':'collision','for':'PT1H'");
+        farm.request(Topics.ALARM_MANAGER, "'command':'close','alarm':'collision-9'");
 
         assertThat(farm.all(Topics.ALARM_MANAGER))
                 .extracting(each -> each.path("status").asText())
@@ -393,11 +385,11 @@ class WatchTopologyTest {
 
     @Test
     void setsAsideWhatItCannotReadOnce() {
-        farm.pipe(Topics.COLLISION, "a-b", "{}".getBytes(StandardCharsets.UTF_8));
-        farm.pipe(Topics.TEMPERATURE, "f", "[".getBytes(StandardCharsets.UTF_8));
-        farm.pipe(Topics.RAW, "x", "[".getBytes(StandardCharsets.UTF_8));
-        farm.pipe(Topics.DEVICES, "|/|x", "[".getBytes(StandardCharsets.UTF_8));
-        farm.pipe(Topics.RAW, "x", "[".getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.COLLISION, "a-b", "{}".getBytes(UTF_8));
+        farm.pipe(Topics.TEMPERATURE, "f", "[".getBytes(UTF_8));
+        farm.pipe(Topics.RAW, "x", "[".getBytes(UTF_8));
+        farm.pipe(Topics.DEVICES, "|/|x", "[".getBytes(UTF_8));
+        farm.pipe(Topics.RAW, "x", "[".getBytes(UTF_8));
         assertThat(farm.read(Topics.ALARMS)).isEmpty();
         farm.encounter("started", 3.2);
         assertThat(farm.read(Topics.ALARMS)).hasSize(1);
@@ -426,7 +418,7 @@ class WatchTopologyTest {
     }
 
     private static String header(TestRecord<String, byte[]> record, String name) {
-        return new String(record.headers().lastHeader(name).value(), StandardCharsets.UTF_8);
+        return new String(record.headers().lastHeader(name).value(), UTF_8);
     }
 
     /** State and offsets are found by these names. */
@@ -436,43 +428,17 @@ class WatchTopologyTest {
                         .describe()
                         .toString())
                 .doesNotContain("-0000")
-                .contains(
-                        "alarm-requests-repartition",
-                        "device-signs-repartition",
-                        "collisions-repartition",
-                        "temperatures-repartition",
-                        "clocks-repartition",
-                        "faults-repartition",
-                        "context-domains-repartition",
-                        "context-missions-repartition",
-                        "context-mission-statuses-repartition");
-        assertThat(farm.stores())
-                .isEqualTo(Set.of(
-                        "alarms",
-                        "current-alarms",
-                        "alarm-mutes",
-                        "alarm-sequence",
-                        "alarm-groups",
-                        "alarm-counted",
-                        "alarm-answers",
-                        "alarm-positions",
-                        "collisions-positions",
-                        "temperatures-positions",
-                        "suspect-runs",
-                        "clocks-positions",
-                        "faults-positions",
-                        "wanted-devices",
-                        "device-connections",
-                        "device-health",
-                        "context-domains-positions",
-                        "context-missions-positions",
-                        "context-mission-statuses-positions",
-                        "context-domains",
-                        "context-missions",
-                        "context-statuses",
-                        "context-tallies",
-                        "context-fields",
-                        "context-outdated",
-                        "context-told"));
+                .contains("""
+                                alarm-requests-repartition device-signs-repartition collisions-repartition
+                                temperatures-repartition clocks-repartition faults-repartition
+                                context-domains-repartition context-missions-repartition
+                                context-mission-statuses-repartition""".split("\\s+"));
+        assertThat(farm.stores()).isEqualTo(Set.of("""
+                                alarms current-alarms alarm-mutes alarm-sequence alarm-groups alarm-counted
+                                alarm-answers alarm-positions collisions-positions temperatures-positions suspect-runs
+                                clocks-positions faults-positions wanted-devices device-connections device-health
+                                context-domains-positions context-missions-positions
+                                context-mission-statuses-positions context-domains context-missions context-statuses
+                                context-tallies context-fields context-outdated context-told""".split("\\s+")));
     }
 }

@@ -33,14 +33,8 @@ class AddressRangeTest {
     @ParameterizedTest
     @ValueSource(
             strings = {
-                "",
-                "localhost",
-                "proxy.example.org",
-                "10.0.0.0/33",
-                "10.0.0.0/-1",
-                "10.0.0.0/8/8",
-                "1.2.3.4.5",
-                "::1/129"
+                "", "localhost", "proxy.example.org", "10.0.0.0/33",
+                "10.0.0.0/-1", "10.0.0.0/8/8", "1.2.3.4.5", "::1/129"
             })
     void rejectsNamesAndWhatIsNoAddress(String text) {
         assertThatThrownBy(() -> AddressRange.parse(text))

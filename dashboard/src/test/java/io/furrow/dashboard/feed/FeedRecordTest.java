@@ -1,10 +1,9 @@
 package io.furrow.dashboard.feed;
 
-import java.nio.charset.StandardCharsets;
-
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class FeedRecordTest {
@@ -18,9 +17,8 @@ class FeedRecordTest {
     }
 
     private static String key(String json) {
-        byte[] value = json.replace('\'', '"').getBytes(StandardCharsets.UTF_8);
-        ConsumerRecord<byte[], byte[]> record =
-                new ConsumerRecord<>("t", 0, 0, "c".getBytes(StandardCharsets.UTF_8), value);
+        byte[] value = json.replace('\'', '"').getBytes(UTF_8);
+        ConsumerRecord<byte[], byte[]> record = new ConsumerRecord<>("t", 0, 0, "c".getBytes(UTF_8), value);
         return new FeedRecord(record, FeedRecord.NO_SEQUENCE, 1_000).key();
     }
 }

@@ -6,7 +6,6 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
-import java.util.Properties;
 import java.util.stream.IntStream;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -46,7 +45,7 @@ class TopicHistoryIT {
     static void start() {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
         producer = new KafkaProducer<>(kafka.producerSettings(), new StringSerializer(), new ByteArraySerializer());
-        admin = Admin.create(client());
+        admin = Admin.create(kafka.client());
     }
 
     @AfterAll
@@ -54,12 +53,6 @@ class TopicHistoryIT {
         admin.close();
         producer.close();
         kafka.close();
-    }
-
-    private static Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
     }
 
     private static void topic(String name, int partitions) throws Exception {
@@ -78,7 +71,7 @@ class TopicHistoryIT {
     }
 
     private static TopicHistory.Answer read(TopicHistory.Range range, TopicHistory.Limits limits) {
-        return new TopicHistory(client(), limits, 1024 * 1024).read(range);
+        return new TopicHistory(kafka.client(), limits, 1024 * 1024).read(range);
     }
 
     private static List<Integer> numbers(TopicHistory.Answer answer) throws Exception {

@@ -13,14 +13,10 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class TopicRulesTest {
     @ParameterizedTest
     @CsvSource({
-        "data.raw, true, false",
-        "data.farm.realtime.weeding, true, false",
-        "data.raw.dead, false, false",
-        "data.m.replay.0a1b2c3d.collision, true, false",
-        "service.missionmanager, true, true",
-        "service.audit, true, false",
-        "__consumer_offsets, false, false",
-        "mydata.raw, false, false"
+        "data.raw, true, false", "data.farm.realtime.weeding, true, false",
+        "data.raw.dead, false, false", "data.m.replay.0a1b2c3d.collision, true, false",
+        "service.missionmanager, true, true", "service.audit, true, false",
+        "__consumer_offsets, false, false", "mydata.raw, false, false"
     })
     void letsByDefaultReadWhatIsOfTheFarmAndWriteRequests(String topic, boolean read, boolean write) {
         assertThat(TopicRules.DEFAULT.mayRead(topic)).isEqualTo(read);

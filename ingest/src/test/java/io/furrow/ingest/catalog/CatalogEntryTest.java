@@ -1,6 +1,5 @@
 package io.furrow.ingest.catalog;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
@@ -12,6 +11,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.model.ngsi.SlicedEntity;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class CatalogEntryTest {
@@ -24,7 +24,7 @@ class CatalogEntryTest {
                 .plus(CatalogEntry.of(Reports.thermometer("t1", "weeding", T + 1_000, -3.5)))
                 .plus(CatalogEntry.of(Reports.thermometer("t1", "weeding", T + 4_000, 31)));
 
-        assertThat(new String(entry.toBytes(null), StandardCharsets.UTF_8))
+        assertThat(new String(entry.toBytes(null), UTF_8))
                 .isEqualTo(
                         "{\"service\":\"farm\",\"domain\":\"north\",\"mission\":\"weeding\",\"type\":\"Thermometer\","
                                 + "\"entities\":1,\"events\":3,\"bytes\":" + entry.bytes()
@@ -45,7 +45,7 @@ class CatalogEntryTest {
                     {"type":"String","value":{"url":"file:/x","sha256":"0","bytes":7}}       | image     | 0
                     """)
     void tellsKindsOfValuesApart(String attribute, String kind, long numbers) throws Exception {
-        byte[] entity = "{\"id\":\"t1\",\"a\":%s}".formatted(attribute).getBytes(StandardCharsets.UTF_8);
+        byte[] entity = "{\"id\":\"t1\",\"a\":%s}".formatted(attribute).getBytes(UTF_8);
         AttributeProfile profile = AttributeProfile.of(
                         SlicedEntity.parse(entity).attributes().get(0), T)
                 .orElseThrow();

@@ -1,12 +1,13 @@
 package io.furrow.ingest.catalog;
 
-import java.nio.charset.StandardCharsets;
 import java.util.HashMap;
 import java.util.Map;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.HeaderNames;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Events for the catalog's tests. */
 final class Reports {
@@ -16,13 +17,13 @@ final class Reports {
 
     /** A change of an entity; null as its JSON for its deletion. */
     static ReportedEvent of(String id, String mission, long time, String json) {
-        byte[] value = json == null ? null : json.getBytes(StandardCharsets.UTF_8);
+        byte[] value = json == null ? null : json.getBytes(UTF_8);
         TopicRecord record = new TopicRecord(
                 "data.raw",
                 0,
                 time,
                 time,
-                id.getBytes(StandardCharsets.UTF_8),
+                id.getBytes(UTF_8),
                 value,
                 new HashMap<>(Map.of(HeaderNames.SERVICE, "farm")));
         return new ReportedEvent(id + time, "farm|/|" + id, id, "Thermometer", "north", mission, record);

@@ -1,6 +1,5 @@
 package io.furrow.ingest.image;
 
-import java.nio.charset.StandardCharsets;
 import java.util.Arrays;
 import java.util.Base64;
 import java.util.Random;
@@ -12,6 +11,8 @@ import org.junit.jupiter.params.provider.CsvFileSource;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.US_ASCII;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -47,7 +48,7 @@ class ImageDecoderTest {
                 standard.replace("=", "%3D").replace("+", "%2b").replace("/", "%2F"),
                 "data:image/png;base64," + standard
             }) {
-                assertThat(ImageDecoder.decode(text.getBytes(StandardCharsets.US_ASCII)))
+                assertThat(ImageDecoder.decode(text.getBytes(US_ASCII)))
                         .as("%s", text)
                         .isEqualTo(bytes);
             }
@@ -56,7 +57,7 @@ class ImageDecoderTest {
 
     @Test
     void leavesTheTextUnharmed() throws Exception {
-        byte[] text = "data:;base64,_-_-".getBytes(StandardCharsets.US_ASCII);
+        byte[] text = "data:;base64,_-_-".getBytes(US_ASCII);
         byte[] before = Arrays.copyOf(text, text.length);
 
         ImageDecoder.decode(text);
@@ -68,6 +69,6 @@ class ImageDecoderTest {
         return text.replace("\\r", "\r")
                 .replace("\\n", "\n")
                 .replace("\\t", "\t")
-                .getBytes(StandardCharsets.UTF_8);
+                .getBytes(UTF_8);
     }
 }

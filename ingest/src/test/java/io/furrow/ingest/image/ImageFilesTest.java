@@ -1,7 +1,6 @@
 package io.furrow.ingest.image;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.attribute.FileTime;
@@ -9,16 +8,17 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Set;
-import java.util.stream.Stream;
 
 import org.apache.flink.core.fs.FileSystem;
 import org.apache.flink.core.fs.LimitedConnectionsFileSystem;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.files.Folders;
 import io.furrow.mission.image.ImageName;
 import io.furrow.model.event.FiwareScope;
 
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -156,14 +156,12 @@ class ImageFilesTest {
     }
 
     private static Image image(byte[] bytes) throws Exception {
-        return Image.of(Pictures.base64(bytes).getBytes(StandardCharsets.US_ASCII), 1_000_000);
+        return Image.of(Pictures.base64(bytes).getBytes(US_ASCII), 1_000_000);
     }
 
     private List<String> everything() throws IOException {
-        try (Stream<Path> all = Files.walk(folder)) {
-            return all.filter(Files::isRegularFile)
-                    .map(file -> folder.relativize(file).toString())
-                    .toList();
-        }
+        return Folders.walk(folder).stream().filter(Files::isRegularFile)
+                .map(file -> folder.relativize(file).toString())
+                .toList();
     }
 }

@@ -29,12 +29,9 @@ class ImageOptionsTest {
 
     @ParameterizedTest
     @CsvSource({
-        "hdfs://namenode:8020/images/, hdfs://namenode:8020/images",
-        "s3://bucket, s3://bucket",
-        "s3://bucket/a/b, s3://bucket/a/b",
-        "file:///data/images///, file:///data/images",
-        "/data/images, file:///data/images",
-        "/, file:///"
+        "hdfs://namenode:8020/images/, hdfs://namenode:8020/images", "s3://bucket, s3://bucket",
+        "s3://bucket/a/b, s3://bucket/a/b", "file:///data/images///, file:///data/images",
+        "/data/images, file:///data/images", "/, file:///"
     })
     void takesAFolderOnAnyFileSystem(String given, String root) {
         assertThat(parsed("--images", given)

@@ -1,6 +1,5 @@
 package io.furrow.ingest.image;
 
-import java.nio.charset.StandardCharsets;
 import java.util.LinkedHashSet;
 import java.util.List;
 import java.util.Set;
@@ -11,6 +10,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -90,10 +90,10 @@ class ImageRangeTest {
     }
 
     private static byte[] utf8(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 
     private static String text(byte[] utf8) {
-        return new String(utf8, StandardCharsets.UTF_8);
+        return new String(utf8, UTF_8);
     }
 }

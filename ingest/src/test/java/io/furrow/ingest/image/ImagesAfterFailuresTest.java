@@ -7,7 +7,6 @@ import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
-import java.util.stream.Stream;
 
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.api.common.typeinfo.Types;
@@ -15,7 +14,6 @@ import org.apache.flink.configuration.CheckpointingOptions;
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.configuration.PipelineOptions;
 import org.apache.flink.configuration.RestartStrategyOptions;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.streaming.api.datastream.KeyedStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.MiniClusterExtension;
@@ -25,6 +23,8 @@ import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 
+import io.furrow.files.Folders;
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.mission.image.ImageName;
@@ -33,10 +33,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class ImagesAfterFailuresTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     private static final int IMAGES = 400;
     private static final int FAILURES = 6;
@@ -64,12 +61,10 @@ class ImagesAfterFailuresTest {
             assertThat(event.time()).isGreaterThan(last.getOrDefault(event.identity(), -1L));
             last.put(event.identity(), event.time());
         }
-        try (Stream<Path> all = Files.walk(folder)) {
-            assertThat(all.filter(Files::isRegularFile))
-                    .hasSize(IMAGES)
-                    .allMatch(file -> file.getFileName().toString().matches("c\\d_\\d{17}\\.png"))
-                    .allSatisfy(file -> assertThat(file).hasBinaryContent(Pictures.png(seed(file))));
-        }
+        assertThat(Folders.walk(folder).stream().filter(Files::isRegularFile))
+                .hasSize(IMAGES)
+                .allMatch(file -> file.getFileName().toString().matches("c\\d_\\d{17}\\.png"))
+                .allSatisfy(file -> assertThat(file).hasBinaryContent(Pictures.png(seed(file))));
     }
 
     private static int seed(Path file) {

@@ -8,7 +8,6 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Set;
 import java.util.function.BooleanSupplier;
-import java.util.stream.Stream;
 
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.api.common.typeinfo.Types;
@@ -19,6 +18,7 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.files.Folders;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.route.ReportedEvent;
 
@@ -105,11 +105,9 @@ abstract class MoveImagesHarness {
     }
 
     List<String> files() throws IOException {
-        try (Stream<Path> all = Files.walk(folder)) {
-            return all.filter(Files::isRegularFile)
-                    .map(file -> folder.relativize(file).toString())
-                    .toList();
-        }
+        return Folders.walk(folder).stream().filter(Files::isRegularFile)
+                .map(file -> folder.relativize(file).toString())
+                .toList();
     }
 
     /** The harness has no thread of its own: the mails of the store's threads are opened here. */

@@ -1,6 +1,5 @@
 package io.furrow.ingest.latest;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -22,6 +21,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** A job that starts without state where {@code data.latest} holds some. */
@@ -115,7 +115,7 @@ class MergeLatestAtStartTest {
                 report("e-13", 200, Entity.builder("e-13", "Valve").number("rate", 4)));
 
         assertThat(written)
-                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(record -> new String(record.key(), UTF_8))
                 .containsExactly("e-13 Pump", "e-13");
         assertThat(Entity.parse(written.get(0).value()).number("level")).contains(2.0);
     }
@@ -220,13 +220,12 @@ class MergeLatestAtStartTest {
     }
 
     private static ReportedEvent event(String id, String type, long time, byte[] value) {
-        Map<String, String> headers =
-                Map.of(HeaderNames.CE_ID, "e" + time, HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/");
+        var headers = Map.of(HeaderNames.CE_ID, "e" + time, HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/");
         TopicRecord record = TopicRecord.of(Topics.RAW, time, id, value, headers);
         return new ReportedEvent("e" + time, "farm|/|" + id, id, type, "", "", record);
     }
 
     private static byte[] utf8(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.ingest.latest;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
@@ -8,7 +7,7 @@ import java.util.Map;
 import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
@@ -19,22 +18,19 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MergeLatestTest {
     private static final Duration KEPT = Duration.ofMillis(1000);
 
+    @AutoClose
     private KeyedOneInputStreamOperatorTestHarness<String, ReportedEvent, TopicRecord> operator;
 
     @BeforeEach
     void open() throws Exception {
         create(LatestKey.ID);
         operator.open();
-    }
-
-    @AfterEach
-    void close() throws Exception {
-        operator.close();
     }
 
     @Test
@@ -97,9 +93,9 @@ class MergeLatestTest {
                 "{\"id\":\"robot\",\"type\":\"Robot\",\"a \\\"quote\":{\"type\":\"Number\",\"value\":1.10,\"metadata\":{}},"
                         + "\"n\":{\"type\":\"Number\",\"value\":123456789012345678901234567890,\"metadata\":{}},"
                         + "\"t\":{\"type\":\"Text\",\"value\":\"\\u0000 ñ 🚜\",\"metadata\":{}}}";
-        event(100, reported.getBytes(StandardCharsets.UTF_8));
+        event(100, reported.getBytes(UTF_8));
 
-        assertThat(Entity.parse(last().value())).isEqualTo(Entity.parse(reported.getBytes(StandardCharsets.UTF_8)));
+        assertThat(Entity.parse(last().value())).isEqualTo(Entity.parse(reported.getBytes(UTF_8)));
         assertThat(values().get(0)).contains("\"value\":1.10,");
     }
 
@@ -109,7 +105,7 @@ class MergeLatestTest {
         event(200, null);
 
         assertThat(last().value()).isNull();
-        assertThat(last().key()).isEqualTo("robot".getBytes(StandardCharsets.UTF_8));
+        assertThat(last().key()).isEqualTo("robot".getBytes(UTF_8));
         operator.processWatermark(1199);
         assertThat(operator.numKeyedStateEntries())
                 .as("older events may still come")
@@ -184,7 +180,7 @@ class MergeLatestTest {
         operator.open();
         report(100, robot().number("speed", 1));
 
-        assertThat(last().key()).isEqualTo("farm|/|robot".getBytes(StandardCharsets.UTF_8));
+        assertThat(last().key()).isEqualTo("farm|/|robot".getBytes(UTF_8));
     }
 
     @Test
@@ -235,12 +231,9 @@ class MergeLatestTest {
 
     private void event(long time, long received, byte[] value) throws Exception {
         Map<String, String> headers = Map.of(
-                HeaderNames.CE_ID,
-                "e" + time,
-                HeaderNames.TS_DEVICE,
-                Long.toString(time),
-                HeaderNames.TS_SOURCE,
-                Long.toString(received));
+                HeaderNames.CE_ID, "e" + time,
+                HeaderNames.TS_DEVICE, Long.toString(time),
+                HeaderNames.TS_SOURCE, Long.toString(received));
         TopicRecord record = TopicRecord.of("data.raw", time, "robot", value, headers);
         operator.processElement(new ReportedEvent("e" + time, "farm|/|robot", "robot", "Robot", "", "", record), time);
     }
@@ -252,7 +245,7 @@ class MergeLatestTest {
 
     private List<String> values() {
         return operator.extractOutputValues().stream()
-                .map(record -> new String(record.value(), StandardCharsets.UTF_8))
+                .map(record -> new String(record.value(), UTF_8))
                 .toList();
     }
 }

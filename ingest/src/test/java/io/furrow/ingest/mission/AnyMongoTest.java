@@ -108,8 +108,7 @@ class AnyMongoTest {
 
     @Test
     void hasTheServerOrThePurgeRemoveWhatIsOldAndFollowsAChangeOfTheRetention() throws Exception {
-        Instant newest =
-                Instant.ofEpochMilli(Events.reading(mission, 99).record().timestamp());
+        var newest = Instant.ofEpochMilli(Events.reading(mission, 99).record().timestamp());
         Retention days = Retention.of(null, Map.of(mission, Duration.ofDays(30)));
         keeping(days).prepared(collection);
         send(readings(100));
@@ -117,8 +116,7 @@ class AnyMongoTest {
                 .isEqualTo(collections.serverExpires() ? Optional.of(Duration.ofDays(30)) : Optional.empty());
 
         Retention shorter = Retention.of(null, Map.of(mission, Duration.ofMinutes(1)));
-        MissionCollections changed =
-                new MissionCollections(client, shorter, Clock.fixed(newest.plusSeconds(61), ZoneOffset.UTC));
+        var changed = new MissionCollections(client, shorter, Clock.fixed(newest.plusSeconds(61), ZoneOffset.UTC));
         changed.prepared(collection);
         if (collections.serverExpires()) {
             assertThat(retention()).contains(Duration.ofMinutes(1));
@@ -135,8 +133,7 @@ class AnyMongoTest {
         Optional<Duration> kept = collections.serverExpires() ? Optional.of(Duration.ofDays(3650)) : Optional.empty();
 
         MongoAccess access = new MongoAccess(uri, MongoAccess.Waits.of(Duration.ofSeconds(5)));
-        ExpiredDocumentsPurger purger =
-                ExpiredDocumentsPurger.start(access, Retention.of(null, Map.of(mission, Duration.ofDays(3650))));
+        var purger = ExpiredDocumentsPurger.start(access, Retention.of(null, Map.of(mission, Duration.ofDays(3650))));
         try {
             await().untilAsserted(() -> assertThat(retention()).isEqualTo(kept));
         } finally {

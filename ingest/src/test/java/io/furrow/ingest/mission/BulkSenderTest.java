@@ -16,7 +16,7 @@ import com.mongodb.client.MongoClient;
 import com.mongodb.client.model.IndexOptions;
 import com.mongodb.client.model.Indexes;
 import org.bson.Document;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -38,9 +38,14 @@ class BulkSenderTest {
     @TempDir
     private Path directory;
 
+    @AutoClose
     private EmbeddedMongo mongo;
+
     private MongoAccess access;
+
+    @AutoClose
     private MongoClient client;
+
     private MissionCollections collections;
 
     @BeforeEach
@@ -54,12 +59,6 @@ class BulkSenderTest {
                 mongo.uri() + "/?serverSelectionTimeoutMS=2000", MongoAccess.Waits.of(Duration.ofSeconds(20)));
         client = access.open();
         collections = new MissionCollections(client, retention, Clock.systemUTC());
-    }
-
-    @AfterEach
-    void stop() {
-        client.close();
-        mongo.close();
     }
 
     @Test
@@ -118,8 +117,7 @@ class BulkSenderTest {
     @Test
     void findsTheOneDocumentAtWhichTheServerBreaksOff() throws Exception {
         List<MissionDocument> documents = new ArrayList<>(documents(0, 9));
-        MissionDocument unfit =
-                new MissionDocument("mission_m", "unfit", new byte[] {9, 0, 0, 0, 1, 'x', 0, 0, 0}, null);
+        var unfit = new MissionDocument("mission_m", "unfit", new byte[] {9, 0, 0, 0, 1, 'x', 0, 0, 0}, null);
         documents.add(4, unfit);
 
         List<BulkSender.Refusal<MissionDocument>> refused = sender().send(documents);

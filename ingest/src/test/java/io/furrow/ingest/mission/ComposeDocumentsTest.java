@@ -5,7 +5,7 @@ import java.util.stream.Stream;
 
 import org.apache.flink.streaming.api.operators.ProcessOperator;
 import org.apache.flink.streaming.util.OneInputStreamOperatorTestHarness;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -22,17 +22,13 @@ import static org.junit.jupiter.params.provider.Arguments.arguments;
 class ComposeDocumentsTest {
     private static final String FEW_BYTES_OF_JSON_MANY_OF_BSON = "0,".repeat(1_500_000) + "0";
 
+    @AutoClose
     private OneInputStreamOperatorTestHarness<MissionEvent, MissionDocument> harness;
 
     @BeforeEach
     void open() throws Exception {
         harness = new OneInputStreamOperatorTestHarness<>(new ProcessOperator<>(new ComposeDocuments()));
         harness.open();
-    }
-
-    @AfterEach
-    void close() throws Exception {
-        harness.close();
     }
 
     static Stream<Arguments> whatNoDocumentCanHold() {

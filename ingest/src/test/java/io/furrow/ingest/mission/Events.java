@@ -1,11 +1,12 @@
 package io.furrow.ingest.mission;
 
-import java.nio.charset.StandardCharsets;
 import java.util.HashMap;
 import java.util.Map;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Events as the branch to MongoDB gets them. */
 final class Events {
@@ -23,7 +24,7 @@ final class Events {
     }
 
     static MissionEvent event(String mission, String id, long time, String json) {
-        byte[] value = json == null ? null : json.getBytes(StandardCharsets.UTF_8);
+        byte[] value = json == null ? null : json.getBytes(UTF_8);
         Map<String, String> headers = new HashMap<>(Map.of(
                 HeaderNames.CE_ID,
                 id,
@@ -40,9 +41,7 @@ final class Events {
                 HeaderNames.TS_INGEST,
                 Long.toString(time + 9)));
         return new MissionEvent(
-                "farm",
-                mission,
-                new TopicRecord("data.raw", 0, 7, time, "t1".getBytes(StandardCharsets.UTF_8), value, headers));
+                "farm", mission, new TopicRecord("data.raw", 0, 7, time, "t1".getBytes(UTF_8), value, headers));
     }
 
     static MissionDocument document(String mission, int number) {

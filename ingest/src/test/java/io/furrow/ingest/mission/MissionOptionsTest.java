@@ -22,9 +22,6 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class MissionOptionsTest {
-    @TempDir
-    Path directory;
-
     @Test
     void keepMissionsOnlyWhereAMongoIsNamed() {
         assertThat(parsed().isOn()).isFalse();
@@ -77,7 +74,7 @@ class MissionOptionsTest {
     }
 
     @Test
-    void readTheAddressFromAFileSoThatNoPasswordIsOnTheCommandLine() throws IOException {
+    void readTheAddressFromAFileSoThatNoPasswordIsOnTheCommandLine(@TempDir Path directory) throws IOException {
         Path file = Files.writeString(
                 directory.resolve("mongo-uri"), "mongodb://furrow:p%23w@mongo:27017/?authSource=admin\n");
 
@@ -86,7 +83,7 @@ class MissionOptionsTest {
     }
 
     @Test
-    void nameTheFileThatCannotBeRead() {
+    void nameTheFileThatCannotBeRead(@TempDir Path directory) {
         Path missing = directory.resolve("missing");
 
         assertThatThrownBy(() -> parsed("--mongo", "@" + missing).access())

@@ -1,6 +1,5 @@
 package io.furrow.ingest.mission;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
@@ -25,6 +24,7 @@ import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.Retention;
 import io.furrow.model.event.DeadLetter;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -32,16 +32,13 @@ import static org.awaitility.Awaitility.await;
 class MissionWriterTest {
     private final CollectedDeadLetters dead = new CollectedDeadLetters();
 
-    @TempDir
-    private Path directory;
-
     private EmbeddedMongo mongo;
     private MongoClient client;
     private MissionCollections collections;
     private MissionWriter writer;
 
     @BeforeEach
-    void start() {
+    void start(@TempDir Path directory) {
         mongo = EmbeddedMongo.start(directory);
         client = new MongoAccess(mongo.uri() + "/?serverSelectionTimeoutMS=2000", MongoAccess.Waits.of(Duration.ZERO))
                 .open();
@@ -91,7 +88,7 @@ class MissionWriterTest {
                     .containsEntry(DeadLetter.REASON, "refused")
                     .containsEntry(DeadLetter.STAGE, "missions")
                     .containsEntry(DeadLetter.SOURCE, "data.raw-0@7");
-            assertThat(new String(record.value(), StandardCharsets.UTF_8)).contains("\"Temperature\"");
+            assertThat(new String(record.value(), UTF_8)).contains("\"Temperature\"");
         });
     }
 

@@ -33,11 +33,8 @@ class MongoCopiedTest {
 
     private final AtomicLong written = new AtomicLong();
 
-    @TempDir
-    private Path directory;
-
     @Test
-    void holdsNoHalfOfADocument() throws Exception {
+    void holdsNoHalfOfADocument(@TempDir Path directory) throws Exception {
         AtomicBoolean over = new AtomicBoolean();
         ExecutorService writers = Executors.newFixedThreadPool(WRITERS);
         Path file = directory.resolve("whole/mongo.mv");

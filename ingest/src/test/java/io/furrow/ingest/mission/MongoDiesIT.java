@@ -1,6 +1,5 @@
 package io.furrow.ingest.mission;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
@@ -22,7 +21,6 @@ import org.apache.flink.configuration.PipelineOptions;
 import org.apache.flink.configuration.RestartStrategyOptions;
 import org.apache.flink.connector.datagen.source.DataGeneratorSource;
 import org.apache.flink.core.execution.JobClient;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.streaming.api.functions.sink.v2.DiscardingSink;
 import org.apache.flink.test.junit5.MiniClusterExtension;
@@ -33,10 +31,12 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.flink.TestClusters;
 import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.Retention;
 
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
 import static org.assertj.core.api.Assertions.assertThat;
 
 @Tag("full")
@@ -45,16 +45,10 @@ class MongoDiesIT {
     private static final List<String> MISSIONS = List.of("weeding", "spraying", "field.7");
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
-
-    @TempDir
-    private Path directory;
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     @Test
-    void leavesTheDocumentsOfARunWithoutTheFault() throws Exception {
+    void leavesTheDocumentsOfARunWithoutTheFault(@TempDir Path directory) throws Exception {
         Map<String, TreeSet<String>> undisturbed;
         try (MongoProcess mongo = new MongoProcess(directory.resolve("a"))) {
             job(mongo, Duration.ofMinutes(1), 10 * EVENTS)
@@ -84,7 +78,7 @@ class MongoDiesIT {
         long before = 0;
         while (kills < 3) {
             long desired = before + 1 + random.nextInt((int) (EVENTS - before) / 4);
-            Awaitility.await("seed " + seed).atMost(Duration.ofSeconds(60)).until(() -> count(mongo) >= desired);
+            Awaitility.await("seed " + seed).until(() -> count(mongo) >= desired);
             assertThat(job.getJobStatus().get()).isNotEqualTo(JobStatus.FINISHED);
             before = count(mongo);
             mongo.kill();
@@ -105,8 +99,7 @@ class MongoDiesIT {
         settings.set(PipelineOptions.OBJECT_REUSE, true);
         StreamExecutionEnvironment env = StreamExecutionEnvironment.getExecutionEnvironment(settings);
         env.setParallelism(2);
-        MongoAccess access =
-                new MongoAccess(mongo.uri() + "/?serverSelectionTimeoutMS=200", MongoAccess.Waits.of(timeout));
+        var access = new MongoAccess(mongo.uri() + "/?serverSelectionTimeoutMS=200", MongoAccess.Waits.of(timeout));
         env.fromSource(
                         new DataGeneratorSource<>(
                                 n -> n, EVENTS, RateLimiterStrategy.perSecond(eventsPerSecond), Types.LONG),
@@ -139,7 +132,7 @@ class MongoDiesIT {
             for (String name : collections.names()) {
                 TreeSet<String> documents = new TreeSet<>();
                 for (RawBsonDocument document : collections.get(name).find()) {
-                    documents.add(new String(document.getByteBuffer().array(), StandardCharsets.ISO_8859_1));
+                    documents.add(new String(document.getByteBuffer().array(), ISO_8859_1));
                 }
                 all.put(name, documents);
             }

@@ -7,6 +7,7 @@ import java.util.concurrent.TimeUnit;
 
 import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.embedded.FreePort;
+import io.furrow.process.TestProcess;
 
 /** A MongoDB server in a process of its own, to be killed and started again on its data. */
 final class MongoProcess implements AutoCloseable {
@@ -30,14 +31,7 @@ final class MongoProcess implements AutoCloseable {
     }
 
     void start() throws IOException {
-        process = new ProcessBuilder(
-                        Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                        "-Xmx256m",
-                        "-cp",
-                        System.getProperty("java.class.path"),
-                        MongoProcess.class.getName(),
-                        directory.toString(),
-                        Integer.toString(port))
+        process = TestProcess.java("-Xmx256m", MongoProcess.class, directory, port)
                 .redirectErrorStream(true)
                 .redirectOutput(ProcessBuilder.Redirect.DISCARD)
                 .start();

@@ -1,6 +1,5 @@
 package io.furrow.ingest.normalize;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.Arrays;
@@ -9,7 +8,6 @@ import java.util.List;
 import java.util.Map;
 
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.MiniClusterExtension;
@@ -20,6 +18,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.flink.JobUids;
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.record.TopicRecord;
@@ -32,15 +31,13 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class NormalizeJobTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     private static final long RECEIVED = 1_700_000_060_000L;
     private static final long TIME = 1_700_000_000_000L;
@@ -56,8 +53,7 @@ class NormalizeJobTest {
                     simplifiedKeyValues  | {'id':'t','type':'Thermometer','Temperature':21.5,'Time':1700000000000}
                     """)
     void makesTheSameRecordOfEveryFormAsTheSourceWould(String form, String body) throws Exception {
-        Map<String, String> headers =
-                Map.of("Fiware-Service", "farm", "Fiware-Servicepath", "/north", "Ngsiv2-AttrsFormat", form);
+        var headers = Map.of("Fiware-Service", "farm", "Fiware-Servicepath", "/north", "Ngsiv2-AttrsFormat", form);
 
         List<TopicRecord> written = run(options(), notification(null, body, headers));
 
@@ -65,7 +61,7 @@ class NormalizeJobTest {
                 ("{'id':'t','type':'Thermometer','Temperature':{'type':'Number','value':21.5,'metadata':{}},"
                                 + "'Time':{'type':'Number','value':1700000000000,'metadata':{}}}")
                         .replace('\'', '"')
-                        .getBytes(StandardCharsets.UTF_8));
+                        .getBytes(UTF_8));
         Map<String, String> asTheSource = EntityEvent.of(
                         entity,
                         FiwareScope.of("farm", "/north"),
@@ -75,7 +71,7 @@ class NormalizeJobTest {
                 .headers(form.startsWith("simplified") ? "/ngsi/normalize" : "/ngsi/s1");
         assertThat(written).singleElement().satisfies(record -> {
             assertThat(record.topic()).isEqualTo("data.raw");
-            assertThat(record.key()).isEqualTo("t".getBytes(StandardCharsets.UTF_8));
+            assertThat(record.key()).isEqualTo("t".getBytes(UTF_8));
             assertThat(record.timestamp()).isEqualTo(TIME);
             assertThat(record.value()).isEqualTo(entity.toBytes());
             assertThat(record.headers()).isEqualTo(asTheSource).containsEntry("origin", "kafka");
@@ -126,7 +122,7 @@ class NormalizeJobTest {
                 .filteredOn(record -> "not-json".equals(record.headers().get(DeadLetter.REASON)))
                 .singleElement()
                 .satisfies(dead -> {
-                    assertThat(new String(dead.value(), StandardCharsets.UTF_8)).isEqualTo("{not json");
+                    assertThat(new String(dead.value(), UTF_8)).isEqualTo("{not json");
                     assertThat(dead.headers())
                             .containsEntry("trace", "7")
                             .containsEntry(DeadLetter.STAGE, "normalize")
@@ -140,7 +136,7 @@ class NormalizeJobTest {
 
         assertThat(run(options(), notification(null, echo, Map.of()))).hasSize(1);
         assertThat(run(options("--exclude-types", "T"), notification(null, echo, Map.of())))
-                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(record -> new String(record.key(), UTF_8))
                 .containsExactly("a");
     }
 
@@ -193,8 +189,8 @@ class NormalizeJobTest {
                 0,
                 3,
                 RECEIVED,
-                key == null ? null : key.getBytes(StandardCharsets.UTF_8),
-                body == null ? null : body.replace('\'', '"').getBytes(StandardCharsets.UTF_8),
+                key == null ? null : key.getBytes(UTF_8),
+                body == null ? null : body.replace('\'', '"').getBytes(UTF_8),
                 new HashMap<>(headers));
     }
 }

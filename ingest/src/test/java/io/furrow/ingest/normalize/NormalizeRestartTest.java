@@ -1,53 +1,31 @@
 package io.furrow.ingest.normalize;
 
-import java.nio.charset.StandardCharsets;
-import java.nio.file.Path;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.Random;
 import java.util.Set;
-import java.util.concurrent.TimeUnit;
 
-import org.apache.flink.runtime.minicluster.MiniCluster;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
-import org.apache.flink.test.junit5.InjectMiniCluster;
-import org.apache.flink.test.junit5.MiniClusterExtension;
-import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.Timeout;
-import org.junit.jupiter.api.extension.RegisterExtension;
-import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.restart.JobCase;
+import io.furrow.flink.restart.RestartContract;
 import io.furrow.flink.restart.Restarts;
 import io.furrow.ingest.CollectedOutput;
 import io.furrow.model.event.HeaderNames;
 
-@Timeout(value = 10, unit = TimeUnit.HOURS)
-class NormalizeRestartTest {
-    @RegisterExtension
-    static final MiniClusterExtension FLINK = Restarts.cluster();
+import static java.nio.charset.StandardCharsets.UTF_8;
 
-    @Test
-    void writesWhatAnUndisturbedRunWritesWhereverItIsRestarted(
-            @InjectMiniCluster MiniCluster flink, @TempDir Path folder) throws Exception {
-        new Restarts(flink, folder).changeNothing(3, Case::new);
-    }
-
-    @Test
-    void goesOnFromTheSavepointsOfReleases(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
-            throws Exception {
-        new Restarts(flink, folder).goOnFromReleases("normalize", new Case(1));
+class NormalizeRestartTest extends RestartContract {
+    NormalizeRestartTest() {
+        super("normalize", Case::new);
     }
 
     /** Notifications of one to three entities, some of which cannot be read. */
-    private static final class Case implements JobCase {
-        private final List<Arrival> arrivals = new ArrayList<>();
-
+    private static final class Case extends JobCase {
         Case(long seed) {
             Random random = Restarts.random(seed);
             for (int i = 0; i < 300; i++) {
@@ -68,13 +46,8 @@ class NormalizeRestartTest {
                     "ngsi.notifications",
                     received,
                     "s",
-                    body.replace('\'', '"').getBytes(StandardCharsets.UTF_8),
+                    body.replace('\'', '"').getBytes(UTF_8),
                     Map.of("Fiware-Service", "farm", "Fiware-Servicepath", "/north"));
-        }
-
-        @Override
-        public List<Arrival> arrivals() {
-            return arrivals;
         }
 
         @Override

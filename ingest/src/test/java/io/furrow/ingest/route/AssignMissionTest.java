@@ -1,6 +1,5 @@
 package io.furrow.ingest.route;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashSet;
@@ -13,7 +12,7 @@ import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
 import org.apache.flink.streaming.api.operators.co.CoBroadcastWithKeyedOperator;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.KeyedTwoInputStreamOperatorTestHarness;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
@@ -25,6 +24,7 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** All devices are in the default scope, so that {@code |/|robot} is the identity of {@code robot}. */
@@ -37,17 +37,14 @@ class AssignMissionTest {
     private final ArrayList<TopicRecord> domains = new ArrayList<>();
     private final ArrayList<TopicRecord> missions = new ArrayList<>();
     private final HashSet<String> topics = new HashSet<>();
+
+    @AutoClose
     private KeyedTwoInputStreamOperatorTestHarness<String, ReportedEvent, DeviceChange, ReportedEvent> operator;
 
     @BeforeEach
     void open() throws Exception {
         create();
         operator.open();
-    }
-
-    @AfterEach
-    void close() throws Exception {
-        operator.close();
     }
 
     @Test
@@ -301,7 +298,7 @@ class AssignMissionTest {
     }
 
     private static TopicRecord managed(String name, String json) {
-        return onService(name, json.replace('\'', '"').getBytes(StandardCharsets.UTF_8));
+        return onService(name, json.replace('\'', '"').getBytes(UTF_8));
     }
 
     private static TopicRecord deleted(String name) {
@@ -309,7 +306,7 @@ class AssignMissionTest {
     }
 
     private static TopicRecord onService(String name, byte[] value) {
-        return new TopicRecord("service", 0, 0, 0, name.getBytes(StandardCharsets.UTF_8), value, Map.of());
+        return new TopicRecord("service", 0, 0, 0, name.getBytes(UTF_8), value, Map.of());
     }
 
     private void create() throws Exception {
@@ -348,7 +345,7 @@ class AssignMissionTest {
     }
 
     private void onTheTopic(long offset, DeviceChange end) {
-        byte[] key = end.key().getBytes(StandardCharsets.UTF_8);
+        byte[] key = end.key().getBytes(UTF_8);
         onTheTopic.add(new TopicRecord(Topics.DEVICES, 0, offset, end.time(), key, null, Map.of()));
     }
 

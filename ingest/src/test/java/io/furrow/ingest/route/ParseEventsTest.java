@@ -1,6 +1,5 @@
 package io.furrow.ingest.route;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
@@ -19,6 +18,7 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -83,7 +83,7 @@ class ParseEventsTest {
     }
 
     private static TopicRecord record(String value, Map<String, String> headers) {
-        byte[] bytes = value == null ? null : value.getBytes(StandardCharsets.UTF_8);
+        byte[] bytes = value == null ? null : value.getBytes(UTF_8);
         return TopicRecord.of(Topics.RAW, 1_700_000_000_000L, "r", bytes, headers);
     }
 }

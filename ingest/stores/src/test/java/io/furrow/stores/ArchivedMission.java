@@ -3,7 +3,6 @@ package io.furrow.stores;
 import java.io.ByteArrayInputStream;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 
 import org.apache.flink.core.fs.Path;
 
@@ -12,6 +11,7 @@ import io.furrow.mission.archive.MissionArchive;
 import io.furrow.mission.archive.MissionFiles;
 import io.furrow.mission.archive.StoredMissions;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** A mission of two days, archived and brought back. */
@@ -48,7 +48,7 @@ final class ArchivedMission {
                     "{\"id\":\"e%d\",\"time\":%d,\"headers\":{},\"entity\":{\"id\":\"t\",\"n\":{\"value\":%d.50}}}\n"
                             .formatted(i, FIRST_NOON + i * MINUTE, i));
         }
-        return lines.toString().getBytes(StandardCharsets.UTF_8);
+        return lines.toString().getBytes(UTF_8);
     }
 
     private static byte[] exported(StoredMissions missions, String mission) throws IOException {

@@ -60,7 +60,7 @@ class ImagesOnS3IT {
                 .redirectOutput(folder.resolve("server.log").toFile())
                 .start();
         URI endpoint = URI.create("http://127.0.0.1:" + port);
-        Awaitility.await().atMost(Duration.ofSeconds(60)).until(() -> answers(endpoint));
+        Awaitility.await().until(() -> answers(endpoint));
 
         Configuration flink = new Configuration();
         flink.setString("s3.endpoint", endpoint.toString());

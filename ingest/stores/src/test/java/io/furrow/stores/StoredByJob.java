@@ -3,7 +3,6 @@ package io.furrow.stores;
 import java.awt.image.BufferedImage;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.Base64;
 import java.util.HashMap;
@@ -30,6 +29,8 @@ import io.furrow.ingest.image.ImageStage;
 import io.furrow.ingest.image.StorageMode;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.ngsi.Entity;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** The stage that moves images, run on a few cameras; and what it left in the store. */
 final class StoredByJob {
@@ -102,7 +103,7 @@ final class StoredByJob {
                 0,
                 time,
                 time,
-                id.getBytes(StandardCharsets.UTF_8),
+                id.getBytes(UTF_8),
                 entity.toBytes(),
                 new HashMap<>(Map.of("ce_id", id + time)));
         return new ReportedEvent(id + time, "|/|" + id, id, "Camera", "north", "weeding", record);

@@ -3,7 +3,6 @@ package io.furrow.flink;
 import java.io.IOException;
 import java.io.InputStream;
 import java.io.UncheckedIOException;
-import java.nio.charset.StandardCharsets;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
@@ -15,6 +14,8 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.streaming.api.graph.StreamNode;
 
 import io.furrow.flink.format.VersionedSerializerSnapshot;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * The uids of a job's operators, sorted. State is found by them after a restart, so a job's list is checked in: a changed
@@ -38,9 +39,7 @@ public final class JobUids {
             if (list == null) {
                 throw new AssertionError("src/test/resources" + resource + " is missing; write the job's uids there");
             }
-            return new String(list.readAllBytes(), StandardCharsets.UTF_8)
-                    .lines()
-                    .toList();
+            return new String(list.readAllBytes(), UTF_8).lines().toList();
         } catch (IOException e) {
             throw new UncheckedIOException(e);
         }

@@ -11,8 +11,6 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 class SupervisedWorkerTest {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
-
     private final SupervisedWorker worker = new SupervisedWorker("example", Clock.systemUTC());
 
     @Test
@@ -27,7 +25,7 @@ class SupervisedWorkerTest {
                     awaitClosing(self);
                 },
                 () -> "3 waiting");
-        await().atMost(TIMEOUT).until(() -> worker.status().lastSuccess() != null);
+        await().until(() -> worker.status().lastSuccess() != null);
         assertThat(worker.status())
                 .returns("example", ComponentStatus::name)
                 .returns(ComponentStatus.State.UP, ComponentStatus::state)
@@ -51,7 +49,7 @@ class SupervisedWorkerTest {
                     ended.incrementAndGet();
                 },
                 () -> "nothing waits");
-        await().atMost(TIMEOUT).until(() -> begun.getCount() == 0);
+        await().until(() -> begun.getCount() == 0);
         worker.close();
         assertThat(ended).hasValue(1);
     }
@@ -65,9 +63,7 @@ class SupervisedWorkerTest {
                     throw new NoClassDefFoundError("a/b");
                 },
                 () -> "nothing waits");
-        await().dontCatchUncaughtExceptions()
-                .atMost(TIMEOUT)
-                .until(() -> worker.status().state() == ComponentStatus.State.DEAD);
+        await().dontCatchUncaughtExceptions().until(() -> worker.status().state() == ComponentStatus.State.DEAD);
         assertThat(begun.getCount()).isZero();
         assertThat(worker.status().detail()).contains("no class def found: a/b", "start the process again");
     }

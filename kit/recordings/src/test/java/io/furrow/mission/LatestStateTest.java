@@ -1,6 +1,5 @@
 package io.furrow.mission;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Collection;
@@ -12,6 +11,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.mission.file.FileRecordings;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -91,6 +91,6 @@ class LatestStateTest {
 
     private static String text(StoredEvent event) {
         return event.id() + " " + event.time() + " "
-                + new String(io.furrow.model.ngsi.NgsiJson.write(event.entity()), StandardCharsets.UTF_8);
+                + new String(io.furrow.model.ngsi.NgsiJson.write(event.entity()), UTF_8);
     }
 }

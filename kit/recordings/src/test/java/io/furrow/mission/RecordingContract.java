@@ -8,6 +8,7 @@ import java.util.function.Predicate;
 
 import org.junit.jupiter.api.Test;
 
+import static io.furrow.mission.RandomEvents.event;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -121,7 +122,7 @@ public abstract class RecordingContract {
 
     @Test
     void goesBackByAtLeastOneEventAndNotByMillions() throws Exception {
-        try (Recording recording = recorded(List.of(RandomEvents.event("a", 7, 0)))) {
+        try (Recording recording = recorded(List.of(event("a", 7, 0)))) {
             for (long count : new long[] {-1, 0, 100_001}) {
                 assertThatThrownBy(() -> recording.back(
                                 Cursor.before(9), Cursor.START, count, event -> true, PageLimits.DEFAULT))
@@ -133,7 +134,7 @@ public abstract class RecordingContract {
 
     @Test
     void stopsGoingBackWhenItsThreadIsInterrupted() throws Exception {
-        try (Recording recording = recorded(List.of(RandomEvents.event("a", 7, 0)))) {
+        try (Recording recording = recorded(List.of(event("a", 7, 0)))) {
             Thread.currentThread().interrupt();
             assertThatThrownBy(
                             () -> recording.back(Cursor.before(9), Cursor.START, 1, event -> true, PageLimits.DEFAULT))
@@ -144,7 +145,7 @@ public abstract class RecordingContract {
 
     @Test
     void saysThatItsThreadWasInterruptedAndReadsOnAfterwards() throws Exception {
-        try (Recording recording = recorded(List.of(RandomEvents.event("a", 7, 0)))) {
+        try (Recording recording = recorded(List.of(event("a", 7, 0)))) {
             Thread.currentThread().interrupt();
             assertThatThrownBy(() -> recording.read(Cursor.START, LARGE))
                     .isInstanceOf(RecordingInterruptedException.class);
@@ -155,11 +156,8 @@ public abstract class RecordingContract {
 
     @Test
     void stopsBeforeTheEventThatPassesTheByteLimitAndGivesOneThatIsLargerAlone() throws Exception {
-        List<StoredEvent> events = List.of(
-                RandomEvents.event("a", 1, 10),
-                RandomEvents.event("b", 2, 10),
-                RandomEvents.event("c", 3, 5_000),
-                RandomEvents.event("d", 4, 10));
+        List<StoredEvent> events =
+                List.of(event("a", 1, 10), event("b", 2, 10), event("c", 3, 5_000), event("d", 4, 10));
         int small = bytes(events.get(0));
         try (Recording recording = recorded(events)) {
             PageLimits two = new PageLimits(10, 2 * small);
@@ -180,8 +178,7 @@ public abstract class RecordingContract {
 
     @Test
     void tellsItsSpan() throws Exception {
-        try (Recording recording = recorded(List.of(
-                RandomEvents.event("a", 7, 0), RandomEvents.event("b", -3, 0), RandomEvents.event("c", 5, 0)))) {
+        try (Recording recording = recorded(List.of(event("a", 7, 0), event("b", -3, 0), event("c", 5, 0)))) {
             assertThat(recording.span()).contains(new RecordingExtent(-3, 7));
         }
         try (Recording recording = recorded(List.of())) {

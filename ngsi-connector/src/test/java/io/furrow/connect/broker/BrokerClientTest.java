@@ -3,11 +3,9 @@ package io.furrow.connect.broker;
 import java.io.IOException;
 import java.io.InputStream;
 import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.ServerSocket;
 import java.net.Socket;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -17,12 +15,10 @@ import java.time.format.DateTimeFormatter;
 import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
-import java.util.concurrent.Executors;
 
-import com.sun.net.httpserver.HttpExchange;
-import com.sun.net.httpserver.HttpServer;
+import com.sun.net.httpserver.HttpHandler;
 import org.apache.kafka.common.config.types.Password;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -33,23 +29,18 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.file.AccessToken;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.stub.StubServer;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class BrokerClientTest {
     private static final FiwareScope PLOT = FiwareScope.of("agri", "/plot1");
 
-    private interface Answering {
-        void answer(HttpExchange exchange) throws IOException;
-    }
+    private volatile HttpHandler answering = exchange -> exchange.sendResponseHeaders(204, -1);
 
-    private final HttpServer server = server();
-    private volatile Answering answering = exchange -> exchange.sendResponseHeaders(204, -1);
-
-    @AfterEach
-    void stop() {
-        server.stop(0);
-    }
+    @AutoClose
+    private final StubServer server = new StubServer(exchange -> answering.handle(exchange));
 
     @Test
     void sendsScopeTokenAndBodyAndGivesTheAnswerAsJson() throws UnreadableException {
@@ -60,10 +51,10 @@ class BrokerClientTest {
                     + exchange.getRequestHeaders().getFirst("Fiware-Servicepath") + " "
                     + exchange.getRequestHeaders().getFirst("X-Auth-Token") + " "
                     + exchange.getRequestHeaders().getFirst("Content-Type") + " "
-                    + new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8));
+                    + new String(exchange.getRequestBody().readAllBytes(), UTF_8));
             exchange.getResponseHeaders().add("Fiware-Total-Count", "7");
             exchange.getResponseHeaders().add("Location", "/v2/subscriptions/51c0");
-            answer(exchange, 200, "[{\"id\":\"a\"}]");
+            StubServer.answer(exchange, 200, "[{\"id\":\"a\"}]");
         };
 
         Outcome outcome = client(Duration.ofSeconds(5))
@@ -74,8 +65,7 @@ class BrokerClientTest {
             assertThat(done.headers().totalCount()).hasValue(7);
             assertThat(done.headers().createdId()).contains("51c0");
         });
-        assertThat(((Outcome.Done) outcome).json().path(0).path("id").textValue())
-                .isEqualTo("a");
+        assertThat(((Outcome.Done) outcome).json().at("/0/id").textValue()).isEqualTo("a");
     }
 
     @Test
@@ -83,7 +73,7 @@ class BrokerClientTest {
         CompletableFuture<Boolean> named = new CompletableFuture<>();
         answering = exchange -> {
             named.complete(exchange.getRequestHeaders().containsKey("Fiware-Service"));
-            answer(exchange, 200, "");
+            StubServer.answer(exchange, 200, "");
         };
 
         assertThat(client(Duration.ofSeconds(5)).send(BrokerRequest.get(FiwareScope.DEFAULT, "/v2/entities")))
@@ -99,7 +89,7 @@ class BrokerClientTest {
 
     @Test
     void takesNoAnswerThatIsLargerThanAllowed() {
-        answering = exchange -> answer(exchange, 200, "x".repeat(100_000));
+        answering = exchange -> StubServer.answer(exchange, 200, "x".repeat(100_000));
         BrokerRequest asked = BrokerRequest.get(PLOT, "/v2/entities");
 
         assertThat(new BrokerClient(settings(Duration.ofSeconds(5)).withMaxAnswerBytes(99_999)).send(asked))
@@ -138,7 +128,7 @@ class BrokerClientTest {
                     ? ZonedDateTime.now(ZoneOffset.UTC).plusMinutes(5).format(DateTimeFormatter.RFC_1123_DATE_TIME)
                     : exchange.getRequestURI().getPath().endsWith("odd") ? "soon" : "7";
             exchange.getResponseHeaders().add("Retry-After", value);
-            answer(exchange, 429, "");
+            StubServer.answer(exchange, 429, "");
         };
 
         assertThat(retryAfter("/seconds")).contains(Duration.ofSeconds(7));
@@ -164,7 +154,7 @@ class BrokerClientTest {
 
     @Test
     void namesTheAddressWhereNobodyListens() {
-        server.stop(0);
+        server.close();
 
         assertThat(client(Duration.ofSeconds(5)).send(BrokerRequest.get(PLOT, "/v2/x")))
                 .isInstanceOfSatisfying(
@@ -207,7 +197,7 @@ class BrokerClientTest {
         CompletableFuture<String> token = new CompletableFuture<>();
         answering = exchange -> {
             token.complete(exchange.getRequestHeaders().getFirst("X-Auth-Token"));
-            answer(exchange, 200, "[]");
+            StubServer.answer(exchange, 200, "[]");
         };
         BrokerSettings settings = BrokerSettings.of(URI.create(url()), Duration.ofSeconds(5))
                 .withToken(AccessToken.of(file, null, said -> {}));
@@ -248,15 +238,8 @@ class BrokerClientTest {
     }
 
     private Outcome answered(int status, String body) {
-        answering = exchange -> answer(exchange, status, body);
+        answering = exchange -> StubServer.answer(exchange, status, body);
         return client(Duration.ofSeconds(5)).send(BrokerRequest.get(PLOT, "/v2/x"));
-    }
-
-    private static void answer(HttpExchange exchange, int status, String body) throws IOException {
-        byte[] bytes = body.getBytes(StandardCharsets.UTF_8);
-        exchange.sendResponseHeaders(status, bytes.length == 0 ? -1 : bytes.length);
-        exchange.getResponseBody().write(bytes);
-        exchange.close();
     }
 
     private BrokerClient client(Duration timeout) {
@@ -269,22 +252,6 @@ class BrokerClientTest {
     }
 
     private String url() {
-        return "http://127.0.0.1:" + server.getAddress().getPort() + "/base";
-    }
-
-    private HttpServer server() {
-        try {
-            HttpServer started = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-            started.createContext("/", exchange -> answering.answer(exchange));
-            started.setExecutor(Executors.newCachedThreadPool(task -> {
-                Thread thread = new Thread(task, "test-broker");
-                thread.setDaemon(true);
-                return thread;
-            }));
-            started.start();
-            return started;
-        } catch (IOException e) {
-            throw new java.io.UncheckedIOException(e);
-        }
+        return server.uri("/base").toString();
     }
 }

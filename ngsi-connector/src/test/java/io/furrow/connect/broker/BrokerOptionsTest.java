@@ -24,14 +24,12 @@ import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.event.FiwareScope;
+import io.furrow.process.TestProcess;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class BrokerOptionsTest {
-    @TempDir
-    Path directory;
-
     @Test
     void letsTheUrlBeLeftOutWhereItIsOptional() {
         assertThat(options(Optional.of("Empty for none."), Map.of()).url()).isEmpty();
@@ -58,15 +56,12 @@ class BrokerOptionsTest {
     }
 
     @Test
-    void takesTheTokenFromAFileInstead() throws Exception {
+    void takesTheTokenFromAFileInstead(@TempDir Path directory) throws Exception {
         Path file = Files.writeString(directory.resolve("token"), "Bearer x\n");
         Map<String, String> given = Map.of(
-                BrokerOptions.URL,
-                "http://orion:1026",
-                BrokerOptions.AUTH_TOKEN_FILE,
-                file.toString(),
-                BrokerOptions.AUTH_HEADER,
-                "Authorization");
+                BrokerOptions.URL, "http://orion:1026",
+                BrokerOptions.AUTH_TOKEN_FILE, file.toString(),
+                BrokerOptions.AUTH_HEADER, "Authorization");
         Map<String, String> sent = new HashMap<>();
 
         options(Optional.empty(), given).settings().token().addTo(sent::put);
@@ -107,16 +102,16 @@ class BrokerOptionsTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"trust.p12", "trust.jks", "trust.pem"})
-    void trustsTheCertificatesOfTheFileAndNoOthers(String file) throws Exception {
+    void trustsTheCertificatesOfTheFileAndNoOthers(String file, @TempDir Path directory) throws Exception {
         Path key = directory.resolve("key.p12");
-        keytool("-genkeypair", "-alias", "b", "-keyalg", "EC", "-dname", "CN=127.0.0.1", "-ext", "san=ip:127.0.0.1")
+        keytool("-genkeypair -alias b -keyalg EC -dname CN=127.0.0.1 -ext san=ip:127.0.0.1")
                 .on(key);
         Path pem = directory.resolve("trust.pem");
-        keytool("-exportcert", "-alias", "b", "-rfc", "-file", pem.toString()).on(key);
+        keytool("-exportcert -alias b -rfc -file " + pem).on(key);
         Path trust = directory.resolve(file);
         if (!trust.equals(pem)) {
             String type = file.endsWith("jks") ? "JKS" : "PKCS12";
-            keytool("-importcert", "-noprompt", "-alias", "b", "-file", pem.toString(), "-storetype", type)
+            keytool("-importcert -noprompt -alias b -file " + pem + " -storetype " + type)
                     .on(trust);
         }
         HttpsServer server = httpsServer(key);
@@ -164,15 +159,9 @@ class BrokerOptionsTest {
         void on(Path store) throws IOException, InterruptedException;
     }
 
-    private static Keytool keytool(String... command) {
+    private static Keytool keytool(String words) {
         return store -> {
-            java.util.List<String> all = new java.util.ArrayList<>();
-            all.add(Path.of(System.getProperty("java.home"), "bin", "keytool").toString());
-            all.addAll(java.util.List.of(command));
-            all.addAll(java.util.List.of("-keystore", store.toString(), "-storepass", "secret"));
-            Process process = new ProcessBuilder(all).redirectErrorStream(true).start();
-            String said = new String(process.getInputStream().readAllBytes());
-            assertThat(process.waitFor()).as(said).isZero();
+            TestProcess.keytool(words + " -keystore " + store + " -storepass secret");
             assertThat(Files.exists(store)).isTrue();
         };
     }

@@ -1,6 +1,5 @@
 package io.furrow.connect.broker;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayDeque;
 import java.util.Arrays;
 import java.util.Deque;
@@ -10,6 +9,9 @@ import java.util.TreeMap;
 import java.util.function.BiFunction;
 import java.util.regex.Pattern;
 
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
+import static java.nio.charset.StandardCharsets.UTF_8;
+
 /**
  * Answers that a fuzzer makes up. They are separated by the byte 0xff; the low four bits of the first byte pick the status, lines
  * up to an empty one are headers, the rest is the body. Without an empty line all of it is the body.
@@ -18,7 +20,7 @@ public final class Script {
     /** One answer. */
     public record Reply(int status, Map<String, List<String>> headers, byte[] body) {
         public static Reply of(int status, String body) {
-            return new Reply(status, Map.of(), body.getBytes(StandardCharsets.UTF_8));
+            return new Reply(status, Map.of(), body.getBytes(UTF_8));
         }
     }
 
@@ -51,7 +53,7 @@ public final class Script {
 
     private static Reply reply(byte[] input) {
         int status = STATUSES[input[0] & 15];
-        String text = new String(input, 1, input.length - 1, StandardCharsets.ISO_8859_1);
+        String text = new String(input, 1, input.length - 1, ISO_8859_1);
         int end = text.indexOf("\n\n");
         Map<String, List<String>> headers = new TreeMap<>(String.CASE_INSENSITIVE_ORDER);
         if (end >= 0) {

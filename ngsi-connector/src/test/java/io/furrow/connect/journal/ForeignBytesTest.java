@@ -7,45 +7,20 @@ import java.nio.file.Path;
 import java.util.Arrays;
 import java.util.List;
 
-import org.apache.logging.log4j.Level;
-import org.apache.logging.log4j.core.config.Configurator;
-import org.junit.jupiter.api.AfterAll;
-import org.junit.jupiter.api.BeforeAll;
-import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.io.TempDir;
 
+import static io.furrow.connect.journal.JournalTest.append;
+import static io.furrow.connect.journal.JournalTest.read;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** What a journal makes of bytes that look like its own and are not. */
-class ForeignBytesTest {
+class ForeignBytesTest extends QuietJournal {
     private static final JournalSettings SMALL = new JournalSettings(1024 * 1024, 4 * 1024, 64 * 1024, 0);
-
-    @TempDir
-    private Path parent;
-
-    private Path folder;
-
-    /** Each damage is a line in the log. */
-    @BeforeAll
-    static void keepQuiet() {
-        Configurator.setLevel("io.furrow.connect.journal", Level.OFF);
-    }
-
-    @AfterAll
-    static void speakAgain() {
-        Configurator.setLevel("io.furrow.connect.journal", Level.ERROR);
-    }
-
-    @BeforeEach
-    void makeFolder() throws IOException {
-        folder = Files.createDirectory(parent.resolve("0-journal"));
-    }
 
     @Test
     void takesNoRecordAgainThatStandsInThePlaceOfAnother() throws Exception {
-        try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
-            JournalTest.append(journal, "aaaa", "bbbb", "cccc", "dddd");
+        try (Journal journal = open()) {
+            append(journal, "aaaa", "bbbb", "cccc", "dddd");
         }
         Path segment = folder.resolve(SegmentFormat.fileName(0));
         byte[] bytes = Files.readAllBytes(segment);
@@ -53,16 +28,16 @@ class ForeignBytesTest {
         System.arraycopy(bytes, SegmentFormat.HEADER, bytes, SegmentFormat.HEADER + 2 * size, size);
         Files.write(segment, bytes);
 
-        try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
-            assertThat(JournalTest.read(journal.reader(0))).containsExactly("0 aaaa", "1 bbbb", "3 dddd");
+        try (Journal journal = open()) {
+            assertThat(read(journal.reader(0))).containsExactly("0 aaaa", "1 bbbb", "3 dddd");
             assertThat(journal.lostRecords()).isEqualTo(1);
         }
     }
 
     @Test
     void saysWhatIsMissingWhereALaterRecordStandsInTheirPlace() throws Exception {
-        try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
-            JournalTest.append(journal, "aaaa", "bbbb", "cccc", "dddd");
+        try (Journal journal = open()) {
+            append(journal, "aaaa", "bbbb", "cccc", "dddd");
         }
         Path segment = folder.resolve(SegmentFormat.fileName(0));
         byte[] bytes = Files.readAllBytes(segment);
@@ -70,8 +45,8 @@ class ForeignBytesTest {
         System.arraycopy(bytes, SegmentFormat.HEADER + 3 * size, bytes, SegmentFormat.HEADER + size, size);
         Files.write(segment, bytes);
 
-        try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
-            assertThat(JournalTest.read(journal.reader(0))).containsExactly("0 aaaa", "3 dddd");
+        try (Journal journal = open()) {
+            assertThat(read(journal.reader(0))).containsExactly("0 aaaa", "3 dddd");
             assertThat(journal.lostRecords()).isEqualTo(2);
             assertThat(journal.damages()).extracting(Corruption::kind).contains(Corruption.Kind.MISSING);
         }
@@ -81,26 +56,26 @@ class ForeignBytesTest {
     void deletesAFileThatWasBeingMade() throws Exception {
         Path unfinished = Files.write(folder.resolve(SegmentFormat.fileName(7) + ".tmp"), new byte[10]);
 
-        Journal.open(folder, SMALL).orElseThrow().close();
+        open().close();
         assertThat(unfinished).doesNotExist();
     }
 
     @Test
     void takesNoPayloadForARecordThatIsNotItsOwn() throws Exception {
-        Path other = Files.createDirectory(parent.resolve("0-other"));
-        try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
-            JournalTest.append(journal, "its own", "and one more");
+        Path other = Files.createDirectory(folder.resolveSibling("0-other"));
+        try (Journal journal = open()) {
+            append(journal, "its own", "and one more");
         }
         byte[] foreign = Files.readAllBytes(folder.resolve(SegmentFormat.fileName(0)));
         byte[] inner = Arrays.copyOfRange(foreign, SegmentFormat.HEADER, 1000);
         try (Journal journal = Journal.open(other, SMALL).orElseThrow()) {
             journal.append(List.of(inner)).orElseThrow().join();
-            JournalTest.append(journal, "after");
+            append(journal, "after");
         }
         overwrite(other.resolve(SegmentFormat.fileName(0)), SegmentFormat.HEADER, (byte) 1);
 
         try (Journal journal = Journal.open(other, SMALL).orElseThrow()) {
-            assertThat(JournalTest.read(journal.reader(0))).containsExactly("1 after");
+            assertThat(read(journal.reader(0))).containsExactly("1 after");
         }
     }
 
@@ -109,5 +84,9 @@ class ForeignBytesTest {
             bytes.seek(at);
             bytes.write(value);
         }
+    }
+
+    private Journal open() {
+        return Journal.open(folder, SMALL).orElseThrow();
     }
 }

@@ -7,10 +7,10 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.Arrays;
 import java.util.List;
-import java.util.stream.Stream;
 
 import io.furrow.connect.journal.SegmentFormat.End;
 import io.furrow.connect.journal.SegmentFormat.Header;
+import io.furrow.files.Folders;
 
 /**
  * What a fuzzer throws at the reading of journals. The first byte picks how the others become segment files: as they are,
@@ -48,7 +48,7 @@ public final class FuzzJournal {
             }
             readAll(folder, changed);
         } finally {
-            delete(parent);
+            Folders.delete(parent);
         }
     }
 
@@ -145,14 +145,6 @@ public final class FuzzJournal {
 
     private static void write(Path folder, long base, byte[] file) throws IOException {
         Files.write(folder.resolve(SegmentFormat.fileName(base)), file);
-    }
-
-    private static void delete(Path parent) throws IOException {
-        try (Stream<Path> files = Files.walk(parent)) {
-            for (Path file : files.sorted(java.util.Comparator.reverseOrder()).toList()) {
-                Files.delete(file);
-            }
-        }
     }
 
     private static void require(boolean right, String message) {

@@ -10,46 +10,27 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Random;
-import java.util.stream.Stream;
 
-import org.apache.logging.log4j.Level;
-import org.apache.logging.log4j.core.config.Configurator;
-import org.junit.jupiter.api.AfterAll;
-import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.files.Folders;
+
+import static io.furrow.connect.journal.JournalTest.append;
+import static io.furrow.connect.journal.JournalTest.read;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 
 /** What a journal makes of files that changed while it was closed. */
-class JournalDamageTest {
+class JournalDamageTest extends QuietJournal {
     private static final JournalSettings SMALL = new JournalSettings(1024 * 1024, 4 * 1024, 64 * 1024, 0);
     private static final int RECORDS = 60;
 
-    @TempDir
-    private Path parent;
-
-    private Path folder;
-
-    /** Each damage is a line in the log. */
-    @BeforeAll
-    static void keepQuiet() {
-        Configurator.setLevel("io.furrow.connect.journal", Level.OFF);
-    }
-
-    @AfterAll
-    static void speakAgain() {
-        Configurator.setLevel("io.furrow.connect.journal", Level.ERROR);
-    }
-
     @BeforeEach
     void writeARecordForEachNumber() throws Exception {
-        folder = Files.createDirectory(parent.resolve("0-journal"));
-        try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
+        try (Journal journal = open()) {
             for (int i = 0; i < RECORDS; i++) {
-                JournalTest.append(journal, text(i));
+                append(journal, text(i));
             }
         }
     }
@@ -75,10 +56,8 @@ class JournalDamageTest {
 
         for (int length = begin; length < end; length++) {
             Files.write(last, Arrays.copyOf(whole, length));
-            try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
-                assertThat(JournalTest.read(journal.reader(0)))
-                        .as("cut at %d", length)
-                        .isEqualTo(expected(0, RECORDS - 1));
+            try (Journal journal = open()) {
+                assertThat(read(journal.reader(0))).as("cut at %d", length).isEqualTo(expected(0, RECORDS - 1));
                 assertThat(journal.damages())
                         .as("cut at %d", length)
                         .extracting(Corruption::kind)
@@ -98,10 +77,8 @@ class JournalDamageTest {
             byte[] torn = whole.clone();
             Arrays.fill(torn, written, end, (byte) 0);
             Files.write(last, torn);
-            try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
-                assertThat(JournalTest.read(journal.reader(0)))
-                        .as("written to %d", written)
-                        .isEqualTo(expected(0, RECORDS - 1));
+            try (Journal journal = open()) {
+                assertThat(read(journal.reader(0))).as("written to %d", written).isEqualTo(expected(0, RECORDS - 1));
                 boolean anything = written > begin && !onlyZeros(torn, begin, end);
                 assertThat(journal.damages().isEmpty()).isEqualTo(!anything);
                 assertThat(journal.lostRecords()).isZero();
@@ -114,14 +91,14 @@ class JournalDamageTest {
         Path last = segments().get(segments().size() - 1);
         overwrite(last, endOfRecords(last) - 5, (byte) 0x55);
 
-        try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
+        try (Journal journal = open()) {
             assertThat(journal.end()).isEqualTo(RECORDS - 1);
-            JournalTest.append(journal, "instead");
+            append(journal, "instead");
         }
-        try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
+        try (Journal journal = open()) {
             List<String> all = expected(0, RECORDS - 1);
             all.add(RECORDS - 1 + " instead");
-            assertThat(JournalTest.read(journal.reader(0))).isEqualTo(all);
+            assertThat(read(journal.reader(0))).isEqualTo(all);
             assertThat(journal.damages()).isEmpty();
         }
     }
@@ -148,9 +125,9 @@ class JournalDamageTest {
     }
 
     private void assertAtMostOneIsMissingAndItIsSaid(String where) throws Exception {
-        try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
+        try (Journal journal = open()) {
             JournalReader reader = journal.reader(0);
-            List<String> found = JournalTest.read(reader);
+            List<String> found = read(reader);
             List<String> missing = new ArrayList<>(expected(0, RECORDS));
             assertThat(missing).as(where).containsAll(found);
             missing.removeAll(found);
@@ -171,9 +148,9 @@ class JournalDamageTest {
             file.seek(1000);
             file.write(new byte[1500]);
         }
-        try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
+        try (Journal journal = open()) {
             JournalReader reader = journal.reader(0);
-            List<String> found = JournalTest.read(reader);
+            List<String> found = read(reader);
             assertThat(expected(0, RECORDS)).containsAll(found);
             assertThat(reader.lost()).isEqualTo(RECORDS - found.size()).isBetween(3L, 30L);
             assertThat(journal.lostRecords()).isEqualTo(reader.lost());
@@ -190,10 +167,10 @@ class JournalDamageTest {
         long to = SegmentFormat.baseOf(segments.get(2).getFileName().toString()).orElseThrow();
         Files.delete(segments.get(1));
 
-        try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
+        try (Journal journal = open()) {
             List<String> all = expected(0, (int) from);
             all.addAll(expected((int) to, RECORDS));
-            assertThat(JournalTest.read(journal.reader(0))).isEqualTo(all);
+            assertThat(read(journal.reader(0))).isEqualTo(all);
             assertThat(journal.damages()).singleElement().satisfies(damage -> {
                 assertThat(damage.kind()).isEqualTo(Corruption.Kind.MISSING);
                 assertThat(damage.sequence()).isEqualTo(from);
@@ -208,9 +185,9 @@ class JournalDamageTest {
         try (RandomAccessFile file = new RandomAccessFile(second.toFile(), "rw")) {
             file.setLength(1500);
         }
-        try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
+        try (Journal journal = open()) {
             JournalReader reader = journal.reader(0);
-            List<String> found = JournalTest.read(reader);
+            List<String> found = read(reader);
             assertThat(reader.lost()).isEqualTo(RECORDS - found.size()).isPositive();
             assertThat(journal.damages()).extracting(Corruption::kind).contains(Corruption.Kind.TRUNCATED);
         }
@@ -221,8 +198,8 @@ class JournalDamageTest {
         Path second = segments().get(1);
         flip(second, 20, 3);
 
-        try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
-            assertThat(JournalTest.read(journal.reader(0))).isEqualTo(expected(0, RECORDS));
+        try (Journal journal = open()) {
+            assertThat(read(journal.reader(0))).isEqualTo(expected(0, RECORDS));
             assertThat(journal.damages())
                     .extracting(Corruption::kind, Corruption::records)
                     .contains(tuple(Corruption.Kind.CORRUPT, 0L));
@@ -230,8 +207,8 @@ class JournalDamageTest {
     }
 
     private List<String> readAll() throws Exception {
-        try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
-            return JournalTest.read(journal.reader(0));
+        try (Journal journal = open()) {
+            return read(journal.reader(0));
         }
     }
 
@@ -275,10 +252,11 @@ class JournalDamageTest {
     }
 
     private List<Path> segments() throws IOException {
-        try (Stream<Path> files = Files.list(folder)) {
-            return files.filter(file -> file.toString().endsWith(".segment"))
-                    .sorted()
-                    .toList();
-        }
+        return Folders.list(folder).stream().filter(file -> file.toString().endsWith(".segment"))
+                .toList();
+    }
+
+    private Journal open() {
+        return Journal.open(folder, SMALL).orElseThrow();
     }
 }

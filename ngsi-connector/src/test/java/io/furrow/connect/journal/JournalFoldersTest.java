@@ -10,6 +10,7 @@ import java.util.concurrent.atomic.AtomicBoolean;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import static io.furrow.connect.journal.JournalTest.append;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class JournalFoldersTest {
@@ -23,7 +24,7 @@ class JournalFoldersTest {
         String first;
         try (Journal journal = folders("farm").take(0)) {
             first = journal.id();
-            JournalTest.append(journal, "kept");
+            append(journal, "kept");
             try (Journal other = folders("farm").take(1)) {
                 assertThat(other.id()).startsWith("1-");
             }
@@ -47,7 +48,7 @@ class JournalFoldersTest {
         String left;
         try (Journal journal = folders("farm").take(3)) {
             left = journal.id();
-            JournalTest.append(journal, "left");
+            append(journal, "left");
         }
         folders("other").take(0).close();
         try (Journal own = folders("farm").take(0)) {
@@ -72,7 +73,7 @@ class JournalFoldersTest {
         try {
             for (int i = 0; i < 100; i++) {
                 try (Journal journal = folders("farm").take(0)) {
-                    JournalTest.append(journal, "confirmed");
+                    append(journal, "confirmed");
                     assertThat(journal.folder()).isDirectoryContaining("regex:.*\\d{19}.*");
                 }
             }
@@ -94,9 +95,9 @@ class JournalFoldersTest {
     @Test
     void listsWhatNobodyHasOpenAndHoldsSomething() throws Exception {
         try (Journal open = folders("farm").take(0)) {
-            JournalTest.append(open, "in use");
+            append(open, "in use");
             try (Journal gone = folders("gone farm/1").take(0)) {
-                JournalTest.append(gone, "left");
+                append(gone, "left");
             }
             folders("empty").take(0).close();
 
@@ -113,7 +114,7 @@ class JournalFoldersTest {
         String id;
         try (Journal journal = folders("farm").take(0)) {
             id = journal.id();
-            JournalTest.append(journal, "left");
+            append(journal, "left");
         }
         AtomicBoolean ended = new AtomicBoolean();
         CompletableFuture<Void> looking = CompletableFuture.runAsync(() -> {

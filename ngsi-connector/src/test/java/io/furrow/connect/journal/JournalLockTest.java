@@ -1,10 +1,11 @@
 package io.furrow.connect.journal;
 
 import java.nio.file.Path;
-import java.util.List;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.process.TestProcess;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -26,16 +27,7 @@ class JournalLockTest {
     }
 
     private String anotherProcess() throws Exception {
-        Process process = new ProcessBuilder(
-                        Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                        "-cp",
-                        System.getProperty("java.class.path"),
-                        JournalOpener.class.getName(),
-                        folder.toString())
-                .redirectError(ProcessBuilder.Redirect.INHERIT)
-                .start();
-        List<String> lines =
-                new String(process.getInputStream().readAllBytes()).lines().toList();
-        return lines.get(lines.size() - 1);
+        String output = TestProcess.run(TestProcess.java("-Xmx64m", JournalOpener.class, folder)).output();
+        return output.strip().lines().reduce((first, second) -> second).orElseThrow();
     }
 }

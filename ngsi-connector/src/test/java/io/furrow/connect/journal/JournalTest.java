@@ -1,7 +1,6 @@
 package io.furrow.connect.journal;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -16,6 +15,9 @@ import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.files.Folders;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -23,13 +25,10 @@ import static org.awaitility.Awaitility.await;
 class JournalTest {
     private static final JournalSettings SMALL = new JournalSettings(64 * 1024, 4 * 1024, 8 * 1024, 0);
 
-    @TempDir
-    private Path parent;
-
     private Path folder;
 
     @BeforeEach
-    void makeFolder() throws IOException {
+    void makeFolder(@TempDir Path parent) throws IOException {
         folder = Files.createDirectory(parent.resolve("0-journal"));
     }
 
@@ -280,20 +279,16 @@ class JournalTest {
     }
 
     static List<byte[]> payloads(String... texts) {
-        return Stream.of(texts)
-                .map(text -> text.getBytes(StandardCharsets.UTF_8))
-                .toList();
+        return Stream.of(texts).map(text -> text.getBytes(UTF_8)).toList();
     }
 
     static List<String> read(JournalReader reader) throws InterruptedException {
         return reader.read(100_000, Long.MAX_VALUE, Duration.ZERO).stream()
-                .map(record -> record.sequence() + " " + new String(record.payload(), StandardCharsets.UTF_8))
+                .map(record -> record.sequence() + " " + new String(record.payload(), UTF_8))
                 .toList();
     }
 
     private List<Path> segmentFiles() throws IOException {
-        try (Stream<Path> files = Files.list(folder)) {
-            return files.filter(file -> file.toString().endsWith(".segment")).toList();
-        }
+        return Folders.list(folder).stream().filter(file -> file.toString().endsWith(".segment")).toList();
     }
 }

@@ -1,7 +1,6 @@
 package io.furrow.connect.ledger;
 
 import java.lang.management.ManagementFactory;
-import java.nio.charset.StandardCharsets;
 import javax.management.AttributeNotFoundException;
 import javax.management.InstanceNotFoundException;
 import javax.management.MBeanServer;
@@ -10,6 +9,7 @@ import javax.management.ObjectName;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -32,7 +32,7 @@ class LedgerTest {
         ledger.rejectedUnavailable.add(3);
         ledger.gauge("pendingBytes", "Bytes that wait", () -> 7);
 
-        String page = new String(new PrometheusPage(ledger, "a \"b\"", 2).write(), StandardCharsets.UTF_8);
+        String page = new String(new PrometheusPage(ledger, "a \"b\"", 2).write(), UTF_8);
 
         assertThat(page)
                 .contains("# TYPE furrow_ngsi_source_rejected_unavailable_total counter\n")

@@ -1,7 +1,6 @@
 package io.furrow.connect.repair;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardOpenOption;
@@ -11,6 +10,7 @@ import java.util.Set;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -54,8 +54,7 @@ class EntityIdSetTest {
 
     @Test
     void keepsLineBreaksAndBackslashesOfAnId() throws IOException {
-        Set<String> strange =
-                Set.of("|/|T|one\n+|/|T|two", "|/|T|a\r\nb", "|/|T|\\n", "|/|T|100%0A\r", "|/|T|\"\ud800%u");
+        var strange = Set.of("|/|T|one\n+|/|T|two", "|/|T|a\r\nb", "|/|T|\\n", "|/|T|100%0A\r", "|/|T|\"\ud800%u");
         try (EntityIdSet known = EntityIdSet.open(folder.resolve("known"), 1 << 20)) {
             for (String identity : strange) {
                 known.add(identity);
@@ -202,7 +201,7 @@ class EntityIdSetTest {
         watermark.advanceTo(time.minusSeconds(1));
 
         assertThat(Watermark.open(file).time()).contains(time);
-        Files.write(file, "no time".getBytes(StandardCharsets.UTF_8));
+        Files.write(file, "no time".getBytes(UTF_8));
         assertThat(Watermark.open(file).time()).isEmpty();
     }
 

@@ -2,14 +2,12 @@ package io.furrow.connect.repair;
 
 import java.io.IOException;
 import java.net.URLEncoder;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
 import java.util.Optional;
-import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
@@ -22,10 +20,13 @@ import io.furrow.connect.repair.KeysetReader.Page;
 import io.furrow.connect.source.FuzzOutput;
 import io.furrow.connect.subscription.NotificationContent;
 import io.furrow.connect.subscription.Subject;
+import io.furrow.files.Folders;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * What a fuzzer throws at the reading of a repair: the answers of a {@link Script} to what it asks of a context broker. Whatever
@@ -46,7 +47,7 @@ public final class FuzzPages {
 
     /** Called by the fuzzer first: loading classes takes long on a busy machine, and no input hangs because of it. */
     public static void fuzzerInitialize() throws IOException, InterruptedException {
-        fuzzerTestOneInput("0[{\"id\": \"a\"}]".getBytes(StandardCharsets.UTF_8));
+        fuzzerTestOneInput("0[{\"id\": \"a\"}]".getBytes(UTF_8));
     }
 
     /** The answers to one repair; throws whatever is wrong. */
@@ -56,12 +57,7 @@ public final class FuzzPages {
         try {
             repair(input, folder);
         } finally {
-            try (Stream<Path> files = Files.walk(folder)) {
-                for (Path file :
-                        files.sorted(java.util.Comparator.reverseOrder()).toList()) {
-                    Files.delete(file);
-                }
-            }
+            Folders.delete(folder);
         }
     }
 
@@ -120,8 +116,7 @@ public final class FuzzPages {
         for (String id : output.deleted) {
             require(
                     broker.exchanges().stream()
-                            .filter(exchange -> exchange.path()
-                                    .contains("id=" + URLEncoder.encode(id, StandardCharsets.UTF_8) + "&"))
+                            .filter(exchange -> exchange.path().contains("id=" + URLEncoder.encode(id, UTF_8) + "&"))
                             .anyMatch(exchange -> shown(exchange)
                                     .filter(list -> !list.findValuesAsText("id").stream()
                                             .map(FuzzPages::printable)
@@ -144,7 +139,7 @@ public final class FuzzPages {
 
     /** As it is after a way through UTF-8. */
     private static String printable(String text) {
-        return new String(text.getBytes(StandardCharsets.UTF_8), StandardCharsets.UTF_8);
+        return new String(text.getBytes(UTF_8), UTF_8);
     }
 
     /** The list of entities in a success; empty if there is none. */

@@ -1,7 +1,6 @@
 package io.furrow.connect.repair;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Instant;
@@ -14,6 +13,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.connect.repair.LateRecords.Late;
 
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class LateRecordsTest {
@@ -58,7 +58,7 @@ class LateRecordsTest {
     @ParameterizedTest
     @ValueSource(strings = {"yesterday", "", "\u00ff\u0000"})
     void readsAllAgainWhereItsFileIsUnreadable(String damaged) throws IOException {
-        Files.write(folder.resolve("late"), damaged.getBytes(StandardCharsets.ISO_8859_1));
+        Files.write(folder.resolve("late"), damaged.getBytes(ISO_8859_1));
 
         open();
 

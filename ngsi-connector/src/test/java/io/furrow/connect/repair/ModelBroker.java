@@ -2,7 +2,6 @@ package io.furrow.connect.repair;
 
 import java.net.URLDecoder;
 import java.net.http.HttpHeaders;
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.time.ZoneOffset;
 import java.time.format.DateTimeFormatter;
@@ -23,6 +22,8 @@ import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.broker.ResponseHeaders;
 import io.furrow.model.ngsi.NgsiJson;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * A context broker in memory with one subscription, as far as a repair sees it: it counts what it begins to send, keeps what it
@@ -163,9 +164,7 @@ final class ModelBroker implements Function<BrokerRequest, Outcome> {
         Map<String, String> query = new HashMap<>();
         for (String parameter : path.substring(path.indexOf('?') + 1).split("&")) {
             int equals = parameter.indexOf('=');
-            query.put(
-                    parameter.substring(0, equals),
-                    URLDecoder.decode(parameter.substring(equals + 1), StandardCharsets.UTF_8));
+            query.put(parameter.substring(0, equals), URLDecoder.decode(parameter.substring(equals + 1), UTF_8));
         }
         return done(NgsiJson.write(page(query)));
     }
@@ -246,7 +245,7 @@ final class ModelBroker implements Function<BrokerRequest, Outcome> {
     }
 
     private Outcome done(String json) {
-        return done(json.getBytes(StandardCharsets.UTF_8));
+        return done(json.getBytes(UTF_8));
     }
 
     private Outcome done(byte[] json) {

@@ -2,10 +2,6 @@ package io.furrow.connect.repair;
 
 import java.io.IOException;
 import java.io.OutputStream;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
-import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.time.Instant;
@@ -17,7 +13,6 @@ import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 import com.sun.net.httpserver.HttpExchange;
-import com.sun.net.httpserver.HttpServer;
 
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.BrokerSettings;
@@ -32,6 +27,9 @@ import io.furrow.connect.subscription.Subject;
 import io.furrow.connect.subscription.Target;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.stub.StubServer;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** A process of its own that repairs from a context broker with large entities, and is sent many ids, on a small heap. */
 final class PressedRepair {
@@ -49,12 +47,9 @@ final class PressedRepair {
 
     /** @param args a folder */
     public static void main(String[] args) throws Exception {
-        HttpServer server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        server.createContext("/", PressedRepair::answer);
-        server.start();
-        BrokerClient client = new BrokerClient(BrokerSettings.of(
-                        URI.create("http://127.0.0.1:" + server.getAddress().getPort()), Duration.ofSeconds(60))
-                .withMaxAnswerBytes(16L * MIB));
+        StubServer server = new StubServer(PressedRepair::answer);
+        BrokerClient client = new BrokerClient(
+                BrokerSettings.of(server.uri(""), Duration.ofSeconds(60)).withMaxAnswerBytes(16L * MIB));
         RecordTracker live = new RecordTracker(BOUND);
         int[] counts = new int[2];
         RepairOutput output = new RepairOutput() {
@@ -98,7 +93,7 @@ final class PressedRepair {
             System.out.printf(
                     "known %d arrived %d%n", reconciler.knownEntities(), live.arrivedOf("ffffffffffffffffffffffff"));
         }
-        server.stop(0);
+        server.close();
     }
 
     private static void note(RecordTracker live, SubscriptionReconciler reconciler, String id) throws IOException {
@@ -139,7 +134,7 @@ final class PressedRepair {
         int limit = IMAGES + 2;
         Matcher from = FROM.matcher(path);
         if (from.find()) {
-            Instant time = Instant.parse(java.net.URLDecoder.decode(from.group(1), StandardCharsets.UTF_8));
+            Instant time = Instant.parse(java.net.URLDecoder.decode(from.group(1), UTF_8));
             first = (int) Math.max(0, Duration.between(T, time).toMillis());
         }
         Matcher number = NUMBER.matcher(path);
@@ -157,7 +152,7 @@ final class PressedRepair {
             limit = 1;
         }
         for (int i = first; i < Math.min(first + limit, IMAGES + 2); i++) {
-            body.write((i > first ? "," : "").getBytes(StandardCharsets.UTF_8));
+            body.write((i > first ? "," : "").getBytes(UTF_8));
             entity(i, path.contains("attrs=*"), body);
         }
     }
@@ -166,17 +161,17 @@ final class PressedRepair {
         String date = "{\"type\": \"DateTime\", \"value\": \"" + T.plusMillis(number) + "\", \"metadata\": {}}";
         String head = "{\"id\": \"e%d\", \"type\": \"Camera\", \"dateModified\": %s, \"dateCreated\": %s"
                 .formatted(number, date, date);
-        body.write(head.getBytes(StandardCharsets.UTF_8));
+        body.write(head.getBytes(UTF_8));
         if (whole) {
             boolean isList = number == IMAGES + 1;
             int bytes = number == IMAGES ? 9 * MIB : isList ? 4 * MIB : MIB;
             body.write((", \"v\": {\"type\": \"Text\", \"metadata\": {}, \"value\": " + (isList ? "[" : "\""))
-                    .getBytes(StandardCharsets.UTF_8));
-            byte[] part = (isList ? "[],".repeat(1000) : "iVBORw0KGgo=".repeat(100)).getBytes(StandardCharsets.UTF_8);
+                    .getBytes(UTF_8));
+            byte[] part = (isList ? "[],".repeat(1000) : "iVBORw0KGgo=".repeat(100)).getBytes(UTF_8);
             for (int written = 0; written < bytes; written += part.length) {
                 body.write(part);
             }
-            body.write((isList ? "0]}" : "\"}").getBytes(StandardCharsets.UTF_8));
+            body.write((isList ? "0]}" : "\"}").getBytes(UTF_8));
         }
         body.write('}');
     }

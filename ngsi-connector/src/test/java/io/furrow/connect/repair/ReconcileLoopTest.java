@@ -1,7 +1,6 @@
 package io.furrow.connect.repair;
 
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
@@ -35,6 +34,7 @@ import io.furrow.fiware.FiwareSettings;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -298,7 +298,7 @@ class ReconcileLoopTest {
                 var gone = ((MissedChange.Deleted) finding).deletion();
                 text = gone.scope().servicePath() + " " + gone.entityId() + " deleted";
             }
-            return text.getBytes(StandardCharsets.UTF_8);
+            return text.getBytes(UTF_8);
         }
 
         @Override
@@ -306,7 +306,7 @@ class ReconcileLoopTest {
             if (!room) {
                 return Optional.empty();
             }
-            records.forEach(record -> emitted.add(new String(record, StandardCharsets.UTF_8)));
+            records.forEach(record -> emitted.add(new String(record, UTF_8)));
             return Optional.of(CompletableFuture.completedFuture(null));
         }
     }

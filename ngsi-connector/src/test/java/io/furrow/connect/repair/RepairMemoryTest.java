@@ -1,12 +1,12 @@
 package io.furrow.connect.repair;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
-import java.util.concurrent.TimeUnit;
 
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.process.TestProcess;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -15,25 +15,12 @@ class RepairMemoryTest {
     /** A page of 60 MiB, an entity that takes 300 MiB when it is read, 400,000 entities and as many forged subscriptions. */
     @Test
     void staysWithinItsBoundsOnASmallHeap(@TempDir Path directory) throws Exception {
-        Process repair = new ProcessBuilder(
-                        Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                        "-Xmx128m",
-                        "-XX:+ExitOnOutOfMemoryError",
-                        "-cp",
-                        System.getProperty("java.class.path"),
-                        PressedRepair.class.getName(),
-                        directory.toString())
-                .redirectErrorStream(true)
-                .start();
-        try {
-            String out = new String(repair.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+        TestProcess.Ended repair = TestProcess.run(
+                TestProcess.java("-Xmx128m -XX:+ExitOnOutOfMemoryError", PressedRepair.class, directory));
 
-            assertThat(repair.waitFor()).as(out).isZero();
-            assertThat(out)
-                    .contains("repaired " + PressedRepair.IMAGES + " dead 2")
-                    .contains("known 0 arrived 1");
-        } finally {
-            repair.destroyForcibly().waitFor(10, TimeUnit.SECONDS);
-        }
+        assertThat(repair.status()).as(repair.output()).isZero();
+        assertThat(repair.output())
+                .contains("repaired " + PressedRepair.IMAGES + " dead 2")
+                .contains("known 0 arrived 1");
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.connect.repair;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.time.Instant;
@@ -20,14 +19,12 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class RepairPublisherTest {
     private static final Instant T = Instant.parse("2026-11-21T12:00:00Z");
-
-    @TempDir
-    private Path folder;
 
     private final RecordTracker live = new RecordTracker(1 << 20);
     private final List<String> emitted = new ArrayList<>();
@@ -35,7 +32,7 @@ class RepairPublisherTest {
     private int refusals;
 
     @BeforeEach
-    void open() throws Exception {
+    void open(@TempDir Path folder) throws Exception {
         known = EntityIdSet.open(folder.resolve("known"), 1 << 20);
     }
 
@@ -110,7 +107,7 @@ class RepairPublisherTest {
             @Override
             public byte[] serialize(String subscription, MissedChange finding) {
                 assertThat(Thread.holdsLock(live)).isFalse();
-                return EntityKeys.id(finding.identity()).getBytes(StandardCharsets.UTF_8);
+                return EntityKeys.id(finding.identity()).getBytes(UTF_8);
             }
 
             @Override
@@ -120,7 +117,7 @@ class RepairPublisherTest {
                     return Optional.empty();
                 }
                 assertThat(records).hasSizeLessThanOrEqualTo(100);
-                records.forEach(record -> emitted.add(new String(record, StandardCharsets.UTF_8)));
+                records.forEach(record -> emitted.add(new String(record, UTF_8)));
                 return Optional.of(durable);
             }
         };

@@ -1,40 +1,25 @@
 package io.furrow.connect.sink;
 
-import java.util.ArrayList;
-import java.util.HashMap;
 import java.util.List;
-import java.util.Map;
+import java.util.stream.IntStream;
 
-import org.apache.kafka.common.record.TimestampType;
 import org.apache.kafka.connect.sink.SinkRecord;
-import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.connect.sink.FakeContextBroker.Reply;
-import io.furrow.model.ngsi.Entity;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Deletions go to the context broker in batches; those of a batch are deleted, absent or refused each for itself. */
-class DeletionsTest {
+class DeletionsTest extends SinkFixture {
     private static final int MANY = 250;
-
-    private final FakeContextBroker broker = new FakeContextBroker();
-    private final FakeSinkContext context = new FakeSinkContext(true);
-    private NgsiSinkTask task;
-
-    @AfterEach
-    void stop() {
-        task.stop();
-        broker.close();
-    }
 
     @ParameterizedTest
     @ValueSource(strings = {"ngsi-v2", "ngsi-ld"})
     void goInBatches(String api) {
-        start(api);
+        startOf(api);
         task.put(entities());
         broker.requests.clear();
 
@@ -50,7 +35,7 @@ class DeletionsTest {
     @ParameterizedTest
     @ValueSource(strings = {"ngsi-v2", "ngsi-ld"})
     void countEntitiesThatAreGoneAlreadyAsDeleted(String api) {
-        start(api);
+        startOf(api);
         task.put(entities());
         broker.entities.keySet().removeIf(id -> id.endsWith("7"));
         broker.requests.clear();
@@ -65,7 +50,7 @@ class DeletionsTest {
     @ParameterizedTest
     @ValueSource(strings = {"ngsi-v2", "ngsi-ld"})
     void needNoRequestForEachEntityWhenAllAreGone(String api) {
-        start(api);
+        startOf(api);
 
         task.put(deletions());
 
@@ -76,7 +61,7 @@ class DeletionsTest {
     @ParameterizedTest
     @ValueSource(strings = {"ngsi-v2", "ngsi-ld"})
     void setTheOneAsideThatIsRefused(String api) {
-        start(api);
+        startOf(api);
         task.put(entities());
         broker.behaviour =
                 update -> (update.path() + update.body()).replace("%3A", ":").contains("urn:x:77\"")
@@ -96,7 +81,7 @@ class DeletionsTest {
     /** The id is all that one deletion needs. */
     @Test
     void goAloneWhereThereIsOne() {
-        start("ngsi-v2");
+        startOf("ngsi-v2");
 
         task.put(deletions().subList(0, 1));
 
@@ -105,18 +90,8 @@ class DeletionsTest {
                 .satisfies(request -> assertThat(request.method()).isEqualTo("DELETE"));
     }
 
-    private void start(String api) {
-        task = new NgsiSinkTask();
-        task.initialize(context);
-        task.start(new HashMap<>(Map.of(
-                "context.broker.url",
-                broker.url().toString(),
-                "api",
-                api,
-                "parallel.requests",
-                "1",
-                "delete.on.null",
-                "true")));
+    private void startOf(String api) {
+        start("api", api, "parallel.requests", "1", "delete.on.null", "true");
     }
 
     private static List<SinkRecord> entities() {
@@ -128,13 +103,9 @@ class DeletionsTest {
     }
 
     private static List<SinkRecord> records(long time, boolean withValue) {
-        List<SinkRecord> records = new ArrayList<>();
-        for (int i = 0; i < MANY; i++) {
-            String id = "urn:x:" + i;
-            byte[] value =
-                    withValue ? Entity.builder(id, "T").integer("x", i).build().toBytes() : null;
-            records.add(new SinkRecord("t", 0, null, id, null, value, i, time, TimestampType.CREATE_TIME));
-        }
-        return records;
+        return IntStream.range(0, MANY)
+                .mapToObj(i -> "urn:x:" + i)
+                .map(id -> record(id, withValue ? entity(id, "x", 1) : null, time))
+                .toList();
     }
 }

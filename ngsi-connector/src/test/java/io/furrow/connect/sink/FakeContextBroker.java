@@ -2,7 +2,6 @@ package io.furrow.connect.sink;
 
 import java.io.IOException;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -27,6 +26,8 @@ import org.eclipse.jetty.util.component.LifeCycle;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * A context broker over real HTTP that keeps the last value of each attribute, by id: batch updates, queries and deletions of
@@ -100,12 +101,10 @@ final class FakeContextBroker implements AutoCloseable {
     }
 
     private Reply take(Request request) throws IOException {
-        String body = Content.Source.asString(request, StandardCharsets.UTF_8);
+        String body = Content.Source.asString(request, UTF_8);
         String path = request.getHttpURI().getPathQuery();
         try {
-            JsonNode json = body.isEmpty()
-                    ? NgsiJson.mapper().missingNode()
-                    : NgsiJson.read(body.getBytes(StandardCharsets.UTF_8));
+            JsonNode json = body.isEmpty() ? NgsiJson.mapper().missingNode() : NgsiJson.read(body.getBytes(UTF_8));
             if (path.startsWith("/v2/op/query")) {
                 queries.incrementAndGet();
                 return found(json.path("entities").findValuesAsText("id"));

@@ -1,6 +1,5 @@
 package io.furrow.connect.sink;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.Date;
 import java.util.Map;
@@ -23,6 +22,7 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -53,7 +53,7 @@ class HeaderConvertersTest {
                 Date.from(EVENT),
                 EVENT.toString(),
                 "2026-01-01T01:00:00.5+01:00",
-                EVENT.toString().getBytes(StandardCharsets.UTF_8),
+                EVENT.toString().getBytes(UTF_8),
                 EVENT.toEpochMilli(),
                 Long.toString(EVENT.toEpochMilli()));
     }

@@ -1,48 +1,31 @@
 package io.furrow.connect.sink;
 
 import java.util.ArrayList;
-import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.stream.IntStream;
 
-import org.apache.kafka.common.record.TimestampType;
 import org.apache.kafka.connect.errors.RetriableException;
 import org.apache.kafka.connect.sink.SinkRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.sink.FakeContextBroker.Reply;
-import io.furrow.model.ngsi.Entity;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 /** One entity that makes the context broker answer 500 stops no other, and a context broker that is broken refuses none. */
-class IsolationTest {
-    private final FakeContextBroker broker = new FakeContextBroker();
-    private final FakeSinkContext context = new FakeSinkContext(true);
-    private final Map<String, String> options = new HashMap<>(Map.of(
-            "context.broker.url",
-            broker.url().toString(),
-            "delete.on.null",
-            "true",
-            "retry.isolate.after",
-            "3",
-            "retry.refuse.after",
-            "6"));
-    private NgsiSinkTask task;
-
-    @AfterEach
-    void stop() {
-        task.stop();
-        broker.close();
+class IsolationTest extends SinkFixture {
+    @BeforeEach
+    void setTries() {
+        options.putAll(Map.of("delete.on.null", "true", "retry.isolate.after", "3", "retry.refuse.after", "6"));
     }
 
     @Test
     void setsTheOneEntityOfAHundredAsideAndWritesTheOthers() {
         start();
-        poison("\"e77\"", 500);
+        poison("\"e77\"", 500, "out of order");
         List<SinkRecord> records = records(0, 100);
 
         putAgainAndAgain(records, 2);
@@ -58,7 +41,7 @@ class IsolationTest {
     @Test
     void knowsAnEntityAgainThatDrewA500() {
         start();
-        poison("\"e7\"", 500);
+        poison("\"e7\"", 500, "out of order");
         List<SinkRecord> first = records(0, 10);
         putAgainAndAgain(first, 2);
         task.put(first);
@@ -74,8 +57,8 @@ class IsolationTest {
     @Test
     void triesTheRecordsOfThatEntityOneByOne() {
         start();
-        poison("\"bad\"", 500);
-        List<SinkRecord> records = List.of(record("a", "bad", 1), record("a", "x", 2));
+        poison("\"bad\"", 500, "out of order");
+        List<SinkRecord> records = List.of(record("a", "bad", 1, 1), record("a", "x", 2, 2));
 
         putAgainAndAgain(records, 2);
         task.put(records);
@@ -88,9 +71,8 @@ class IsolationTest {
 
     @Test
     void refusesNothingWhileTheContextBrokerAnswersEverythingSo() {
-        options.put("retry.refuse.after", "0");
-        start();
-        poison("", 500);
+        start("retry.refuse.after", "0");
+        poison("", 500, "out of order");
         List<SinkRecord> records = records(0, 10);
 
         putAgainAndAgain(records, 20);
@@ -103,11 +85,10 @@ class IsolationTest {
 
     @Test
     void takesADeletionOfWhatIsAbsentForNoProofThatTheContextBrokerWorks() {
-        options.put("retry.refuse.after", "0");
-        start();
-        poison("append", 500);
+        start("retry.refuse.after", "0");
+        poison("append", 500, "out of order");
         List<SinkRecord> records = records(0, 3);
-        records.add(deletion("gone", 9));
+        records.add(deletion("gone", 1_000));
 
         putAgainAndAgain(records, 10);
     }
@@ -115,7 +96,7 @@ class IsolationTest {
     @Test
     void refusesAnEntityThatIsAloneAfterSoManyTries() {
         start();
-        poison("", 500);
+        poison("", 500, "out of order");
         List<SinkRecord> records = records(0, 1);
 
         putAgainAndAgain(records, 5);
@@ -127,7 +108,7 @@ class IsolationTest {
     @Test
     void takesNothingApartForAContextBrokerThatIsOverloaded() {
         start();
-        poison("\"e7\"", 503);
+        poison("\"e7\"", 503, "out of order");
 
         putAgainAndAgain(records(0, 10), 10);
 
@@ -138,9 +119,8 @@ class IsolationTest {
 
     @Test
     void neverTakesApartWhenToldSo() {
-        options.put("retry.isolate.after", "0");
-        start();
-        poison("\"e7\"", 500);
+        start("retry.isolate.after", "0");
+        poison("\"e7\"", 500, "out of order");
 
         putAgainAndAgain(records(0, 10), 10);
 
@@ -151,9 +131,9 @@ class IsolationTest {
     void setsADeletionAsideThatDrawsA500() {
         start();
         task.put(records(0, 10));
-        poison("e7", 500);
+        poison("e7", 500, "out of order");
         List<SinkRecord> deletions =
-                IntStream.range(0, 10).mapToObj(i -> deletion("e" + i, i)).toList();
+                IntStream.range(0, 10).mapToObj(i -> deletion("e" + i, 1_000)).toList();
 
         putAgainAndAgain(deletions, 2);
         task.put(deletions);
@@ -162,17 +142,6 @@ class IsolationTest {
         assertThat(context.reported)
                 .singleElement()
                 .satisfies(reported -> assertThat(reported.record().key()).isEqualTo("e7"));
-    }
-
-    private void start() {
-        task = new NgsiSinkTask();
-        task.initialize(context);
-        task.start(options);
-    }
-
-    private void poison(String what, int status) {
-        broker.behaviour = update ->
-                (update.path() + update.body()).contains(what) ? new Reply(status, "out of order") : Reply.WRITTEN;
     }
 
     private void putAgainAndAgain(List<SinkRecord> records, int times) {
@@ -185,17 +154,8 @@ class IsolationTest {
     private static List<SinkRecord> records(int from, int to) {
         List<SinkRecord> records = new ArrayList<>();
         for (int i = from; i < to; i++) {
-            records.add(record("e" + i, "x", i));
+            records.add(record("e" + i, "x", i, i));
         }
         return records;
-    }
-
-    private static SinkRecord deletion(String id, long offset) {
-        return new SinkRecord("t", 0, null, id, null, null, offset, 1_000L, TimestampType.CREATE_TIME);
-    }
-
-    private static SinkRecord record(String id, String attribute, long time) {
-        byte[] entity = Entity.builder(id, "T").integer(attribute, time).build().toBytes();
-        return new SinkRecord("t", 0, null, id, null, entity, time, time, TimestampType.CREATE_TIME);
     }
 }

@@ -1,9 +1,6 @@
 package io.furrow.connect.sink;
 
-import java.util.ArrayList;
-import java.util.HashMap;
 import java.util.List;
-import java.util.Map;
 import java.util.concurrent.CopyOnWriteArrayList;
 
 import org.apache.kafka.common.record.TimestampType;
@@ -18,16 +15,12 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.model.ngsi.Entity;
-
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Records without keys may bring one entity to several tasks, which is worth one warning for each topic. */
-class KeylessTopicTest {
-    private final FakeContextBroker broker = new FakeContextBroker();
+class KeylessTopicTest extends SinkFixture {
     private final Warnings warnings = new Warnings();
     private final Logger logger = (Logger) LogManager.getLogger(NgsiSinkTask.class);
-    private final List<NgsiSinkTask> tasks = new ArrayList<>();
 
     @BeforeEach
     void listen() {
@@ -37,15 +30,13 @@ class KeylessTopicTest {
     }
 
     @AfterEach
-    void stop() {
-        tasks.forEach(NgsiSinkTask::stop);
+    void listenNoMore() {
         logger.removeAppender(warnings);
-        broker.close();
     }
 
     @Test
     void isWarnedOfOnceWhereThereAreSeveralTasks() {
-        NgsiSinkTask task = started("2");
+        NgsiSinkTask task = start("tasks.max", "2");
 
         task.put(List.of(record("bare", null), record("bare", null), record("keyed", "a")));
         task.put(List.of(record("bare", null)));
@@ -58,22 +49,13 @@ class KeylessTopicTest {
 
     @Test
     void doesNoHarmWhereThereIsOneTask() {
-        started("1").put(List.of(record("bare", null)));
+        start("tasks.max", "1").put(List.of(record("bare", null)));
 
         assertThat(warnings.sentences).isEmpty();
     }
 
-    private NgsiSinkTask started(String tasksMax) {
-        NgsiSinkTask task = new NgsiSinkTask();
-        task.initialize(new FakeSinkContext(true));
-        task.start(new HashMap<>(Map.of("context.broker.url", broker.url().toString(), "tasks.max", tasksMax)));
-        tasks.add(task);
-        return task;
-    }
-
     private static SinkRecord record(String topic, String key) {
-        byte[] entity = Entity.builder("a", "T").integer("x", 1).build().toBytes();
-        return new SinkRecord(topic, 0, null, key, null, entity, 0, 1L, TimestampType.CREATE_TIME);
+        return new SinkRecord(topic, 0, null, key, null, entity("a", "x", 1), 0, 1L, TimestampType.CREATE_TIME);
     }
 
     private static final class Warnings extends AbstractAppender {

@@ -1,14 +1,12 @@
 package io.furrow.connect.sink;
 
 import java.util.ArrayList;
-import java.util.HashMap;
 import java.util.List;
-import java.util.Map;
 
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.record.TimestampType;
 import org.apache.kafka.connect.sink.SinkRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -20,17 +18,10 @@ import io.furrow.model.ngsi.NgsiJson;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** What is newer by event time stays, whatever comes when. */
-class NewestValueTest {
-    private final FakeContextBroker broker = new FakeContextBroker();
-    private final Map<String, String> options =
-            new HashMap<>(Map.of("context.broker.url", broker.url().toString(), "delete.on.null", "true"));
-    private final FakeSinkContext context = new FakeSinkContext(true);
-    private NgsiSinkTask task = started();
-
-    @AfterEach
-    void stop() {
-        task.stop();
-        broker.close();
+class NewestValueTest extends SinkFixture {
+    @BeforeEach
+    void startTask() {
+        start("delete.on.null", "true");
     }
 
     @Test
@@ -145,8 +136,7 @@ class NewestValueTest {
         task.put(List.of(echo, news));
         assertThat(broker.entities).containsOnlyKeys("b");
 
-        options.put("echo.sources", "");
-        restart();
+        restart("echo.sources", "");
         task.put(List.of(echo));
         assertThat(broker.entities).containsOnlyKeys("a", "b");
     }
@@ -164,11 +154,8 @@ class NewestValueTest {
 
     @Test
     void isolatesOneOfManyInFewRequests() {
-        options.put("batch.size", "1024");
-        restart();
-        broker.behaviour = update -> update.body().toString().contains("\"e77\"")
-                ? new FakeContextBroker.Reply(400, "no")
-                : FakeContextBroker.Reply.WRITTEN;
+        restart("batch.size", "1024");
+        poison("\"e77\"", 400, "no");
         List<SinkRecord> records = new ArrayList<>();
         for (int i = 0; i < 1024; i++) {
             records.add(record("e" + i, "x", i, i));
@@ -176,15 +163,17 @@ class NewestValueTest {
 
         task.put(records);
 
-        assertThat(broker.entities).hasSize(1023);
+        assertThat(broker.entities).hasSize(1023).doesNotContainKey("e77");
         assertThat(broker.requests).hasSize(21);
+        assertThat(context.reported).singleElement().satisfies(reported -> {
+            assertThat(reported.record().key()).isEqualTo("e77");
+            assertThat(reported.cause()).hasMessageContaining("400").hasMessageContaining("no");
+        });
     }
 
     @Test
     void triesTheRecordsOfARefusedUpdateOneByOne() {
-        broker.behaviour = update -> update.body().toString().contains("\"bad\"")
-                ? new FakeContextBroker.Reply(400, "no")
-                : FakeContextBroker.Reply.WRITTEN;
+        poison("\"bad\"", 400, "no");
 
         task.put(List.of(record("a", "x", 1, 10), record("a", "bad", 2, 20), record("a", "x", 0, 5)));
 
@@ -198,10 +187,8 @@ class NewestValueTest {
     void countsEveryRecordOnceOverJmx() throws Exception {
         SinkRecord echo = record("a", "x", 1, 10);
         echo.headers().addString("ce_source", "/ngsi/1");
-        SinkRecord unreadable = new SinkRecord("t", 0, null, "a", null, "no json", 0, 1L, TimestampType.CREATE_TIME);
-        broker.behaviour = update -> update.body().toString().contains("\"bad\"")
-                ? new FakeContextBroker.Reply(400, "no")
-                : FakeContextBroker.Reply.WRITTEN;
+        SinkRecord unreadable = record("a", "no json", 1);
+        poison("\"bad\"", 400, "no");
         task.put(
                 List.of(record("a", "x", 1, 10), record("a", "y", 1, 10), record("b", "bad", 1, 10), echo, unreadable));
         task.put(List.of(record("a", "x", 0, 5), deletion("c", 5)));
@@ -229,32 +216,11 @@ class NewestValueTest {
     void keepsEntitiesOfOneIdAndTwoTypesApart() {
         task.put(List.of(
                 record("a", "x", 1, 10),
-                new SinkRecord(
-                        "t",
-                        0,
-                        null,
-                        "a",
-                        null,
-                        Entity.builder("a", "Other").integer("x", 2).build().toBytes(),
-                        0,
-                        5L,
-                        TimestampType.CREATE_TIME)));
+                record("a", Entity.builder("a", "Other").integer("x", 2).build().toBytes(), 5)));
 
         assertThat(broker.requests)
                 .singleElement()
                 .satisfies(update -> assertThat(update.size()).isEqualTo(2));
-    }
-
-    private void restart() {
-        task.stop();
-        task = started();
-    }
-
-    private NgsiSinkTask started() {
-        NgsiSinkTask started = new NgsiSinkTask();
-        started.initialize(context);
-        started.start(options);
-        return started;
     }
 
     private static com.fasterxml.jackson.databind.JsonNode json(String quoted) {
@@ -263,17 +229,5 @@ class NewestValueTest {
         } catch (java.io.IOException e) {
             throw new AssertionError(e);
         }
-    }
-
-    private static SinkRecord record(String id, String attribute, long value, long time) {
-        return new SinkRecord("t", 0, null, id, null, entity(id, attribute, value), 0, time, TimestampType.CREATE_TIME);
-    }
-
-    private static byte[] entity(String id, String attribute, long value) {
-        return Entity.builder(id, "T").integer(attribute, value).build().toBytes();
-    }
-
-    private static SinkRecord deletion(String id, long time) {
-        return new SinkRecord("t", 0, null, id, null, null, 0, time, TimestampType.CREATE_TIME);
     }
 }

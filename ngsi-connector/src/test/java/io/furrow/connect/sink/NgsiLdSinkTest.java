@@ -1,11 +1,9 @@
 package io.furrow.connect.sink;
 
 import java.util.List;
-import java.util.Map;
 
-import org.apache.kafka.common.record.TimestampType;
 import org.apache.kafka.connect.sink.SinkRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.sink.FakeContextBroker.Reply;
@@ -13,15 +11,14 @@ import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-class NgsiLdSinkTest {
-    private final FakeContextBroker broker = new FakeContextBroker();
-    private final FakeSinkContext context = new FakeSinkContext(true);
-    private NgsiSinkTask task = started();
-
-    @AfterEach
-    void stop() {
-        task.stop();
-        broker.close();
+class NgsiLdSinkTest extends SinkFixture {
+    @BeforeEach
+    void startTask() {
+        start(
+                "api", "ngsi-ld",
+                "ngsi.ld.context", "http://example.org/c.jsonld",
+                "delete.on.null", "true",
+                "fiware.service", "farm");
     }
 
     @Test
@@ -114,8 +111,7 @@ class NgsiLdSinkTest {
     void neverOverwritesWhatIsNewerAlsoAfterAStart() {
         broker.behaviour = update -> new Reply(201, "[]");
         task.put(List.of(record("7", 20)));
-        task.stop();
-        task = started();
+        restart();
         task.put(List.of(record("7", 10)));
 
         assertThat(broker.requests).hasSize(1);
@@ -125,22 +121,10 @@ class NgsiLdSinkTest {
     @Test
     void deletesByIdAndScope() {
         task.put(List.of(record("urn:x:a", 1)));
-        task.put(List.of(new SinkRecord("t", 0, null, "urn:x:a", null, null, 0, 9L, TimestampType.CREATE_TIME)));
+        task.put(List.of(deletion("urn:x:a", 9)));
 
         assertThat(broker.entities).isEmpty();
         assertThat(broker.requests.get(1).headers()).containsEntry("ngsild-tenant", "farm");
-    }
-
-    private NgsiSinkTask started() {
-        NgsiSinkTask started = new NgsiSinkTask();
-        started.initialize(context);
-        started.start(Map.of(
-                "context.broker.url", broker.url().toString(),
-                "api", "ngsi-ld",
-                "ngsi.ld.context", "http://example.org/c.jsonld",
-                "delete.on.null", "true",
-                "fiware.service", "farm"));
-        return started;
     }
 
     private static SinkRecord record(String id, long time) {
@@ -148,6 +132,6 @@ class NgsiLdSinkTest {
     }
 
     private static SinkRecord record(String id, long time, String json) {
-        return new SinkRecord("t", 0, null, id, null, json.replace('\'', '"'), 0, time, TimestampType.CREATE_TIME);
+        return record(id, json.replace('\'', '"'), time);
     }
 }

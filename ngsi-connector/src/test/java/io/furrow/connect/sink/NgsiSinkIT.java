@@ -1,6 +1,5 @@
 package io.furrow.connect.sink;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
@@ -12,8 +11,7 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
-import org.junit.jupiter.api.AfterAll;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -24,6 +22,7 @@ import io.furrow.connect.sink.FakeContextBroker.Reply;
 import io.furrow.connect.sink.FakeContextBroker.Update;
 import io.furrow.model.ngsi.Entity;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -31,22 +30,15 @@ class NgsiSinkIT {
     @TempDir
     static Path directory;
 
+    @AutoClose
     private static ConnectRig rig;
+
+    @AutoClose
     private final FakeContextBroker broker = new FakeContextBroker();
 
     @BeforeAll
     static void startWorker() {
         rig = ConnectRig.start(directory);
-    }
-
-    @AfterAll
-    static void stopWorker() {
-        rig.close();
-    }
-
-    @AfterEach
-    void stopBroker() {
-        broker.close();
     }
 
     @Test
@@ -58,7 +50,7 @@ class NgsiSinkIT {
 
         write("isolated");
 
-        await().atMost(Duration.ofSeconds(60)).until(() -> broker.entities.size() == 19);
+        await().until(() -> broker.entities.size() == 19);
         try (TopicReader dead = new TopicReader(rig.bootstrapServers(), "isolated.dead")) {
             assertThat(dead.atLeast(1))
                     .singleElement()
@@ -67,7 +59,7 @@ class NgsiSinkIT {
                             letter.headers()
                                     .lastHeader("__connect.errors.exception.message")
                                     .value(),
-                            StandardCharsets.UTF_8))
+                            UTF_8))
                     .asString()
                     .contains("forbidden characters");
         }
@@ -92,7 +84,7 @@ class NgsiSinkIT {
 
         write("retried");
 
-        await().atMost(Duration.ofSeconds(60)).until(() -> broker.entities.size() == 5);
+        await().until(() -> broker.entities.size() == 5);
         assertThat(Duration.ofNanos(tries.get(3) - tries.get(2)))
                 .as("what Retry-After asked for")
                 .isGreaterThan(Duration.ofMillis(1_900));
@@ -133,8 +125,8 @@ class NgsiSinkIT {
                 byte[] entity =
                         Entity.builder("e" + i, "T").integer("x", i).build().toBytes();
                 ProducerRecord<String, byte[]> record = new ProducerRecord<>(topic, "e" + i, entity);
-                record.headers().add("fiware-service", "agri".getBytes(StandardCharsets.UTF_8));
-                record.headers().add("fiware-servicepath", "/plot1".getBytes(StandardCharsets.UTF_8));
+                record.headers().add("fiware-service", "agri".getBytes(UTF_8));
+                record.headers().add("fiware-servicepath", "/plot1".getBytes(UTF_8));
                 producer.send(record);
             }
         }

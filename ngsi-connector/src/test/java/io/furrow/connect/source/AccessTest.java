@@ -3,7 +3,6 @@ package io.furrow.connect.source;
 import java.io.IOException;
 import java.net.InetAddress;
 import java.net.Socket;
-import java.nio.charset.StandardCharsets;
 import java.util.Map;
 
 import org.apache.kafka.common.config.ConfigException;
@@ -11,6 +10,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -41,8 +41,7 @@ class AccessTest {
 
     @Test
     void refusesOtherHostsAndPagesCountsThemAndSaysWhatToSet() throws IOException {
-        try (NotificationRig rig =
-                new NotificationRig("public.url", PUBLIC_URL, "allowed.origins", "https://map.example.org")) {
+        try (var rig = new NotificationRig("public.url", PUBLIC_URL, "allowed.origins", "https://map.example.org")) {
             assertThat(post(rig, "Host: evil.example:8090"))
                     .startsWith("HTTP/1.1 403 ")
                     .endsWith(
@@ -96,7 +95,7 @@ class AccessTest {
         return ask(
                 rig,
                 "POST " + path + " HTTP/1.1\r\nContent-Type: application/json; charset=utf-8\r\nContent-Length: "
-                        + recorded.body().getBytes(StandardCharsets.UTF_8).length + "\r\n" + headers + "\r\n",
+                        + recorded.body().getBytes(UTF_8).length + "\r\n" + headers + "\r\n",
                 recorded.body());
     }
 
@@ -107,10 +106,9 @@ class AccessTest {
     private static String ask(NotificationRig rig, String head, String body) throws IOException {
         try (Socket socket = new Socket(InetAddress.getLoopbackAddress(), rig.port())) {
             socket.setSoTimeout((int) NotificationRig.TIMEOUT.toMillis());
-            socket.getOutputStream()
-                    .write((head + "Connection: close\r\n\r\n" + body).getBytes(StandardCharsets.UTF_8));
+            socket.getOutputStream().write((head + "Connection: close\r\n\r\n" + body).getBytes(UTF_8));
             socket.getOutputStream().flush();
-            return new String(socket.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+            return new String(socket.getInputStream().readAllBytes(), UTF_8);
         }
     }
 }

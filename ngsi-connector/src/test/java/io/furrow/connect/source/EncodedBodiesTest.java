@@ -5,7 +5,6 @@ import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
 import java.util.Arrays;
 import java.util.zip.GZIPOutputStream;
 
@@ -16,6 +15,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 import io.furrow.connect.record.KafkaRecord;
 import io.furrow.model.event.DeadLetter;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class EncodedBodiesTest {
@@ -30,7 +30,7 @@ class EncodedBodiesTest {
 
             KafkaRecord record = rig.recordLog.taken.remove().get(0);
             assertThat(record.key()).isEqualTo("a");
-            assertThat(new String(record.value(), StandardCharsets.UTF_8)).contains("x".repeat(length));
+            assertThat(new String(record.value(), UTF_8)).contains("x".repeat(length));
         }
     }
 
@@ -52,7 +52,7 @@ class EncodedBodiesTest {
     @Test
     void areRefusedWhereTheyAreNoGzip() {
         try (NotificationRig rig = new NotificationRig()) {
-            HttpResponse<String> answer = post(rig, "{\"id\": \"a\"}".getBytes(StandardCharsets.UTF_8), "gzip");
+            HttpResponse<String> answer = post(rig, "{\"id\": \"a\"}".getBytes(UTF_8), "gzip");
 
             assertThat(answer.statusCode()).isEqualTo(400);
             assertThat(answer.body()).contains("gzip");
@@ -99,7 +99,7 @@ class EncodedBodiesTest {
     private static byte[] gzip(String text) {
         ByteArrayOutputStream bytes = new ByteArrayOutputStream();
         try (GZIPOutputStream out = new GZIPOutputStream(bytes)) {
-            out.write(text.getBytes(StandardCharsets.UTF_8));
+            out.write(text.getBytes(UTF_8));
         } catch (IOException e) {
             throw new UncheckedIOException(e);
         }

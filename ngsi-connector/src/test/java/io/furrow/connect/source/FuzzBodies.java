@@ -1,6 +1,5 @@
 package io.furrow.connect.source;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.Arrays;
 import java.util.List;
@@ -17,6 +16,8 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
+
 /**
  * What a fuzzer throws at the reading of bodies: the first byte picks the form that the sender names, the others are the
  * body. Whatever it is, it becomes records that every later reader can read, and the ledger's sum is right.
@@ -32,8 +33,8 @@ public final class FuzzBodies {
 
     /** Called by the fuzzer first: loading classes takes long on a busy machine, and no input hangs because of it. */
     public static void fuzzerInitialize() throws UnreadableException {
-        fuzzerTestOneInput("\0{\"id\": \"a\", \"t\": {\"value\": 1}}".getBytes(StandardCharsets.UTF_8));
-        fuzzerTestOneInput("\0no JSON".getBytes(StandardCharsets.UTF_8));
+        fuzzerTestOneInput("\0{\"id\": \"a\", \"t\": {\"value\": 1}}".getBytes(UTF_8));
+        fuzzerTestOneInput("\0no JSON".getBytes(UTF_8));
     }
 
     /** One body; throws whatever is wrong. */
@@ -68,7 +69,7 @@ public final class FuzzBodies {
             Entity entity = Entity.parse(record.value());
             require(entity.id().equals(record.key()), "the key is not the id");
             byte[] again = entity.toBytes();
-            require(Arrays.equals(again, record.value()), new String(again, StandardCharsets.UTF_8));
+            require(Arrays.equals(again, record.value()), new String(again, UTF_8));
         }
     }
 

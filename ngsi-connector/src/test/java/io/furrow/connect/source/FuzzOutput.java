@@ -1,6 +1,5 @@
 package io.furrow.connect.source;
 
-import java.nio.charset.StandardCharsets;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
@@ -16,6 +15,8 @@ import io.furrow.connect.source.journal.JournalRecordCodec;
 import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Makes the records of a repair as the source does, and says of which entities they are. Not safe for threads. */
 public final class FuzzOutput implements RepairOutput {
@@ -45,7 +46,7 @@ public final class FuzzOutput implements RepairOutput {
             throw new IllegalStateException("a record of " + record.bytes() + " bytes");
         }
         if (record.topic().equals(SETTINGS.deadLetterTopic())) {
-            told.add(new String(record.value(), StandardCharsets.UTF_8));
+            told.add(new String(record.value(), UTF_8));
         } else if (record.value() == null) {
             deleted.add(record.key());
         } else {

@@ -1,7 +1,6 @@
 package io.furrow.connect.source;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Instant;
@@ -11,7 +10,6 @@ import java.util.Map;
 import java.util.TreeMap;
 import java.util.function.UnaryOperator;
 import java.util.stream.Collectors;
-import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -22,7 +20,9 @@ import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.source.notification.ReceivedNotification;
+import io.furrow.files.Folders;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /**
@@ -36,11 +36,8 @@ class GoldenRecordsTest {
     private static final Instant RECEIVED = Instant.parse("2026-11-21T02:00:00Z");
 
     static List<Path> requests() throws IOException {
-        try (Stream<Path> files = Files.walk(RECORDED)) {
-            return files.filter(file -> file.toString().endsWith(".http"))
-                    .sorted()
-                    .toList();
-        }
+        return Folders.walk(RECORDED).stream().filter(file -> file.toString().endsWith(".http"))
+                .toList();
     }
 
     @ParameterizedTest
@@ -67,7 +64,7 @@ class GoldenRecordsTest {
                 .collect(Collectors.toMap(
                         header -> header[0].toLowerCase(Locale.ROOT), header -> header[1], (a, b) -> a, TreeMap::new));
         UnaryOperator<String> header = name -> headers.get(name.toLowerCase(Locale.ROOT));
-        byte[] body = headAndBody[1].strip().getBytes(StandardCharsets.UTF_8);
+        byte[] body = headAndBody[1].strip().getBytes(UTF_8);
         NotificationTranslator translator = new NotificationTranslator(
                 new NgsiSourceConfig(Map.of("journal.dir", "/tmp/journal")).translation(), new Ledger());
         return translator
@@ -81,7 +78,7 @@ class GoldenRecordsTest {
         json.put("timestamp", record.time().toEpochMilli());
         ObjectNode headers = json.putObject("headers");
         record.headers().forEach(headers::put);
-        json.put("value", record.value() == null ? null : new String(record.value(), StandardCharsets.UTF_8));
+        json.put("value", record.value() == null ? null : new String(record.value(), UTF_8));
         return json.toString();
     }
 }

@@ -1,11 +1,5 @@
 package io.furrow.connect.source;
 
-import java.net.URI;
-import java.net.http.HttpClient;
-import java.net.http.HttpRequest;
-import java.net.http.HttpRequest.BodyPublishers;
-import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.HashMap;
 import java.util.List;
@@ -30,6 +24,7 @@ import io.furrow.connect.TopicReader;
 import io.furrow.embedded.FreePort;
 import io.furrow.model.event.DeadLetter;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** A real topic that takes 1 MiB, and records of 2 MiB, each with a small one behind it. */
@@ -140,21 +135,15 @@ class LargeRecordsIT {
             assertThat(reader.atLeast(1)).extracting(ConsumerRecord::key).containsExactly("small");
             assertThat(dead.atLeast(1)).singleElement().satisfies(letter -> {
                 assertThat(new String(
-                                letter.headers().lastHeader(DeadLetter.REASON).value(), StandardCharsets.UTF_8))
+                                letter.headers().lastHeader(DeadLetter.REASON).value(), UTF_8))
                         .isEqualTo("too-large");
-                assertThat(new String(letter.value(), StandardCharsets.UTF_8)).startsWith("{\"id\":\"large\"");
+                assertThat(new String(letter.value(), UTF_8)).startsWith("{\"id\":\"large\"");
             });
         }
     }
 
     private static void post(SourceOnConnect source, String id, String text) throws Exception {
-        HttpRequest request = HttpRequest.newBuilder(URI.create("http://127.0.0.1:" + source.port() + "/v2/notify"))
-                .POST(BodyPublishers.ofString("{\"id\": \"" + id + "\", \"x\": \"" + text + "\"}"))
-                .build();
-        assertThat(HttpClient.newHttpClient()
-                        .send(request, HttpResponse.BodyHandlers.discarding())
-                        .statusCode())
-                .isEqualTo(200);
+        assertThat(source.post(id, "\"" + text + "\"")).isEqualTo(200);
     }
 
     private static void make(ConnectRig rig, String topic, String maxBytes) {

@@ -5,7 +5,6 @@ import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
@@ -96,7 +95,7 @@ class LedgerEquationsTest {
 
     /** Waits for a quiet moment, which is one in which the sums agree. */
     private JsonNode quiet(NgsiSourceTask task) throws Exception {
-        await().atMost(Duration.ofSeconds(60)).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             JsonNode now = health(task);
             assertThat(sum(now, "accepted", "dead", "excluded"))
                     .as("received: %s", now)

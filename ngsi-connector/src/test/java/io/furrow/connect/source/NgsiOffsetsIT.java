@@ -1,8 +1,6 @@
 package io.furrow.connect.source;
 
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -18,7 +16,7 @@ import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -27,8 +25,10 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.connect.ConnectRig;
 import io.furrow.connect.TopicReader;
 import io.furrow.embedded.FreePort;
+import io.furrow.files.Folders;
 import io.furrow.model.event.HeaderNames;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** What users of Connect do with a source that keeps a journal, on a worker that delivers exactly once. */
@@ -36,16 +36,12 @@ class NgsiOffsetsIT {
     @TempDir
     static Path directory;
 
+    @AutoClose
     private static ConnectRig rig;
 
     @BeforeAll
     static void startWorker() {
         rig = ConnectRig.start(directory, Map.of("exactly.once.source.support", "enabled"));
-    }
-
-    @AfterAll
-    static void stopWorker() {
-        rig.close();
     }
 
     @Tag("full")
@@ -290,12 +286,10 @@ class NgsiOffsetsIT {
     }
 
     private static String event(ConsumerRecord<String, byte[]> record) {
-        return new String(record.headers().lastHeader(HeaderNames.CE_ID).value(), StandardCharsets.UTF_8);
+        return new String(record.headers().lastHeader(HeaderNames.CE_ID).value(), UTF_8);
     }
 
     private static List<Path> journals(String connector) throws Exception {
-        try (Stream<Path> folders = Files.list(rig.journals().resolve(connector))) {
-            return folders.map(Path::getFileName).toList();
-        }
+        return Folders.list(rig.journals().resolve(connector)).stream().map(Path::getFileName).toList();
     }
 }

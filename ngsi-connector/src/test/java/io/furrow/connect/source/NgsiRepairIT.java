@@ -1,8 +1,6 @@
 package io.furrow.connect.source;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
@@ -11,8 +9,7 @@ import java.util.Random;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.junit.jupiter.api.AfterAll;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -27,6 +24,7 @@ import io.furrow.fiware.FiwareSettings.Connections;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -37,13 +35,14 @@ class NgsiRepairIT {
     private static final int UPDATES = 20_000;
     private static final int BATCH = 100;
     private static final int DELETED = 10;
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
 
     @TempDir
     static Path directory;
 
+    @AutoClose
     private static ConnectRig rig;
 
+    @AutoClose
     private final Broker broker = new Broker(FiwareSettings.httpOnly().withConnections(Connections.TRANSIENT), "agri");
 
     @BeforeAll
@@ -51,27 +50,16 @@ class NgsiRepairIT {
         rig = ConnectRig.start(directory);
     }
 
-    @AfterAll
-    static void stopWorker() {
-        rig.close();
-    }
-
-    @AfterEach
-    void stopBroker() {
-        broker.close();
-    }
-
     @Test
     void bringsTheLatestStateOfAllEntitiesThatChangedWhileItWasDown() {
         source("repaired", FreePort.orFree(0));
         Map<String, Integer> state = new HashMap<>();
-        List<Integer> all =
-                java.util.stream.IntStream.range(0, ENTITIES).boxed().toList();
+        var all = java.util.stream.IntStream.range(0, ENTITIES).boxed().toList();
         update(all.subList(0, ENTITIES / 2), 0, state);
         update(all.subList(ENTITIES / 2, ENTITIES), 0, state);
         try (TopicReader reader = new TopicReader(rig.bootstrapServers(), "repaired")) {
-            await().atMost(TIMEOUT).until(() -> latest(reader.atLeast(1)).equals(state));
-            await().atMost(TIMEOUT).until(() -> broker.standIn().counters().notificationsQueued() == 0);
+            await().until(() -> latest(reader.atLeast(1)).equals(state));
+            await().until(() -> broker.standIn().counters().notificationsQueued() == 0);
             rig.stop(NAME);
             long seed = changeWhileDown(state);
             assertThat(subscription().path("status").asText()).isEqualTo("inactive");
@@ -79,7 +67,7 @@ class NgsiRepairIT {
             rig.resume(NAME);
 
             List<ConsumerRecord<String, byte[]>> seen = new ArrayList<>();
-            await().atMost(TIMEOUT).untilAsserted(() -> {
+            await().untilAsserted(() -> {
                 seen.clear();
                 seen.addAll(reader.atLeast(1));
                 assertThat(latest(seen)).as("changes of seed %d", seed).isEqualTo(state);
@@ -98,9 +86,8 @@ class NgsiRepairIT {
             await().until(() -> subscription().path("status").asText().equals("active"));
 
             broker.put("/", "e77", "Probe", -1);
-            await().atMost(TIMEOUT)
-                    .until(() -> reader.atLeast(1).stream()
-                            .anyMatch(record -> record.key().equals("e77") && value(record) == -1));
+            await().until(() ->
+                    reader.atLeast(1).stream().anyMatch(record -> record.key().equals("e77") && value(record) == -1));
         }
     }
 
@@ -115,15 +102,14 @@ class NgsiRepairIT {
         int port = FreePort.orFree(0);
         source("kept", port);
 
-        await().atMost(TIMEOUT)
-                .until(() -> subscription()
-                        .at("/notification/httpCustom/url")
-                        .asText()
-                        .equals("http://127.0.0.1:" + port + "/v2/notify"));
+        await().until(() -> subscription()
+                .at("/notification/httpCustom/url")
+                .asText()
+                .equals("http://127.0.0.1:" + port + "/v2/notify"));
         assertThat(subscription().path("id").asText()).isEqualTo(id);
         broker.send("DELETE", "/v2/subscriptions/" + id, "/#", "");
         broker.put("/", "unnoticed", "Probe", 1);
-        await().atMost(TIMEOUT).until(() -> broker.subscriptions().size() == 1);
+        await().until(() -> broker.subscriptions().size() == 1);
         try (TopicReader reader = new TopicReader(rig.bootstrapServers(), "kept")) {
             assertThat(reader.atLeast(1))
                     .anySatisfy(record -> assertThat(record.key()).isEqualTo("unnoticed"));
@@ -145,7 +131,7 @@ class NgsiRepairIT {
                         "subscription.alteration.types", "entityCreate,entityChange,entityDelete",
                         "subscription.max.fails", "5",
                         "subscription.check.interval.ms", "3000"));
-        await().atMost(TIMEOUT).until(() -> !broker.subscriptions().isEmpty());
+        await().until(() -> !broker.subscriptions().isEmpty());
     }
 
     /** Answers the seed of the changes. */
@@ -154,8 +140,7 @@ class NgsiRepairIT {
         Random random = new Random(seed);
         for (int done = 0; done < UPDATES; done += BATCH) {
             int value = done;
-            List<Integer> some =
-                    random.ints(0, ENTITIES).distinct().limit(BATCH).boxed().toList();
+            var some = random.ints(0, ENTITIES).distinct().limit(BATCH).boxed().toList();
             update(some, value + 1, state);
         }
         for (int i = 0; i < DELETED; i++) {
@@ -199,6 +184,6 @@ class NgsiRepairIT {
     }
 
     private static String header(ConsumerRecord<String, byte[]> record, String name) {
-        return new String(record.headers().lastHeader(name).value(), StandardCharsets.UTF_8);
+        return new String(record.headers().lastHeader(name).value(), UTF_8);
     }
 }

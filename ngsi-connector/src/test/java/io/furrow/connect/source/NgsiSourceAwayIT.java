@@ -1,11 +1,5 @@
 package io.furrow.connect.source;
 
-import java.io.IOException;
-import java.net.URI;
-import java.net.http.HttpClient;
-import java.net.http.HttpRequest;
-import java.net.http.HttpRequest.BodyPublishers;
-import java.net.http.HttpResponse;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.Map;
@@ -23,43 +17,28 @@ import static org.awaitility.Awaitility.await;
 
 class NgsiSourceAwayIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
-    private static final int NO_ANSWER = 0;
-
-    private final HttpClient client =
-            HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
 
     @Test
     void takesNotificationsWhileKafkaIsAwayAndWritesThemWhenItIsBack(@TempDir Path directory)
             throws InterruptedException {
         int port = FreePort.orFree(0);
-        URI source = URI.create("http://127.0.0.1:" + port + "/notify");
+        SourceOnConnect source = new SourceOnConnect(port);
         try (ConnectRig rig = ConnectRig.start(directory)) {
             rig.create("ngsi-source", Map.of("listen.port", Integer.toString(port)));
-            await().atMost(TIMEOUT).until(() -> post(source, "before") == 200);
+            await().atMost(TIMEOUT).until(() -> source.post("before") == 200);
 
             rig.stopKafka();
-            int whileAway = post(source, "meanwhile");
+            int whileAway = source.post("meanwhile");
             rig.startKafka();
 
             assertThat(whileAway).isEqualTo(200);
-            await().atMost(TIMEOUT).until(() -> post(source, "after") == 200);
+            await().atMost(TIMEOUT).until(() -> source.post("after") == 200);
             try (TopicReader reader = new TopicReader(rig.bootstrapServers(), "data.raw")) {
                 await().atMost(TIMEOUT)
                         .untilAsserted(() -> assertThat(reader.atLeast(3))
                                 .extracting(ConsumerRecord::key)
                                 .contains("before", "meanwhile", "after"));
             }
-        }
-    }
-
-    private int post(URI source, String id) throws InterruptedException {
-        HttpRequest request = HttpRequest.newBuilder(source)
-                .POST(BodyPublishers.ofString("{\"id\": \"" + id + "\", \"x\": 1}"))
-                .build();
-        try {
-            return client.send(request, HttpResponse.BodyHandlers.discarding()).statusCode();
-        } catch (IOException e) {
-            return NO_ANSWER;
         }
     }
 }

@@ -63,32 +63,15 @@ class NgsiSourceConfigTest {
 
     @ParameterizedTest
     @CsvSource({
-        "listen.port, 70000",
-        "listen.host, ''",
-        "topic, data raw",
-        "dead.letter.topic, a/b",
-        "dead.letter.topic, data.raw",
-        "exclude.types, 'A,(B'",
-        "max.clock.skew.ms, 3600000",
-        "max.body.bytes, 0",
-        "max.record.bytes, 1000",
-        "journal.dir, relative/folder",
-        "journal.max.bytes, 1000",
-        "journal.min.free.bytes, -1",
-        "max.pending.bytes, 1000",
-        "overload.answer, 429",
-        "overload.hold.ms, 0",
-        "overload.memory.bytes, 1000",
-        "listen.request.timeout.ms, 4000",
-        "listen.max.connections, 0",
-        "secret.header, 'a b'",
-        "secret.previous, old",
-        "secret.file, /nowhere/secret",
-        "ssl.client.auth, required",
-        "ssl.client.auth, sometimes",
-        "ssl.truststore.location, /a",
-        "ssl.keystore.password, unused",
-        "batch.size, 0"
+        "listen.port, 70000", "listen.host, ''", "topic, data raw",
+        "dead.letter.topic, a/b", "dead.letter.topic, data.raw", "exclude.types, 'A,(B'",
+        "max.clock.skew.ms, 3600000", "max.body.bytes, 0", "max.record.bytes, 1000",
+        "journal.dir, relative/folder", "journal.max.bytes, 1000", "journal.min.free.bytes, -1",
+        "max.pending.bytes, 1000", "overload.answer, 429", "overload.hold.ms, 0",
+        "overload.memory.bytes, 1000", "listen.request.timeout.ms, 4000", "listen.max.connections, 0",
+        "secret.header, 'a b'", "secret.previous, old", "secret.file, /nowhere/secret",
+        "ssl.client.auth, required", "ssl.client.auth, sometimes", "ssl.truststore.location, /a",
+        "ssl.keystore.password, unused", "batch.size, 0"
     })
     void namesTheOptionThatCannotBeUsed(String option, String value) {
         assertThatThrownBy(() -> config(Map.of(option, value)))

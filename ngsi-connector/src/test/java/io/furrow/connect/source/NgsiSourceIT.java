@@ -5,7 +5,6 @@ import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -18,7 +17,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.header.Header;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -28,12 +27,14 @@ import io.furrow.connect.TopicReader;
 import io.furrow.embedded.FreePort;
 import io.furrow.model.event.DeadLetter;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class NgsiSourceIT {
     @TempDir
     static Path directory;
 
+    @AutoClose
     private static ConnectRig rig;
 
     private final HttpClient client =
@@ -45,21 +46,12 @@ class NgsiSourceIT {
         rig = ConnectRig.start(directory);
     }
 
-    @AfterAll
-    static void stopWorker() {
-        rig.close();
-    }
-
     @Test
     void writesEachRecordedNotificationAsTheRecordsOfTheGoldenFile() throws Exception {
         listen("golden");
-        List<String> names = List.of(
-                "keyValues-01",
-                "simplifiedNormalized-02",
-                "simplifiedKeyValues-04",
-                "normalized-05",
-                "withdates-06",
-                "onlyChanged-07");
+        List<String> names = List.of("""
+                        keyValues-01 simplifiedNormalized-02 simplifiedKeyValues-04 normalized-05 withdates-06
+                        onlyChanged-07""".split("\\s+"));
         for (String name : names) {
             assertThat(send(RecordedRequest.of(name).to(source)).statusCode())
                     .as(name)
@@ -157,7 +149,6 @@ class NgsiSourceIT {
         rig.restart("ngsi-source");
 
         org.awaitility.Awaitility.await()
-                .atMost(java.time.Duration.ofSeconds(60))
                 .ignoreExceptions()
                 .untilAsserted(() -> assertThat(health()).contains("\"requests\":0"));
         assertThat(post(bytes("{\"id\": \"after\"}")).statusCode()).isEqualTo(200);
@@ -180,10 +171,7 @@ class NgsiSourceIT {
                         "admin.override.bootstrap.servers",
                         rig.bootstrapServers()));
         source = URI.create("http://127.0.0.1:" + port);
-        org.awaitility.Awaitility.await()
-                .atMost(java.time.Duration.ofSeconds(60))
-                .ignoreExceptions()
-                .until(() -> health().contains("\"requests\":0"));
+        org.awaitility.Awaitility.await().ignoreExceptions().until(() -> health().contains("\"requests\":0"));
     }
 
     private String health() throws Exception {
@@ -205,21 +193,21 @@ class NgsiSourceIT {
         ObjectNode headers = JsonNodeFactory.instance.objectNode();
         for (Header header : record.headers()) {
             if (!header.key().equals("ts-source")) {
-                headers.put(header.key(), new String(header.value(), StandardCharsets.UTF_8));
+                headers.put(header.key(), new String(header.value(), UTF_8));
             }
         }
         ObjectNode golden = JsonNodeFactory.instance.objectNode();
         golden.put("key", record.key()).put("timestamp", record.timestamp());
         golden.set("headers", headers);
-        golden.put("value", new String(record.value(), StandardCharsets.UTF_8));
+        golden.put("value", new String(record.value(), UTF_8));
         return golden.toString();
     }
 
     private static String header(ConsumerRecord<String, byte[]> record, String name) {
-        return new String(record.headers().lastHeader(name).value(), StandardCharsets.UTF_8);
+        return new String(record.headers().lastHeader(name).value(), UTF_8);
     }
 
     private static byte[] bytes(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

@@ -86,8 +86,7 @@ public final class NotificationRig implements AutoCloseable {
     }
 
     public CompletableFuture<HttpResponse<String>> post(String path, BodyPublisher body, String... headers) {
-        HttpRequest.Builder request =
-                HttpRequest.newBuilder(uri(path)).timeout(TIMEOUT).POST(body);
+        var request = HttpRequest.newBuilder(uri(path)).timeout(TIMEOUT).POST(body);
         return send(
                 headers.length == 0 ? request.build() : request.headers(headers).build());
     }

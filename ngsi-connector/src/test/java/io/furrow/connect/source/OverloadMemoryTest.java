@@ -18,6 +18,8 @@ import org.junit.jupiter.api.condition.EnabledOnOs;
 import org.junit.jupiter.api.condition.OS;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.process.TestProcess;
+
 import static org.assertj.core.api.Assertions.assertThat;
 
 @Tag("full")
@@ -29,15 +31,10 @@ class OverloadMemoryTest {
     @Test
     @EnabledOnOs(OS.LINUX)
     void keepsItsMemoryWhileSendersPressAndNothingIsTakenFromIt(@TempDir Path directory) throws Exception {
-        Process source = new ProcessBuilder(
-                        Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                        "-Xmx96m",
-                        "-XX:MaxDirectMemorySize=64m",
-                        "-XX:+ExitOnOutOfMemoryError",
-                        "-cp",
-                        System.getProperty("java.class.path"),
-                        BlockedSource.class.getName(),
-                        directory.toString())
+        Process source = TestProcess.java(
+                        "-Xmx96m -XX:MaxDirectMemorySize=64m -XX:+ExitOnOutOfMemoryError",
+                        BlockedSource.class,
+                        directory)
                 .redirectError(ProcessBuilder.Redirect.INHERIT)
                 .start();
         try (BufferedReader out = new BufferedReader(new InputStreamReader(source.getInputStream()))) {

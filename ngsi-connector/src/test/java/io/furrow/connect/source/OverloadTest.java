@@ -6,7 +6,6 @@ import java.net.Socket;
 import java.net.SocketException;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -18,6 +17,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.source.journal.RecordLog;
 
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -72,7 +72,7 @@ class OverloadTest {
             durable.complete(null);
 
             byte[] status = slow.getInputStream().readNBytes("HTTP/1.1 200".length());
-            assertThat(new String(status, StandardCharsets.US_ASCII)).isEqualTo("HTTP/1.1 200");
+            assertThat(new String(status, US_ASCII)).isEqualTo("HTTP/1.1 200");
             assertThat(rig.ledger.overload.sum()).isZero();
         }
     }
@@ -244,7 +244,7 @@ class OverloadTest {
                     .write("POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n{".getBytes());
             silent.setSoTimeout(60_000);
 
-            String answer = new String(silent.getInputStream().readAllBytes(), StandardCharsets.US_ASCII);
+            String answer = new String(silent.getInputStream().readAllBytes(), US_ASCII);
 
             assertThat(answer).doesNotContain("200 OK");
             assertThat(rig.ledger.timedOut.sum()).isEqualTo(1);
@@ -294,7 +294,7 @@ class OverloadTest {
     /** Sends a byte every 50 ms until the connection is cut. */
     private static void trickle(Socket socket, String beginning) throws IOException {
         OutputStream out = socket.getOutputStream();
-        out.write(beginning.getBytes(StandardCharsets.US_ASCII));
+        out.write(beginning.getBytes(US_ASCII));
         await().pollInterval(Duration.ofMillis(50)).until(() -> {
             try {
                 out.write('x');

@@ -1,11 +1,6 @@
 package io.furrow.connect.source;
 
 import java.io.IOException;
-import java.net.URI;
-import java.net.http.HttpClient;
-import java.net.http.HttpRequest;
-import java.net.http.HttpRequest.BodyPublishers;
-import java.net.http.HttpResponse;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
@@ -13,7 +8,6 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
-import java.util.stream.Stream;
 
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -24,6 +18,7 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.connect.ConnectRig;
 import io.furrow.connect.TopicReader;
 import io.furrow.embedded.FreePort;
+import io.furrow.files.Folders;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -34,17 +29,12 @@ class PowerCutIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
     private static final String NAME = "ngsi-source";
 
-    private final HttpClient client =
-            HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
     private final List<String> answered = new ArrayList<>();
 
-    @TempDir
-    private Path directory;
-
     @Test
-    void hasEveryNotificationThatWasAnsweredThoughTheTopicLostItsEnd() throws Exception {
+    void hasEveryNotificationThatWasAnsweredThoughTheTopicLostItsEnd(@TempDir Path directory) throws Exception {
         int port = FreePort.orFree(0);
-        URI source = URI.create("http://127.0.0.1:" + port + "/notify");
+        SourceOnConnect source = new SourceOnConnect(port);
         try (ConnectRig rig = ConnectRig.start(directory)) {
             rig.createTopic(new NewTopic("data.raw", 2, (short) 1));
             Map<String, String> options = Map.of(
@@ -84,41 +74,24 @@ class PowerCutIT {
         }
     }
 
-    private void notify(URI source, String name, int number) {
+    private void notify(SourceOnConnect source, String name, int number) {
         for (int i = 0; i < number; i++) {
             String id = name + i;
-            await().atMost(TIMEOUT).until(() -> post(source, id) == 200);
+            await().atMost(TIMEOUT).until(() -> source.post(id) == 200);
             answered.add(id);
         }
     }
 
-    private int post(URI source, String id) throws InterruptedException {
-        HttpRequest request = HttpRequest.newBuilder(source)
-                .POST(BodyPublishers.ofString("{\"id\": \"" + id + "\", \"x\": 1}"))
-                .build();
-        try {
-            return client.send(request, HttpResponse.BodyHandlers.discarding()).statusCode();
-        } catch (IOException e) {
-            return 0;
-        }
-    }
-
     private static void copy(String prefix, Path from, Path to) throws IOException {
-        try (Stream<Path> partitions = Files.list(from)) {
-            for (Path partition : partitions
-                    .filter(each -> each.getFileName().toString().startsWith(prefix))
-                    .toList()) {
-                Path copy = Files.createDirectories(to.resolve(partition.getFileName()));
-                try (Stream<Path> files = Files.list(copy)) {
-                    for (Path file : files.toList()) {
-                        Files.delete(file);
-                    }
-                }
-                try (Stream<Path> files = Files.list(partition)) {
-                    for (Path file : files.toList()) {
-                        Files.copy(file, copy.resolve(file.getFileName()), StandardCopyOption.REPLACE_EXISTING);
-                    }
-                }
+        for (Path partition : Folders.list(from).stream()
+                .filter(each -> each.getFileName().toString().startsWith(prefix))
+                .toList()) {
+            Path copy = Files.createDirectories(to.resolve(partition.getFileName()));
+            for (Path file : Folders.list(copy)) {
+                    Files.delete(file);
+            }
+            for (Path file : Folders.list(partition)) {
+                    Files.copy(file, copy.resolve(file.getFileName()), StandardCopyOption.REPLACE_EXISTING);
             }
         }
     }

@@ -4,11 +4,12 @@ import java.io.IOException;
 import java.io.InputStream;
 import java.io.OutputStream;
 import java.net.Socket;
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.atomic.LongAdder;
+
+import static java.nio.charset.StandardCharsets.US_ASCII;
 
 /**
  * Senders that press with all they have: each its own connection, one notification after the other without a pause, and a
@@ -25,7 +26,7 @@ public final class PressingSenders {
         String frame = "{\"id\": \"a\", \"type\": \"T\", \"x\": \"\"}";
         String body = frame.replace("\"\"", "\"" + "x".repeat(bodyBytes - frame.length()) + "\"");
         String head = "POST /v2/notify HTTP/1.1\r\nHost: localhost\r\nContent-Length: " + body.length() + "\r\n\r\n";
-        this.request = (head + body).getBytes(StandardCharsets.US_ASCII);
+        this.request = (head + body).getBytes(US_ASCII);
     }
 
     /** Runs as a program. */

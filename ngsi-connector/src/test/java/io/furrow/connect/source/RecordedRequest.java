@@ -4,11 +4,12 @@ import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.net.URI;
 import java.net.http.HttpRequest;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Arrays;
 import java.util.List;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** A notification of a real Orion as it went over the wire. */
 record RecordedRequest(String path, List<String[]> headers, String body) {
@@ -30,7 +31,7 @@ record RecordedRequest(String path, List<String[]> headers, String body) {
     /** The request to a server, its times set back a year: a clock that is right today is never behind them. */
     HttpRequest to(URI server) {
         HttpRequest.Builder request = HttpRequest.newBuilder(server.resolve(path))
-                .POST(HttpRequest.BodyPublishers.ofString(body.replace("\"2026-", "\"2025-"), StandardCharsets.UTF_8));
+                .POST(HttpRequest.BodyPublishers.ofString(body.replace("\"2026-", "\"2025-"), UTF_8));
         headers.stream()
                 .filter(header -> !SET_BY_THE_CLIENT.contains(header[0].toLowerCase(java.util.Locale.ROOT)))
                 .forEach(header -> request.header(header[0], header[1]));

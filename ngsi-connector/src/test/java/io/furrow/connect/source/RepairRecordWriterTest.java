@@ -1,7 +1,6 @@
 package io.furrow.connect.source;
 
 import java.net.http.HttpHeaders;
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.List;
 import java.util.Map;
@@ -20,6 +19,7 @@ import io.furrow.connect.subscription.NotificationContent;
 import io.furrow.connect.subscription.Subject;
 import io.furrow.model.event.FiwareScope;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 
@@ -39,7 +39,7 @@ class RepairRecordWriterTest {
                 request -> new Outcome.Done(
                         200,
                         new ResponseHeaders(HttpHeaders.of(Map.of(), (name, value) -> true)),
-                        PAGE.getBytes(StandardCharsets.UTF_8)),
+                        PAGE.getBytes(UTF_8)),
                 new FiwareScope("agri", "/#"),
                 Subject.ANY,
                 new NotificationContent(List.of("*", "dateModified"), "normalized", false),
@@ -50,9 +50,7 @@ class RepairRecordWriterTest {
                 .toList();
 
         assertThat(dead)
-                .extracting(
-                        each -> each.headers().get("dead-reason"),
-                        each -> new String(each.value(), StandardCharsets.UTF_8))
+                .extracting(each -> each.headers().get("dead-reason"), each -> new String(each.value(), UTF_8))
                 .containsExactly(
                         tuple("not-an-entity", "{\"type\":\"Text\",\"value\":\"x\"}"),
                         tuple("not-an-entity", "p"),

@@ -40,9 +40,13 @@ public record SourceOnConnect(int port, HttpClient client) {
 
     /** The status, or {@link #NO_ANSWER}. */
     int post(String id) throws InterruptedException {
+        return post(id, "1");
+    }
+
+    int post(String id, String x) throws InterruptedException {
         HttpRequest request = HttpRequest.newBuilder(URI.create("http://127.0.0.1:" + port + "/v2/notify"))
                 .timeout(Duration.ofSeconds(20))
-                .POST(BodyPublishers.ofString("{\"id\": \"" + id + "\", \"x\": 1}"))
+                .POST(BodyPublishers.ofString("{\"id\": \"" + id + "\", \"x\": " + x + "}"))
                 .build();
         try {
             return client.send(request, HttpResponse.BodyHandlers.discarding()).statusCode();
@@ -83,9 +87,6 @@ public record SourceOnConnect(int port, HttpClient client) {
 
     /** Patient also with a listener that is being made. */
     public static ConditionFactory await() {
-        return Awaitility.await()
-                .atMost(Duration.ofSeconds(60))
-                .pollInterval(Duration.ofMillis(50))
-                .ignoreExceptions();
+        return Awaitility.await().pollInterval(Duration.ofMillis(50)).ignoreExceptions();
     }
 }

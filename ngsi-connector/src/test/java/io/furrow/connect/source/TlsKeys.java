@@ -6,16 +6,13 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
 import java.security.KeyStore;
-import java.util.ArrayList;
 import java.util.Base64;
-import java.util.List;
 import java.util.Map;
-import java.util.concurrent.TimeUnit;
 import javax.net.ssl.KeyManagerFactory;
 import javax.net.ssl.SSLContext;
 import javax.net.ssl.TrustManagerFactory;
 
-import static org.assertj.core.api.Assertions.assertThat;
+import io.furrow.process.TestProcess;
 
 /** Keys of servers and clients in a folder, {@code server.p12} and so on, some as {@code .pem} too; and clients that use them. */
 final class TlsKeys {
@@ -71,28 +68,9 @@ final class TlsKeys {
     }
 
     private void makeKey(String name, String algorithm) throws Exception {
-        List<String> command = new ArrayList<>(List.of(
-                Path.of(System.getProperty("java.home"), "bin", "keytool").toString(),
-                "-genkeypair",
-                "-alias",
-                name,
-                "-keyalg",
-                algorithm,
-                "-dname",
-                "CN=127.0.0.1",
-                "-ext",
-                "san=ip:127.0.0.1",
-                "-validity",
-                "2",
-                "-storetype",
-                "PKCS12",
-                "-storepass",
-                PASSWORD,
-                "-keystore",
-                directory.resolve(name + ".p12").toString()));
-        Process keytool = new ProcessBuilder(command).inheritIO().start();
-        assertThat(keytool.waitFor(60, TimeUnit.SECONDS)).isTrue();
-        assertThat(keytool.exitValue()).isZero();
+        TestProcess.keytool("""
+                -genkeypair -alias %s -keyalg %s -dname CN=127.0.0.1 -ext san=ip:127.0.0.1 -validity 2 \
+                -storetype PKCS12 -storepass %s -keystore %s""".formatted(name, algorithm, PASSWORD, directory.resolve(name + ".p12")));
         if (name.equals("client") || name.equals("other")) {
             // A key of one's own is not a trusted certificate: the trust store has it as one.
             KeyStore store = load(name);

@@ -64,12 +64,9 @@ class TlsTest {
         String pem = Files.readString(directory.resolve("server-ec.pem"));
         int certificate = pem.indexOf("-----BEGIN CERTIFICATE-----");
         try (NotificationRig rig = new NotificationRig(
-                "ssl.keystore.type",
-                "PEM",
-                "ssl.keystore.key",
-                pem.substring(0, certificate),
-                "ssl.keystore.certificate.chain",
-                pem.substring(certificate))) {
+                "ssl.keystore.type", "PEM",
+                "ssl.keystore.key", pem.substring(0, certificate),
+                "ssl.keystore.certificate.chain", pem.substring(certificate))) {
             assertThat(post(rig, keys.client("server-ec", null)).statusCode()).isEqualTo(200);
         }
     }

@@ -7,7 +7,6 @@ import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse.BodyHandlers;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.HashMap;
@@ -20,6 +19,9 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.process.TestProcess;
+
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
 
 @Tag("full")
@@ -34,14 +36,10 @@ class TranslationMemoryTest {
 
     @Test
     void staysWithinAHeapOf128MiBWhateverBodiesBecome(@TempDir Path directory) throws Exception {
-        Process source = new ProcessBuilder(
-                        Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                        "-Xmx128m",
-                        "-XX:+ExitOnOutOfMemoryError",
-                        "-cp",
-                        System.getProperty("java.class.path"),
-                        BlockedSource.class.getName(),
-                        directory.toString(),
+        Process source = TestProcess.java(
+                        "-Xmx128m -XX:+ExitOnOutOfMemoryError",
+                        BlockedSource.class,
+                        directory,
                         "max.body.bytes=" + LARGEST,
                         "max.pending.bytes=" + LARGEST,
                         "overload.memory.bytes=" + 2 * LARGEST,
@@ -89,7 +87,7 @@ class TranslationMemoryTest {
     private static CompletableFuture<Integer> post(URI uri, String body) {
         HttpRequest request = HttpRequest.newBuilder(uri)
                 .timeout(NotificationRig.TIMEOUT)
-                .POST(BodyPublishers.ofString(body, StandardCharsets.US_ASCII))
+                .POST(BodyPublishers.ofString(body, US_ASCII))
                 .build();
         return CLIENT.sendAsync(request, BodyHandlers.discarding())
                 .handle((answer, failure) -> failure == null ? answer.statusCode() : -1);

@@ -96,8 +96,7 @@ final class DesiredStates {
 
     private static DesiredReplay nextOfGroup(DesiredReplay w, Random random, long at) {
         long position = w.position(wall(at));
-        DesiredReplay.Clock going =
-                new DesiredReplay.Clock(Math.max(wall(at), w.clock().at()), position);
+        var going = new DesiredReplay.Clock(Math.max(wall(at), w.clock().at()), position);
         return switch (random.nextInt(4)) {
             case 0 ->
                 w.desired() == State.PAUSED

@@ -1,6 +1,5 @@
 package io.furrow.replay.playback;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -19,6 +18,7 @@ import io.furrow.model.control.ReplayStatus.State;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.replay.record.ReplayRecords;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** A playback beside {@link SimpleReplay}. */
@@ -144,7 +144,7 @@ class PlaybackModelTest {
                 " ",
                 Long.toString(now),
                 Long.toString(record.timestamp()),
-                new String(record.key(), StandardCharsets.UTF_8),
+                new String(record.key(), UTF_8),
                 headers.get(HeaderNames.REPLAY_KIND) + reason,
                 "epoch " + headers.get(HeaderNames.REPLAY_EPOCH),
                 "sequence " + headers.get(HeaderNames.REPLAY_SEQUENCE),

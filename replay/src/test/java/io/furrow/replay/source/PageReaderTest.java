@@ -3,7 +3,7 @@ package io.furrow.replay.source;
 import java.util.List;
 import java.util.concurrent.CopyOnWriteArrayList;
 
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.mission.Cursor;
@@ -24,6 +24,8 @@ class PageReaderTest {
 
     private final MemoryRecordings missions = new MemoryRecordings().with("m", TIME, TIME + 10, TIME + 20, TIME + 30);
     private final List<ReadResult> answers = new CopyOnWriteArrayList<>();
+
+    @AutoClose
     private final PageReader pages = new PageReader(
             DesiredReplay.started("m", Topics.replay("m", "0a1b2c3d"), ReplayPlan.PLAIN, 1, 0, 1),
             () -> {},
@@ -36,11 +38,6 @@ class PageReaderTest {
                     ReplayClock.SYSTEM,
                     replay -> {}),
             answers::add);
-
-    @AfterEach
-    void close() {
-        pages.close();
-    }
 
     @Test
     void abandonsWhatASeekReadsForANewerOne() {

@@ -1,7 +1,6 @@
 package io.furrow.replay.source;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
@@ -23,6 +22,7 @@ import io.furrow.replay.playback.PlaybackState;
 import io.furrow.replay.source.DesiredReplays.ReplayUpdate;
 import io.furrow.replay.source.DesiredReplays.ReportedStatus;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ReplayEnumeratorTest {
@@ -180,7 +180,7 @@ class ReplayEnumeratorTest {
         readers.register(0, enumerator);
         readers.register(1, enumerator);
 
-        byte[] bytes = "x".getBytes(StandardCharsets.UTF_8);
+        byte[] bytes = "x".getBytes(UTF_8);
         script.next = List.of(
                 new ReplayUpdate(null, bytes),
                 new ReplayUpdate("no name", bytes),

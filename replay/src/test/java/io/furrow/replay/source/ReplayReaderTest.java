@@ -1,6 +1,5 @@
 package io.furrow.replay.source;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
@@ -11,7 +10,7 @@ import java.util.stream.LongStream;
 import org.apache.flink.api.connector.source.ReaderOutput;
 import org.apache.flink.core.io.InputStatus;
 import org.apache.flink.runtime.execution.SuppressRestartsException;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.flink.record.TopicRecord;
@@ -27,6 +26,7 @@ import io.furrow.replay.playback.PlaybackState;
 import io.furrow.replay.recording.RecordingSources;
 import io.furrow.replay.topic.TopicEnd;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -40,18 +40,14 @@ class ReplayReaderTest {
     private final List<Long> times = new ArrayList<>();
     private final OnePartition topics = new OnePartition();
     private final AtomicLong ahead = new AtomicLong();
+
+    @AutoClose
     private ReplayReader reader = newReader(ReplayClock.SYSTEM);
 
     private ReplayReader newReader(ReplayClock clock) {
-        ReplayReader fresh =
-                new ReplayReader(context, RecordingSources.of(missions), new PageLimits(2, 1_000), topics, clock);
+        var fresh = new ReplayReader(context, RecordingSources.of(missions), new PageLimits(2, 1_000), topics, clock);
         fresh.start();
         return fresh;
-    }
-
-    @AfterEach
-    void close() {
-        reader.close();
     }
 
     static DesiredReplay desired(String mission, double speed, State state, long sequence) {
@@ -96,7 +92,7 @@ class ReplayReaderTest {
     private ReplayStatus status(String mission) {
         return records.stream()
                 .filter(record -> record.topic().equals(Topics.REPLAYS_STATUS))
-                .filter(record -> new String(record.key(), StandardCharsets.UTF_8).equals(mission + ".0a1b2c3d"))
+                .filter(record -> new String(record.key(), UTF_8).equals(mission + ".0a1b2c3d"))
                 .reduce((older, newer) -> newer)
                 .map(record -> {
                     try {
@@ -129,8 +125,7 @@ class ReplayReaderTest {
         missions.with("m", TIME, TIME + 50);
         start(desired("stuck", 1, State.RUNNING, 1));
         start(desired("unknown", 1, State.RUNNING, 1));
-        reader.addSplits(List.of(
-                new ReplaySplit("bad.0a1b2c3d", "no JSON".getBytes(StandardCharsets.UTF_8), new PlaybackState())));
+        reader.addSplits(List.of(new ReplaySplit("bad.0a1b2c3d", "no JSON".getBytes(UTF_8), new PlaybackState())));
         start(desired("m", 1, State.RUNNING, 1));
 
         playUntil(() -> !played("m", "end").isEmpty()
@@ -370,7 +365,7 @@ class ReplayReaderTest {
     /** Whoever asked for it can forget it then. */
     @Test
     void appliesARecordThatItCannotReadAsAFailure() throws Exception {
-        byte[] later = "{\"sequence\": 7, \"replay\": 1}".getBytes(StandardCharsets.UTF_8);
+        byte[] later = "{\"sequence\": 7, \"replay\": 1}".getBytes(UTF_8);
         reader.addSplits(List.of(new ReplaySplit("bad.0a1b2c3d", later, new PlaybackState())));
         missions.with("m", TIME, TIME + 100_000);
         start(desired("m", 1, State.RUNNING, 1));

@@ -8,7 +8,7 @@ import java.util.stream.LongStream;
 
 import org.apache.flink.api.connector.source.ReaderOutput;
 import org.apache.flink.core.io.InputStatus;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.flink.record.TopicRecord;
@@ -33,12 +33,15 @@ class ReplayTurnsTest {
     private final MemoryRecordings missions = new MemoryRecordings();
     private final FakeContext context = new FakeContext();
     private final List<TopicRecord> records = new ArrayList<>();
+
+    @AutoClose
     private final ReplayReader reader = new ReplayReader(
             context,
             RecordingSources.of(missions),
             new PageLimits(EVENTS, 1_000_000),
             new OnePartition(),
             new ReplayClock(nanos::get));
+
     private long microsPerRecord;
     private final ReaderOutput<TopicRecord> output = new FakeContext.Output(record -> {
         records.add(record);
@@ -47,11 +50,6 @@ class ReplayTurnsTest {
 
     ReplayTurnsTest() {
         reader.start();
-    }
-
-    @AfterEach
-    void close() {
-        reader.close();
     }
 
     /** Paused, with its first page read. */
@@ -97,8 +95,7 @@ class ReplayTurnsTest {
         missions.with("fast1", LongStream.range(TIME, TIME + EVENTS).toArray());
         missions.with("fast2", LongStream.range(TIME, TIME + EVENTS).toArray());
         missions.with("slow", TIME + 3, TIME + 5);
-        List<DesiredReplay> replays =
-                List.of(ready("fast1", ReplayCommand.MAX), ready("fast2", ReplayCommand.MAX), ready("slow", 1));
+        var replays = List.of(ready("fast1", ReplayCommand.MAX), ready("fast2", ReplayCommand.MAX), ready("slow", 1));
         replays.forEach(this::resume);
         microsPerRecord = 50;
 

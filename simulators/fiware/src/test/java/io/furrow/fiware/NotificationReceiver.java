@@ -1,24 +1,20 @@
 package io.furrow.fiware;
 
 import java.io.IOException;
-import java.io.UncheckedIOException;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
 import java.util.concurrent.CopyOnWriteArrayList;
-import java.util.concurrent.ExecutorService;
-import java.util.concurrent.Executors;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.sun.net.httpserver.HttpExchange;
-import com.sun.net.httpserver.HttpServer;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.stub.StubServer;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Keeps every notification that it is sent and answers with a status of choice. */
 public final class NotificationReceiver implements AutoCloseable {
@@ -29,28 +25,16 @@ public final class NotificationReceiver implements AutoCloseable {
     public record ReceivedNotification(int sender, String path, Map<String, String> headers, String body) {
         public JsonNode json() {
             try {
-                return NgsiJson.read(body.getBytes(StandardCharsets.UTF_8));
+                return NgsiJson.read(body.getBytes(UTF_8));
             } catch (UnreadableException e) {
                 throw new AssertionError("a notification that is not JSON: " + body, e);
             }
         }
     }
 
-    private final HttpServer server;
-    private final ExecutorService threads = Executors.newCachedThreadPool();
+    private final StubServer server = new StubServer(this::receive);
     private final List<ReceivedNotification> received = new CopyOnWriteArrayList<>();
     private volatile int status = 200;
-
-    public NotificationReceiver() {
-        try {
-            server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        } catch (IOException e) {
-            throw new UncheckedIOException(e);
-        }
-        server.setExecutor(threads);
-        server.createContext("/", this::receive);
-        server.start();
-    }
 
     public NotificationReceiver answering(int other) {
         status = other;
@@ -58,7 +42,7 @@ public final class NotificationReceiver implements AutoCloseable {
     }
 
     public URI url(String path) {
-        return URI.create("http://127.0.0.1:" + server.getAddress().getPort() + path);
+        return server.uri(path);
     }
 
     public List<ReceivedNotification> received() {
@@ -71,17 +55,15 @@ public final class NotificationReceiver implements AutoCloseable {
 
     @Override
     public void close() {
-        server.stop(0);
-        threads.shutdownNow();
+        server.close();
     }
 
     private void receive(HttpExchange exchange) throws IOException {
-        String body = new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8);
+        String body = new String(exchange.getRequestBody().readAllBytes(), UTF_8);
         Map<String, String> headers = new TreeMap<>(String.CASE_INSENSITIVE_ORDER);
         exchange.getRequestHeaders().forEach((name, values) -> headers.put(name, String.join(",", values)));
         received.add(new ReceivedNotification(
                 exchange.getRemoteAddress().getPort(), exchange.getRequestURI().toString(), headers, body));
-        exchange.sendResponseHeaders(status, -1);
-        exchange.close();
+        StubServer.answer(exchange, status, "");
     }
 }

@@ -4,7 +4,6 @@ import java.io.BufferedReader;
 import java.io.IOException;
 import java.io.InputStream;
 import java.io.InputStreamReader;
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.LinkedHashMap;
 import java.util.List;
@@ -19,6 +18,8 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
+
 /** A line of {@code fiware-rest/exchanges.jsonl}: a request, and what Orion 4.7 or IoT Agent JSON 3.14 answered. */
 record RecordedExchange(int line, JsonNode json) {
     private static final String FOLDER = "/fiware-rest/";
@@ -28,8 +29,7 @@ record RecordedExchange(int line, JsonNode json) {
 
     static List<RecordedExchange> all() throws IOException {
         List<RecordedExchange> all = new ArrayList<>();
-        try (BufferedReader lines =
-                new BufferedReader(new InputStreamReader(resource("exchanges.jsonl"), StandardCharsets.UTF_8))) {
+        try (BufferedReader lines = new BufferedReader(new InputStreamReader(resource("exchanges.jsonl"), UTF_8))) {
             for (String line = lines.readLine(); line != null; line = lines.readLine()) {
                 all.add(new RecordedExchange(all.size() + 1, NgsiJson.mapper().readTree(line)));
             }
@@ -107,7 +107,7 @@ record RecordedExchange(int line, JsonNode json) {
     /** JSON without regard to the order of members, and without the registry's own numbers; else the text. */
     private static Object comparable(String body) {
         try {
-            JsonNode tree = NgsiJson.read(body.getBytes(StandardCharsets.UTF_8));
+            JsonNode tree = NgsiJson.read(body.getBytes(UTF_8));
             tree.findParents("creationDate")
                     .forEach(
                             group -> ((ObjectNode) group).put("creationDate", 0).put("_id", 0));

@@ -6,7 +6,7 @@ import java.util.Map;
 import java.util.Set;
 import java.util.stream.Stream;
 
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.DynamicTest;
 import org.junit.jupiter.api.TestFactory;
 
@@ -16,12 +16,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** The stand-in is asked what Orion and the IoT Agent were asked, in the same order, and answers the same. */
 class RecordedExchangesTest {
+    @AutoClose
     private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
-
-    @AfterEach
-    void stop() {
-        standIn.close();
-    }
 
     @TestFactory
     Stream<DynamicTest> answersAsRecorded() throws Exception {

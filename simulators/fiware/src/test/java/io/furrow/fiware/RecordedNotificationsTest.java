@@ -4,19 +4,18 @@ import java.io.IOException;
 import java.net.URISyntaxException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Clock;
 import java.time.Instant;
-import java.time.ZoneId;
-import java.time.ZoneOffset;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
-import java.util.stream.Stream;
 
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
+
+import io.furrow.clock.SettableClock;
+import io.furrow.files.Folders;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -27,14 +26,19 @@ class RecordedNotificationsTest {
             List.of("normalized", "keyValues", "values", "simplifiedNormalized", "simplifiedKeyValues");
     private static final int SUBSCRIPTIONS = 7;
 
-    private final SettableClock clock = new SettableClock();
+    private final SettableClock clock = new SettableClock(Instant.EPOCH);
+
+    @AutoClose
     private final NotificationReceiver receiver = new NotificationReceiver();
+
+    @AutoClose
     private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly(), clock);
+
     private final Client client = Client.of(standIn.contextBroker());
 
     @BeforeEach
     void subscribeAsRecorded() {
-        clock.now = Instant.parse("2026-11-21T01:11:00Z");
+        clock.set(Instant.parse("2026-11-21T01:11:00Z"));
         for (String format : FORMATS) {
             subscribe(format, "\"attrsFormat\": \"" + format + "\"");
         }
@@ -42,12 +46,6 @@ class RecordedNotificationsTest {
                 "onlyChangedAttrs": true,
                 "metadata": ["dateCreated", "dateModified", "actionType", "previousValue", "*"]""");
         subscribe("withdates", "\"attrs\": [\"moisture\", \"dateModified\", \"dateCreated\", \"servicePath\"]");
-    }
-
-    @AfterEach
-    void stop() {
-        standIn.close();
-        receiver.close();
     }
 
     @Test
@@ -61,7 +59,7 @@ class RecordedNotificationsTest {
     void notifiesAPatchedEntityAsRecorded() throws Exception {
         createFirst();
         next();
-        clock.now = Instant.parse("2026-11-21T01:11:03.218Z");
+        clock.set(Instant.parse("2026-11-21T01:11:03.218Z"));
 
         assertThat(client.patch("/v2/entities/urn:ngsi-ld:SoilProbe:001/attrs", """
                         {"moisture": {"type": "Number", "value": 22.75}}""")
@@ -73,21 +71,21 @@ class RecordedNotificationsTest {
 
     @Test
     void notifiesAForcedUpdateAsRecordedAndAnUnforcedOneOfTheSameValueNever() throws Exception {
-        clock.now = Instant.parse("2026-11-21T01:11:04.258Z");
+        clock.set(Instant.parse("2026-11-21T01:11:04.258Z"));
         client.post("/v2/entities", """
                 {"id": "urn:ngsi-ld:SoilProbe:002", "type": "SoilProbe", "moisture": {"type": "Number", "value": 30}}""");
         next();
         String same = "{\"moisture\": {\"type\": \"Number\", \"value\": 30.0}}";
 
         client.patch("/v2/entities/urn:ngsi-ld:SoilProbe:002/attrs", same);
-        clock.now = Instant.parse("2026-11-21T01:11:06.328Z");
+        clock.set(Instant.parse("2026-11-21T01:11:06.328Z"));
         client.patch("/v2/entities/urn:ngsi-ld:SoilProbe:002/attrs?options=forcedUpdate", same);
 
         compareWith("forced");
     }
 
     private void createFirst() {
-        clock.now = Instant.parse("2026-11-21T01:11:02.174Z");
+        clock.set(Instant.parse("2026-11-21T01:11:02.174Z"));
         Client.Answer answer = client.with("Fiware-Correlator", "corr-create-1").post("/v2/entities", """
                 {"id": "urn:ngsi-ld:SoilProbe:001", "type": "SoilProbe",
                  "moisture": {"type": "Number", "value": 21.5, "metadata": {
@@ -114,12 +112,10 @@ class RecordedNotificationsTest {
     private void compareWith(String folder) throws IOException, URISyntaxException {
         await().until(() -> receiver.received().size() >= SUBSCRIPTIONS);
         Path recordings = Path.of(getClass().getResource("/orion/" + folder).toURI());
-        try (Stream<Path> files = Files.list(recordings)) {
-            List<Path> all = files.toList();
-            assertThat(all).hasSize(SUBSCRIPTIONS);
-            for (Path file : all) {
-                compare(file, folder.equals("create"));
-            }
+        List<Path> all = Folders.list(recordings);
+        assertThat(all).hasSize(SUBSCRIPTIONS);
+        for (Path file : all) {
+            compare(file, folder.equals("create"));
         }
         assertThat(receiver.received()).hasSize(SUBSCRIPTIONS);
     }
@@ -136,13 +132,8 @@ class RecordedNotificationsTest {
         NotificationReceiver.ReceivedNotification notification = found.get(0);
         assertThat(withoutId(notification.body())).isEqualTo(withoutId(parts[1].strip()));
         assertThat(notification.headers().keySet()).containsExactlyElementsOf(expected.keySet());
-        for (String name : List.of(
-                "Fiware-Service",
-                "Fiware-Servicepath",
-                "Accept",
-                "Content-Length",
-                "Content-Type",
-                "Ngsiv2-AttrsFormat")) {
+        for (String name : List.of("""
+                        Fiware-Service Fiware-Servicepath Accept Content-Length Content-Type Ngsiv2-AttrsFormat""".split("\\s+"))) {
             assertThat(notification.headers().get(name)).as(name).isEqualTo(expected.get(name));
         }
         String correlator = notification.headers().get("Fiware-Correlator");
@@ -158,25 +149,5 @@ class RecordedNotificationsTest {
 
     private static String withoutId(String body) {
         return body.replaceFirst("\"subscriptionId\":\"[0-9a-f]{24}\"", "\"subscriptionId\":\"<id>\"");
-    }
-
-    /** Time as data. */
-    private static final class SettableClock extends Clock {
-        private volatile Instant now = Instant.EPOCH;
-
-        @Override
-        public Instant instant() {
-            return now;
-        }
-
-        @Override
-        public ZoneId getZone() {
-            return ZoneOffset.UTC;
-        }
-
-        @Override
-        public Clock withZone(ZoneId zone) {
-            return this;
-        }
     }
 }

@@ -3,7 +3,6 @@ package io.furrow.fiware;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.attribute.BasicFileAttributes;
@@ -18,6 +17,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.ngsi.NgsiJson;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -240,7 +240,7 @@ class StateTest {
                 yield bytes;
             }
             case "empty" -> new byte[0];
-            case "no gzip" -> "{\"fiwareState\":1}\n{\"end\":0}".getBytes(StandardCharsets.UTF_8);
+            case "no gzip" -> "{\"fiwareState\":1}\n{\"end\":0}".getBytes(UTF_8);
             case "other version" -> gzip("{\"fiwareState\":2}\n{\"end\":0}");
             case "no end" -> gzip("{\"fiwareState\":1}");
             default -> gzip("{\"fiwareState\":1}\n{\"what\":{}}\n{\"end\":1}");
@@ -255,7 +255,7 @@ class StateTest {
     private static byte[] gzip(String text) throws IOException {
         ByteArrayOutputStream bytes = new ByteArrayOutputStream();
         try (GZIPOutputStream gzip = new GZIPOutputStream(bytes)) {
-            gzip.write(text.getBytes(StandardCharsets.UTF_8));
+            gzip.write(text.getBytes(UTF_8));
         }
         return bytes.toByteArray();
     }

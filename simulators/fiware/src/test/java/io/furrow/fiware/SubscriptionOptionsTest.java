@@ -8,7 +8,7 @@ import java.time.Instant;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -21,15 +21,13 @@ import static org.awaitility.Awaitility.await;
 
 /** What a client may ask of a subscription, and what it is notified of its life. */
 class SubscriptionOptionsTest {
+    @AutoClose
     private final NotificationReceiver receiver = new NotificationReceiver();
-    private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
-    private final Client client = Client.of(standIn.contextBroker());
 
-    @AfterEach
-    void stop() {
-        standIn.close();
-        receiver.close();
-    }
+    @AutoClose
+    private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
+
+    private final Client client = Client.of(standIn.contextBroker());
 
     @ParameterizedTest
     @CsvSource(
@@ -210,10 +208,10 @@ class SubscriptionOptionsTest {
     /** The number of the step; a deletion is the fourth, an update without a change the second. */
     private static String step(NotificationReceiver.ReceivedNotification one) {
         JsonNode entity = one.json().path("data").get(0);
-        return switch (entity.path("alterationType").path("value").asText()) {
+        return switch (entity.at("/alterationType/value").asText()) {
             case "entityDelete" -> "4";
             case "entityUpdate" -> "2";
-            default -> entity.path("step").path("value").asText();
+            default -> entity.at("/step/value").asText();
         };
     }
 

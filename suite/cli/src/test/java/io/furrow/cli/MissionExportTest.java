@@ -3,7 +3,6 @@ package io.furrow.cli;
 import java.io.ByteArrayInputStream;
 import java.io.PrintWriter;
 import java.io.StringWriter;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
@@ -18,6 +17,8 @@ import io.furrow.mission.marker.Marker;
 import io.furrow.mission.marker.Markers;
 import io.furrow.mission.mongo.MongoAccess;
 
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MissionExportTest {
@@ -37,7 +38,7 @@ class MissionExportTest {
     void writesAMissionInEachFormat() throws Exception {
         try (EmbeddedMongo mongo = EmbeddedMongo.inMemory()) {
             try (StoredMissions missions = StoredMissions.open(mongo.uri())) {
-                byte[] lines = LINES.getBytes(StandardCharsets.UTF_8);
+                byte[] lines = LINES.getBytes(UTF_8);
                 missions.importFrom("hoeing", new ByteArrayInputStream(lines), "lines", told -> {});
             }
 
@@ -60,7 +61,7 @@ class MissionExportTest {
         try (EmbeddedMongo mongo = EmbeddedMongo.inMemory();
                 Markers markers = Markers.open(mongo.uri(), MongoAccess.DATABASE)) {
             try (StoredMissions missions = StoredMissions.open(mongo.uri())) {
-                byte[] lines = LINES.getBytes(StandardCharsets.UTF_8);
+                byte[] lines = LINES.getBytes(UTF_8);
                 missions.importFrom("hoeing", new ByteArrayInputStream(lines), "lines", told -> {});
             }
             markers.add(new Marker("m1", "hoeing", 1_700_000_000_500L, "turns", "Ada", 1_700_000_009_000L));
@@ -71,9 +72,7 @@ class MissionExportTest {
             assertThat(out.toString()).contains("its markers in " + folder.resolve("hoeing.markers.jsonl"));
             assertThat(Files.readString(exported(mongo, "hoeing.geojson", "--format", "geojson")))
                     .contains("{\"kind\":\"marker\",\"id\":\"m1\"");
-            assertThat(new String(
-                            Files.readAllBytes(exported(mongo, "hoeing.mcap", "--format", "mcap")),
-                            StandardCharsets.ISO_8859_1))
+            assertThat(new String(Files.readAllBytes(exported(mongo, "hoeing.mcap", "--format", "mcap")), ISO_8859_1))
                     .contains("\"note\":\"turns\"");
 
             markers.remove("hoeing", "m1");

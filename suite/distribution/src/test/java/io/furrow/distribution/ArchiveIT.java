@@ -7,7 +7,6 @@ import java.security.MessageDigest;
 import java.util.HexFormat;
 import java.util.List;
 import java.util.Set;
-import java.util.concurrent.TimeUnit;
 import java.util.regex.Pattern;
 import java.util.stream.Collectors;
 import java.util.stream.Stream;
@@ -17,6 +16,10 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+
+import io.furrow.files.Folders;
+import io.furrow.process.TestProcess;
+import io.furrow.process.TestProcess.Ended;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -35,8 +38,6 @@ class ArchiveIT {
     static Path directory;
 
     private static Path home;
-
-    private record Ended(int status, String output) {}
 
     @BeforeAll
     static void unpack() throws Exception {
@@ -112,28 +113,22 @@ class ArchiveIT {
 
     @Test
     void hasWhatItsPagesLeadTo() throws IOException {
-        try (Stream<Path> files = Files.walk(home)) {
-            List<Path> pages =
-                    files.filter(file -> file.toString().endsWith(".md") && !file.startsWith(home.resolve("plugins")))
-                            .toList();
-            assertThat(pages).hasSizeGreaterThan(50);
-            for (Path page : pages) {
-                assertThat(LINK.matcher(Files.readString(page)).results().map(found -> found.group(1)))
-                        .as(page.toString())
-                        .filteredOn(link -> !link.contains("src/"))
-                        .allSatisfy(link -> assertThat(page.resolveSibling(link)).exists());
-            }
+        List<Path> pages =
+                Folders.walk(home).stream().filter(file -> file.toString().endsWith(".md") && !file.startsWith(home.resolve("plugins")))
+                        .toList();
+        assertThat(pages).hasSizeGreaterThan(50);
+        for (Path page : pages) {
+            assertThat(LINK.matcher(Files.readString(page)).results().map(found -> found.group(1)))
+                    .as(page.toString())
+                    .filteredOn(link -> !link.contains("src/"))
+                    .allSatisfy(link -> assertThat(page.resolveSibling(link)).exists());
         }
     }
 
     @ParameterizedTest
     @CsvSource({
-        "ingest, ingest",
-        "ingest, normalize",
-        "analytics, temperature",
-        "analytics, collision",
-        "analytics, presence",
-        "replay, replay"
+        "ingest, ingest", "ingest, normalize", "analytics, temperature",
+        "analytics, collision", "analytics, presence", "replay, replay"
     })
     void rejectsWrongOptionsOfAJobInASentence(String module, String job) throws Exception {
         String jar = home.resolve("jobs/furrow-%s-%s-job.jar".formatted(module, VERSION))
@@ -160,11 +155,9 @@ class ArchiveIT {
     }
 
     private static Set<String> jars(String folder, String ending) throws IOException {
-        try (Stream<Path> files = Files.list(home.resolve(folder))) {
-            return files.map(file -> file.getFileName().toString())
-                    .filter(name -> name.endsWith(ending))
-                    .collect(Collectors.toSet());
-        }
+        return Folders.list(home.resolve(folder)).stream().map(file -> file.getFileName().toString())
+                .filter(name -> name.endsWith(ending))
+                .collect(Collectors.toSet());
     }
 
     private static Ended furrow(String... words) throws Exception {
@@ -173,19 +166,13 @@ class ArchiveIT {
     }
 
     private static Ended java(String... words) throws Exception {
-        String program = Path.of(System.getProperty("java.home"), "bin", "java").toString();
-        return run(Stream.concat(Stream.of(program), Stream.of(words)).toArray(String[]::new));
+        return run(Stream.concat(Stream.of(TestProcess.program("java")), Stream.of(words))
+                .toArray(String[]::new));
     }
 
     private static Ended run(String... words) throws Exception {
-        Path output = Files.createTempFile(directory, "out", null);
-        ProcessBuilder builder =
-                new ProcessBuilder(words).redirectErrorStream(true).redirectOutput(output.toFile());
+        ProcessBuilder builder = new ProcessBuilder(words);
         builder.environment().put("JAVA_HOME", System.getProperty("java.home"));
-        Process process = builder.start();
-        assertThat(process.waitFor(2, TimeUnit.MINUTES))
-                .as("%s ends", List.of(words))
-                .isTrue();
-        return new Ended(process.exitValue(), Files.readString(output));
+        return TestProcess.run(builder);
     }
 }

@@ -4,11 +4,12 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
-import java.util.concurrent.TimeUnit;
 import java.util.stream.Stream;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.process.TestProcess;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -66,16 +67,10 @@ class DebianPackageIT {
     }
 
     private String run(String... words) throws IOException, InterruptedException {
-        Path output = Files.createTempFile(root, "out", null);
-        ProcessBuilder builder =
-                new ProcessBuilder(words).redirectErrorStream(true).redirectOutput(output.toFile());
+        ProcessBuilder builder = new ProcessBuilder(words);
         builder.environment().put("JAVA_HOME", System.getProperty("java.home"));
-        Process process = builder.start();
-        assertThat(process.waitFor(2, TimeUnit.MINUTES))
-                .as("%s ends", List.of(words))
-                .isTrue();
-        String told = Files.readString(output);
-        assertThat(process.exitValue()).as(told).isZero();
-        return told;
+        TestProcess.Ended ended = TestProcess.run(builder);
+        assertThat(ended.status()).as(ended.output()).isZero();
+        return ended.output();
     }
 }

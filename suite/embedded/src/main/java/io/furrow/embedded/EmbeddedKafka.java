@@ -78,6 +78,13 @@ public final class EmbeddedKafka implements AutoCloseable {
         return HOST + ":" + port;
     }
 
+    /** What a client needs that connects to it. */
+    public Properties client() {
+        Properties client = new Properties();
+        client.setProperty("bootstrap.servers", bootstrapServers());
+        return client;
+    }
+
     /**
      * For a producer of topics that were made just now, with one request at a time: of two under way the broker could refuse the
      * first, whose partition is not there yet, and take the second, and would then refuse the first forever (KAFKA-15591).

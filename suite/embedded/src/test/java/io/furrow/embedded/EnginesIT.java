@@ -19,11 +19,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 @Tag("full")
 class EnginesIT {
-    @TempDir
-    Path directory;
-
     @Test
-    void continuesTheLogOfAnEarlierBroker() throws Exception {
+    void continuesTheLogOfAnEarlierBroker(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory)) {
             kafka.createTopics(List.of(new NewTopic("kept", 1, (short) 1)));
         }
@@ -34,7 +31,7 @@ class EnginesIT {
     }
 
     @Test
-    void serveTheirRestInterfacesOnLoopback() throws Exception {
+    void serveTheirRestInterfacesOnLoopback(@TempDir Path directory) throws Exception {
         Path plugins = Files.createDirectory(directory.resolve("plugins"));
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory.resolve("kafka"));
                 EmbeddedConnect connect = EmbeddedConnect.start(kafka.bootstrapServers(), plugins, 0, Map.of());
@@ -46,7 +43,7 @@ class EnginesIT {
     }
 
     private static Admin admin(EmbeddedKafka kafka) {
-        return Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()));
+        return Admin.create(kafka.client());
     }
 
     private static String get(URI uri) throws Exception {

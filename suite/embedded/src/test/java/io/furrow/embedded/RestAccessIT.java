@@ -4,7 +4,6 @@ import java.io.IOException;
 import java.net.InetAddress;
 import java.net.Socket;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
@@ -21,6 +20,8 @@ import org.junit.jupiter.params.provider.MethodSource;
 
 import io.furrow.http.AllowedNames;
 
+import static java.nio.charset.StandardCharsets.US_ASCII;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** The access rule at the REST APIs of the real engines. */
@@ -157,11 +158,10 @@ class RestAccessIT {
     private static String request(Api api, String requestLine, String headers, String body) throws IOException {
         String length = body.isEmpty() ? "" : "Content-Length: " + body.length() + "\r\n";
         String request = requestLine + " HTTP/1.1\r\nConnection: close\r\n" + headers + "\r\n" + length + "\r\n" + body;
-        try (Socket socket =
-                new Socket(InetAddress.getLoopbackAddress(), api.uri().getPort())) {
+        try (var socket = new Socket(InetAddress.getLoopbackAddress(), api.uri().getPort())) {
             socket.setSoTimeout(TIMEOUT_MS);
-            socket.getOutputStream().write(request.getBytes(StandardCharsets.US_ASCII));
-            return new String(socket.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+            socket.getOutputStream().write(request.getBytes(US_ASCII));
+            return new String(socket.getInputStream().readAllBytes(), UTF_8);
         }
     }
 }

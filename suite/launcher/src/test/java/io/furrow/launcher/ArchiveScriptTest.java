@@ -6,13 +6,14 @@ import java.nio.file.Path;
 import java.nio.file.attribute.PosixFilePermissions;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.concurrent.TimeUnit;
 
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
+
+import io.furrow.process.TestProcess;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -115,15 +116,11 @@ class ArchiveScriptTest {
     private String run(String script, String... arguments) throws Exception {
         List<String> command = new ArrayList<>(List.of(home.resolve(script).toString()));
         command.addAll(List.of(arguments));
-        Path out = directory.resolve("out");
-        ProcessBuilder builder =
-                new ProcessBuilder(command).redirectErrorStream(true).redirectOutput(out.toFile());
+        ProcessBuilder builder = new ProcessBuilder(command);
         builder.environment().put("JAVA_HOME", jdk.toString());
         builder.environment().remove("FURROW_OPTS");
         builder.environment().remove("HADOOP_CLASSPATH");
-        Process process = builder.start();
-        assertThat(process.waitFor(1, TimeUnit.MINUTES)).as("it ends").isTrue();
-        return Files.readString(out);
+        return TestProcess.run(builder).output();
     }
 
     private List<String> calls() throws IOException {

@@ -1,7 +1,6 @@
 package io.furrow.launcher;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.attribute.FileTime;
@@ -19,6 +18,7 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -266,7 +266,7 @@ class FirstStartIT {
     /** Older than what is built next, or it would be built again. */
     private static void program(Path file, String script) throws IOException {
         Files.deleteIfExists(file);
-        Files.write(file, ("#!/bin/sh\n" + script + "\n").getBytes(StandardCharsets.UTF_8));
+        Files.write(file, ("#!/bin/sh\n" + script + "\n").getBytes(UTF_8));
         Files.setPosixFilePermissions(file, PosixFilePermissions.fromString("rwxr-xr-x"));
         Files.setLastModifiedTime(file, FileTime.from(Instant.now().minusSeconds(60)));
     }

@@ -13,12 +13,9 @@ import org.junit.jupiter.api.io.TempDir;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class UnusableFieldsTest {
-    @TempDir
-    Path directory;
-
     /** Before it takes a port, or waits for an engine. */
     @Test
-    void reportsWhyFieldsCannotBeUsedBeforeAnythingStarts() throws Exception {
+    void reportsWhyFieldsCannotBeUsedBeforeAnythingStarts(@TempDir Path directory) throws Exception {
         Path fields = Files.writeString(directory.resolve("fields.geojson"), "{}");
         StringWriter err = new StringWriter();
         try (ServerSocket taken = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {

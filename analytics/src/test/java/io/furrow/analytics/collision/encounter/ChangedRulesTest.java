@@ -15,7 +15,6 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.analytics.collision.CollisionOracle;
-import io.furrow.analytics.collision.Fixes;
 import io.furrow.analytics.collision.Worlds;
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.rules.CellRules;
@@ -27,6 +26,7 @@ import io.furrow.analytics.collision.rules.Thresholds;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
 
+import static io.furrow.analytics.collision.Fixes.east;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 
@@ -52,10 +52,10 @@ class ChangedRulesTest {
     @Test
     void endsWhatIsOpenAndBeginsAnewWithTheNextReports() throws Exception {
         Run run = new Run(rules(10), new Random(1), rules(9));
-        run.receive(Fixes.east("r1", 0, START), Fixes.east("r2", 8, START));
+        run.receive(east("r1", 0, START), east("r2", 8, START));
         run.advance(START);
         run.changeRules();
-        run.receive(Fixes.east("r1", 0, START + 1000), Fixes.east("r2", 8, START + 1000));
+        run.receive(east("r1", 0, START + 1000), east("r2", 8, START + 1000));
         run.end();
 
         assertThat(run.told)
@@ -70,7 +70,7 @@ class ChangedRulesTest {
     @Test
     void goesOnWhereNoPairIsJudgedOtherwise() throws Exception {
         Run run = new Run(rules(10), new Random(1), rules(10).with(new DebounceRules(1, Duration.ofSeconds(3))));
-        run.receive(Fixes.east("r1", 0, START), Fixes.east("r2", 8, START));
+        run.receive(east("r1", 0, START), east("r2", 8, START));
         run.advance(START);
         run.changeRules();
         run.end();

@@ -21,6 +21,7 @@ import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.TrackDevices;
 import io.furrow.analytics.collision.matching.MatchPairs;
 import io.furrow.analytics.collision.rules.CollisionRules;
+import io.furrow.analytics.eventtime.HasEventTime;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
 
@@ -44,6 +45,12 @@ public final class Stage<K, I, O> {
         this.keyType = keyType;
         start();
         harness.open();
+    }
+
+    public static <K, I extends HasEventTime, O> Stage<K, I, O> of(
+            Supplier<OneInputStreamOperator<I, O>> operator, KeySelector<I, K> key, TypeInformation<K> keyType)
+            throws Exception {
+        return new Stage<>(operator, key, keyType, HasEventTime::time);
     }
 
     public static Stage<Device, PositionFix, CellUpdate> track(CollisionRules rules) throws Exception {
@@ -102,6 +109,15 @@ public final class Stage<K, I, O> {
         return output == null
                 ? List.of()
                 : output.stream().map(StreamRecord::getValue).toList();
+    }
+
+    /** What went aside since this was last asked. */
+    public <T> List<T> aside(OutputTag<T> tag) {
+        List<T> aside = new ArrayList<>(side(tag));
+        if (!aside.isEmpty()) {
+            harness.getSideOutput(tag).clear();
+        }
+        return aside;
     }
 
     /** As of a checkpoint now. */

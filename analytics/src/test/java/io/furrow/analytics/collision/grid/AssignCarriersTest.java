@@ -7,7 +7,7 @@ import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
 import org.apache.flink.streaming.api.operators.co.CoBroadcastWithKeyedOperator;
 import org.apache.flink.streaming.util.KeyedTwoInputStreamOperatorTestHarness;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
@@ -19,6 +19,8 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
 
+import static io.furrow.analytics.collision.Fixes.east;
+import static io.furrow.analytics.collision.Fixes.of;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** At the start {@code service.devices} says that the robot carries the camera from 1000 on. */
@@ -27,17 +29,13 @@ class AssignCarriersTest {
     private static final long DAY = 86_400_000;
     private static final long KEPT = 30 * DAY;
 
+    @AutoClose
     private KeyedTwoInputStreamOperatorTestHarness<Device, PositionFix, DeviceChange, PositionFix> operator;
 
     @BeforeEach
     void start() throws Exception {
         create();
         operator.open();
-    }
-
-    @AfterEach
-    void stop() throws Exception {
-        operator.close();
     }
 
     @Test
@@ -56,30 +54,30 @@ class AssignCarriersTest {
     void letsTheGroundCarryWhatDoesNotMove() throws Exception {
         change(1, stationary("thermometer", "/"));
         change(2, stationary("station", "/north"));
-        PositionFix thermometer = assigned(Fixes.east("thermometer", 0, 1500));
-        PositionFix station = assigned(Fixes.of("farm|/north|station", "station", "m", 0, 10, 1500));
+        PositionFix thermometer = assigned(east("thermometer", 0, 1500));
+        PositionFix station = assigned(of("farm|/north|station", "station", "m", 0, 10, 1500));
 
         assertThat(thermometer.sharesAggregateWith(station)).isTrue();
-        assertThat(thermometer.sharesAggregateWith(assigned(Fixes.east("robot", 0, 1500))))
+        assertThat(thermometer.sharesAggregateWith(assigned(east("robot", 0, 1500))))
                 .isFalse();
     }
 
     /** Whether or not the identity names the type. */
     @Test
     void takesEntitiesOfOneIdForOneThing() {
-        PositionFix tractor = Fixes.of("farm|/|Tractor|e-12", "e-12", "m", 0, 10, 1500);
+        PositionFix tractor = of("farm|/|Tractor|e-12", "e-12", "m", 0, 10, 1500);
 
-        assertThat(tractor.sharesAggregateWith(Fixes.of("farm|/|Thermometer|e-12", "e-12", "m", 0, 10, 1500)))
+        assertThat(tractor.sharesAggregateWith(of("farm|/|Thermometer|e-12", "e-12", "m", 0, 10, 1500)))
                 .isTrue();
-        assertThat(tractor.sharesAggregateWith(Fixes.of("farm|/|e-12", "e-12", "m", 0, 10, 1500)))
+        assertThat(tractor.sharesAggregateWith(of("farm|/|e-12", "e-12", "m", 0, 10, 1500)))
                 .isTrue();
-        assertThat(tractor.sharesAggregateWith(Fixes.of("other|/|Tractor|e-12", "e-12", "m", 0, 10, 1500)))
+        assertThat(tractor.sharesAggregateWith(of("other|/|Tractor|e-12", "e-12", "m", 0, 10, 1500)))
                 .isFalse();
     }
 
     @Test
     void leavesTheCarrierThatTheEntityNames() throws Exception {
-        PositionFix named = Fixes.carriedBy("drone", Fixes.east("camera", 0, 1500));
+        PositionFix named = Fixes.carriedBy("drone", east("camera", 0, 1500));
         assertThat(assigned(named)).isEqualTo(named);
     }
 
@@ -114,8 +112,7 @@ class AssignCarriersTest {
 
     private void create() throws Exception {
         DeviceVersion first = version(1000, 1, "robot");
-        List<TopicRecord> atStart =
-                List.of(new TopicRecord(Topics.DEVICES, 0, 0, 0, new byte[0], first.toBytes(), Map.of()));
+        var atStart = List.of(new TopicRecord(Topics.DEVICES, 0, 0, 0, new byte[0], first.toBytes(), Map.of()));
         operator = new KeyedTwoInputStreamOperatorTestHarness<>(
                 new CoBroadcastWithKeyedOperator<>(new AssignCarriers(() -> atStart), List.of(AssignCarriers.DEVICES)),
                 PositionFix::device,
@@ -124,7 +121,7 @@ class AssignCarriersTest {
     }
 
     private String carrierOfCamera(long time) throws Exception {
-        return assigned(Fixes.east("camera", 0, time)).carrier();
+        return assigned(east("camera", 0, time)).carrier();
     }
 
     private PositionFix assigned(PositionFix fix) throws Exception {

@@ -14,6 +14,7 @@ import io.furrow.analytics.collision.Fixes;
 import io.furrow.analytics.collision.Worlds;
 import io.furrow.analytics.collision.rules.CollisionRules;
 
+import static io.furrow.analytics.collision.Worlds.rules;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class GridTest {
@@ -22,7 +23,7 @@ class GridTest {
     @ParameterizedTest
     @CsvSource({"0.5,1", "0.5,20", "5,1", "5,3", "5,20", "1000,1", "1000,50", "100000,1", "100000,1000"})
     void letsEveryClosePairMeetInExactlyOneCell(double threshold, double cellsPerThreshold) {
-        Grid grid = new Grid(Worlds.rules(threshold, cellsPerThreshold, false));
+        Grid grid = new Grid(rules(threshold, cellsPerThreshold, false));
         int close = 0;
         for (int i = 0; i < 20_000; i++) {
             double[] centre = i % 2 == 0 ? Worlds.centre(i / 2) : anywhere();
@@ -34,7 +35,7 @@ class GridTest {
     @ParameterizedTest
     @CsvSource({"0.5,1", "5,1", "5,20", "1000,1", "1000,20"})
     void letsPairsAtEdgesOfCellsMeetInExactlyOneCell(double threshold, double cellsPerThreshold) {
-        Grid grid = new Grid(Worlds.rules(threshold, cellsPerThreshold, false));
+        Grid grid = new Grid(rules(threshold, cellsPerThreshold, false));
         int close = 0;
         for (int i = 0; i < 2_000; i++) {
             double[] edge = onAnEdge(grid, anywhere());
@@ -49,7 +50,7 @@ class GridTest {
 
     @Test
     void keepsAboutATenthOfCopiesWithCellsOfTwentyThresholds() {
-        Grid grid = new Grid(Worlds.rules(5, 20, false));
+        Grid grid = new Grid(rules(5, 20, false));
         double[] centre = Worlds.centre(0);
         int devices = 20_000;
         long copies = 0;
@@ -79,7 +80,7 @@ class GridTest {
 
     @Test
     void givesEveryCellAnIdOfItsOwn() {
-        Grid grid = new Grid(Worlds.rules(1000, 1000, false));
+        Grid grid = new Grid(rules(1000, 1000, false));
         Set<Long> homes = new HashSet<>();
         // 1000 km cells: 20 bands, at 9° each; 0.5° steps meet all of them.
         for (double latitude = -89.75; latitude < 90; latitude += 0.5) {

@@ -7,12 +7,14 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
-import io.furrow.analytics.collision.Fixes;
 import io.furrow.analytics.collision.Worlds;
 import io.furrow.analytics.collision.grid.Geodesy;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 
+import static io.furrow.analytics.collision.Fixes.at;
+import static io.furrow.analytics.collision.Fixes.carriedBy;
+import static io.furrow.analytics.collision.Fixes.east;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
@@ -21,8 +23,8 @@ class ProximityTest {
     void isSymmetricToTheLastBitAndAgreesWithTheAngleBetweenVectors() {
         Random random = new Random(7);
         for (int i = 0; i < 2000; i++) {
-            PositionFix a = Fixes.at("a", random.nextDouble(-90, 90), random.nextDouble(-180, 180), 0);
-            PositionFix b = Fixes.at("b", random.nextDouble(-90, 90), random.nextDouble(-180, 180), 0);
+            PositionFix a = at("a", random.nextDouble(-90, 90), random.nextDouble(-180, 180), 0);
+            PositionFix b = at("b", random.nextDouble(-90, 90), random.nextDouble(-180, 180), 0);
             assertThat(Geodesy.distance(a, b)).isEqualTo(Geodesy.distance(b, a));
             assertThat(Geodesy.distance(a, b)).isCloseTo(angle(a, b) * Geodesy.EARTH_RADIUS_METERS, within(0.1));
         }
@@ -39,8 +41,8 @@ class ProximityTest {
     @ParameterizedTest
     @ValueSource(doubles = {0.1, 0.5, 5, 1000, 100_000})
     void countsTheBoundaryAndNothingBeyondIt(double about) {
-        PositionFix a = Fixes.at("a", 40.3, -3.4, 0);
-        PositionFix b = Fixes.at("b", 40.3 + Math.toDegrees(about / Geodesy.EARTH_RADIUS_METERS), -3.4, 0);
+        PositionFix a = at("a", 40.3, -3.4, 0);
+        PositionFix b = at("b", 40.3 + Math.toDegrees(about / Geodesy.EARTH_RADIUS_METERS), -3.4, 0);
         double distance = Geodesy.distance(a, b);
         double nanometer = Math.max(1e-9, 2 * Math.ulp(distance));
         if (about > 0.1) {
@@ -64,8 +66,8 @@ class ProximityTest {
             // From far off the guard band to the last digits.
             double away = threshold * (1 + random.nextGaussian() * Math.pow(10, -random.nextInt(16)));
             double[] there = Worlds.place(centre, away * Math.cos(angle), away * Math.sin(angle));
-            PositionFix a = Fixes.at("a", centre[0], centre[1], 0);
-            PositionFix b = Fixes.at("b", Math.max(-90, Math.min(90, there[0])), there[1], 0);
+            PositionFix a = at("a", centre[0], centre[1], 0);
+            PositionFix b = at("b", Math.max(-90, Math.min(90, there[0])), there[1], 0);
             boolean expected = Geodesy.distance(a, b) <= threshold;
             assertThat(proximity.holds(CellEntry.of(a, true), CellEntry.of(b, false)))
                     .as("%s %s", a, b)
@@ -77,8 +79,8 @@ class ProximityTest {
 
     @Test
     void leavesTwoHaloCopiesToTheCellWhereOneIsAtHome() {
-        CellEntry a = CellEntry.of(Fixes.east("a", 0, 0), false);
-        CellEntry b = CellEntry.of(Fixes.east("b", 1, 0), false);
+        CellEntry a = CellEntry.of(east("a", 0, 0), false);
+        CellEntry b = CellEntry.of(east("b", 1, 0), false);
         Proximity proximity = new Proximity(rules(5));
         assertThat(proximity.holds(CellEntry.of(a.fix(), true), b)).isTrue();
         assertThat(proximity.holds(a, b)).isFalse();
@@ -86,14 +88,14 @@ class ProximityTest {
 
     @Test
     void neverMatchesPartsOfOneAggregate() {
-        PositionFix robot = Fixes.east("robot", 0, 0);
-        PositionFix camera = Fixes.east("camera", 1, 0);
-        PositionFix laser = Fixes.carriedBy("robot", Fixes.east("laser", 2, 0));
+        PositionFix robot = east("robot", 0, 0);
+        PositionFix camera = east("camera", 1, 0);
+        PositionFix laser = carriedBy("robot", east("laser", 2, 0));
         assertThat(close(robot, camera, 5)).isTrue();
-        assertThat(close(robot, Fixes.carriedBy("robot", camera), 5)).isFalse();
-        assertThat(close(Fixes.carriedBy("robot", camera), robot, 5)).isFalse();
-        assertThat(close(laser, Fixes.carriedBy("robot", camera), 5)).isFalse();
-        assertThat(close(laser, Fixes.carriedBy("tractor", camera), 5)).isTrue();
+        assertThat(close(robot, carriedBy("robot", camera), 5)).isFalse();
+        assertThat(close(carriedBy("robot", camera), robot, 5)).isFalse();
+        assertThat(close(laser, carriedBy("robot", camera), 5)).isFalse();
+        assertThat(close(laser, carriedBy("tractor", camera), 5)).isTrue();
     }
 
     @Test
@@ -101,12 +103,12 @@ class ProximityTest {
         CollisionRules any = rules(5);
         CollisionRules second =
                 new CollisionRules(5, any.timeToLive(), Duration.ofSeconds(1), any.ongoingEvery(), any.cellMeters());
-        CellEntry a = CellEntry.of(Fixes.east("a", 0, 0), true);
-        assertThat(new Proximity(second).holds(a, CellEntry.of(Fixes.east("b", 1, 1000), true)))
+        CellEntry a = CellEntry.of(east("a", 0, 0), true);
+        assertThat(new Proximity(second).holds(a, CellEntry.of(east("b", 1, 1000), true)))
                 .isTrue();
-        assertThat(new Proximity(second).holds(a, CellEntry.of(Fixes.east("b", 1, -1001), true)))
+        assertThat(new Proximity(second).holds(a, CellEntry.of(east("b", 1, -1001), true)))
                 .isFalse();
-        assertThat(new Proximity(any).holds(a, CellEntry.of(Fixes.east("b", 1, -1001), true)))
+        assertThat(new Proximity(any).holds(a, CellEntry.of(east("b", 1, -1001), true)))
                 .isTrue();
     }
 

@@ -2,18 +2,12 @@ package io.furrow.analytics.collision.matching;
 
 import java.util.List;
 
-import org.apache.flink.api.common.serialization.SerializerConfigImpl;
-import org.apache.flink.api.common.typeinfo.TypeInformation;
-import org.apache.flink.api.common.typeutils.TypeSerializer;
 import org.apache.flink.api.java.typeutils.runtime.PojoSerializer;
-import org.apache.flink.configuration.Configuration;
-import org.apache.flink.configuration.PipelineOptions;
-import org.apache.flink.core.memory.DataInputDeserializer;
-import org.apache.flink.core.memory.DataOutputSerializer;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
+import io.furrow.analytics.Serializers;
 import io.furrow.analytics.collision.Fixes;
 import io.furrow.analytics.collision.debounce.SteadyState;
 import io.furrow.analytics.collision.encounter.Encounter;
@@ -50,8 +44,8 @@ class RecordTypesTest {
     @ParameterizedTest
     @MethodSource("records")
     void goThroughTheirFormats(Object written) throws Exception {
-        assertThat(copied(written)).isEqualTo(written);
-        assertThat(serializer(written)).isNotInstanceOf(PojoSerializer.class);
+        assertThat(Serializers.copied(written)).isEqualTo(written);
+        assertThat(Serializers.of(written)).isNotInstanceOf(PojoSerializer.class);
     }
 
     static Object[] plainRecords() {
@@ -65,13 +59,12 @@ class RecordTypesTest {
     @ParameterizedTest
     @MethodSource("plainRecords")
     void goThroughFlinksOwnSerializer(Object written) throws Exception {
-        assertThat(copied(written)).isEqualTo(written);
-        assertThat(serializer(written)).isInstanceOf(PojoSerializer.class);
+        Serializers.assertPlain(written);
     }
 
     @Test
     void tracksGoThroughTheirFormat() throws Exception {
-        Track track = copied(new Track(FIX, new long[] {3, -4}));
+        Track track = Serializers.copied(new Track(FIX, new long[] {3, -4}));
         assertThat(track.last()).isEqualTo(FIX);
         assertThat(track.cells()).containsExactly(3, -4);
     }
@@ -82,10 +75,10 @@ class RecordTypesTest {
         cell.put(CellEntry.of(FIX, true));
         cell.put(inACrowd(Fixes.east("c", 3, 500)));
         cell.report(new CrowdReport(1000, true, FIX));
-        assertThat(copied(cell).report()).isEqualTo(cell.report());
-        assertThat(copied(cell).isCrowded()).isTrue();
-        assertThat(copied(cell).members()).containsExactlyInAnyOrderElementsOf(cell.members());
-        Cell copy = serializer(cell).copy(cell);
+        assertThat(Serializers.copied(cell).report()).isEqualTo(cell.report());
+        assertThat(Serializers.copied(cell).isCrowded()).isTrue();
+        assertThat(Serializers.copied(cell).members()).containsExactlyInAnyOrderElementsOf(cell.members());
+        Cell copy = Serializers.of(cell).copy(cell);
         copy.put(CellEntry.of(Fixes.east("d", 3, 500), false));
         copy.report(null);
         assertThat(copy.members()).hasSize(3);
@@ -97,23 +90,5 @@ class RecordTypesTest {
         CellEntry cellEntry = CellEntry.of(fix, false);
         cellEntry.shortlist(new NearestNeighbors(List.of("farm|/|a", "farm|/|é")));
         return cellEntry;
-    }
-
-    private static <T> T copied(T written) throws Exception {
-        TypeSerializer<T> serializer = serializer(written);
-        DataOutputSerializer out = new DataOutputSerializer(256);
-        serializer.serialize(written, out);
-        DataInputDeserializer in = new DataInputDeserializer(out.getCopyOfBuffer());
-        T read = serializer.deserialize(in);
-        assertThat(in.available()).isZero();
-        return read;
-    }
-
-    private static <T> TypeSerializer<T> serializer(T written) {
-        // Refuses every type that would fall to Kryo.
-        Configuration strict = new Configuration().set(PipelineOptions.GENERIC_TYPES, false);
-        @SuppressWarnings("unchecked")
-        Class<T> type = (Class<T>) written.getClass();
-        return TypeInformation.of(type).createSerializer(new SerializerConfigImpl(strict));
     }
 }

@@ -2,14 +2,12 @@ package io.furrow.analytics.collision.motion;
 
 import java.time.Duration;
 import java.util.ArrayList;
-import java.util.Comparator;
-import java.util.HashMap;
 import java.util.List;
-import java.util.Map;
 import java.util.Random;
 import java.util.Set;
 
 import io.furrow.analytics.Seeds;
+import io.furrow.analytics.collision.Worlds;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 
@@ -58,7 +56,7 @@ public final class Courses {
             double speed = random.nextInt(6) == 0 ? 0 : 25 * random.nextDouble();
             long time = start + random.nextInt(1500);
             while (time < start + LENGTH) {
-                double[] place = place(centre, east, north);
+                double[] place = Worlds.place(centre, east, north);
                 fixes.add(new PositionFix(
                         "data.raw",
                         "farm|/|" + device,
@@ -82,23 +80,7 @@ public final class Courses {
         return fixes;
     }
 
-    /** An order of arrival in which nothing comes more than the bound behind something later. */
     public List<PositionFix> shuffled(List<PositionFix> fixes, long bound) {
-        Map<PositionFix, Long> arrivals = new HashMap<>();
-        fixes.forEach(fix -> arrivals.put(fix, fix.time() + random.nextLong(bound)));
-        List<PositionFix> order = new ArrayList<>(fixes);
-        order.sort(Comparator.comparing(arrivals::get));
-        return order;
-    }
-
-    /** A place so many meters from the center, which around a pole may lie on any meridian. */
-    public static double[] place(double[] centre, double east, double north) {
-        double perDegree = CartesianPoint.EARTH_RADIUS_METERS * Math.PI / 180;
-        if (Math.abs(centre[0]) == 90) {
-            double latitude = centre[0] - Math.signum(centre[0]) * Math.hypot(east, north) / perDegree;
-            return new double[] {latitude, Math.toDegrees(Math.atan2(north, east))};
-        }
-        double longitude = centre[1] + east / perDegree / Math.cos(Math.toRadians(centre[0]));
-        return new double[] {centre[0] + north / perDegree, Math.IEEEremainder(longitude, 360)};
+        return Worlds.shuffled(fixes, bound, random);
     }
 }

@@ -2,13 +2,12 @@ package io.furrow.analytics.collision.motion;
 
 import java.util.ArrayList;
 import java.util.Collection;
-import java.util.Collections;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Random;
-import java.util.function.Function;
 
+import io.furrow.analytics.collision.Simulation;
 import io.furrow.analytics.position.PositionFix;
 
 /** The stages without Flink: watermarks at random instants, and within each all keys in random order. */
@@ -36,7 +35,7 @@ final class MotionSimulation {
         long watermark = fixes.stream().mapToLong(PositionFix::time).min().orElse(0);
         while (!waiting.isEmpty()) {
             watermark += random.nextInt(2000);
-            simulation.advance(taken(waiting, watermark), watermark);
+            simulation.advance(Simulation.taken(waiting, watermark), watermark);
         }
         simulation.advance(List.of(), Long.MAX_VALUE);
         simulation.contacts.values().forEach(open -> Contact.close(open, simulation.approaches::add));
@@ -45,7 +44,7 @@ final class MotionSimulation {
 
     private void advance(List<PositionFix> due, long until) {
         List<SegmentUpdate> updates = new ArrayList<>();
-        grouped(due, PositionFix::key).forEach((device, fixes) -> {
+        Simulation.grouped(due, PositionFix::key, random).forEach((device, fixes) -> {
             fixes.sort(PositionFix.SEQUENCE);
             motions.put(
                     device,
@@ -53,35 +52,19 @@ final class MotionSimulation {
         });
         List<ApproachCandidate> predictions = new ArrayList<>();
         List<ApproachCandidate> found = new ArrayList<>();
-        grouped(updates, SegmentUpdate::cube).forEach((cube, all) -> {
+        Simulation.grouped(updates, SegmentUpdate::cube, random).forEach((cube, all) -> {
             all.sort(SegmentUpdate.SEQUENCE);
             CubeIndex here = indexes.computeIfAbsent(cube, id -> CubeIndex.empty());
             here.apply(all, new ApproachDetector(rules, cubes, cube, predictions::add, found::add));
             here.forget(until, rules.timeToLive());
         });
-        grouped(predictions, ApproachCandidate::pair).forEach((pair, candidates) -> {
+        Simulation.grouped(predictions, ApproachCandidate::pair, random).forEach((pair, candidates) -> {
             candidates.sort(ApproachCandidate.SEQUENCE);
             foretold.put(pair, OngoingPrediction.follow(foretold.get(pair), candidates, rules, approaches::add));
         });
-        grouped(found, ApproachCandidate::pair).forEach((pair, candidates) -> {
+        Simulation.grouped(found, ApproachCandidate::pair, random).forEach((pair, candidates) -> {
             candidates.sort(ApproachCandidate.SEQUENCE);
             contacts.put(pair, Contact.join(contacts.get(pair), candidates, approaches::add));
         });
-    }
-
-    private <K, T> Map<K, List<T>> grouped(List<T> all, Function<T, K> key) {
-        List<T> shuffled = new ArrayList<>(all);
-        Collections.shuffle(shuffled, random);
-        Map<K, List<T>> groups = new HashMap<>();
-        shuffled.forEach(each ->
-                groups.computeIfAbsent(key.apply(each), k -> new ArrayList<>()).add(each));
-        return groups;
-    }
-
-    private static List<PositionFix> taken(List<PositionFix> waiting, long watermark) {
-        List<PositionFix> due =
-                waiting.stream().filter(fix -> fix.time() <= watermark).toList();
-        waiting.removeIf(fix -> fix.time() <= watermark);
-        return due;
     }
 }

@@ -13,6 +13,7 @@ import org.slf4j.LoggerFactory;
 import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.position.PositionFix;
 
+import static io.furrow.analytics.collision.motion.Courses.rules;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.fail;
 
@@ -28,7 +29,7 @@ class MotionSimulationTest {
         int predicted = 0;
         int crossed = 0;
         for (int i = 0; i < CASES; i++) {
-            MotionRules rules = Courses.rules(5 + i % 60);
+            MotionRules rules = rules(5 + i % 60);
             List<PositionFix> fixes = world(seed, i);
             List<MotionOracle.Told> expected = MotionOracle.of(fixes, rules);
             List<MotionOracle.Told> found = told(MotionSimulation.approaches(fixes, rules, new Random(seed)));
@@ -45,9 +46,9 @@ class MotionSimulationTest {
     void keepsContactsApartThatAreLessThanAMillisecondApart() {
         long seed = 53433193976546L;
         List<PositionFix> fixes = world(seed, 337);
-        List<MotionOracle.Told> expected = MotionOracle.of(fixes, Courses.rules(42));
+        List<MotionOracle.Told> expected = MotionOracle.of(fixes, rules(42));
 
-        agree(told(MotionSimulation.approaches(fixes, Courses.rules(42), new Random(seed))), expected, "that world");
+        agree(told(MotionSimulation.approaches(fixes, rules(42), new Random(seed))), expected, "that world");
         assertThat(count(expected, Phase.CROSSED)).isOne();
     }
 
@@ -55,11 +56,11 @@ class MotionSimulationTest {
     void givesTheSameForAnyCubeSizeAndOrder() {
         for (int i = 0; i < 60; i++) {
             List<PositionFix> fixes = world(17, i);
-            List<Approach> small = sorted(MotionSimulation.approaches(fixes, Courses.rules(5), new Random(i)));
-            assertThat(sorted(MotionSimulation.approaches(fixes, Courses.rules(77), new Random(-i))))
+            List<Approach> small = sorted(MotionSimulation.approaches(fixes, rules(5), new Random(i)));
+            assertThat(sorted(MotionSimulation.approaches(fixes, rules(77), new Random(-i))))
                     .isEqualTo(small);
             // Eight cubes for the whole Earth: no grid at all.
-            assertThat(sorted(MotionSimulation.approaches(fixes, Courses.rules(1e8), new Random(i))))
+            assertThat(sorted(MotionSimulation.approaches(fixes, rules(1e8), new Random(i))))
                     .isEqualTo(small);
         }
     }

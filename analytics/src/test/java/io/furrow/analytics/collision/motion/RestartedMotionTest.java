@@ -5,10 +5,15 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Random;
 
+import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.analytics.collision.encounter.Stage;
 import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.time.KeyedLatenessOperator;
 
+import static io.furrow.analytics.collision.motion.Courses.START;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class RestartedMotionTest {
@@ -22,7 +27,7 @@ class RestartedMotionTest {
         for (int i = 0; i < 12; i++) {
             MotionRules rules = Courses.rules(20);
             Courses courses = new Courses(300 + i);
-            List<PositionFix> fixes = courses.world(Courses.CENTRES[i % Courses.CENTRES.length], Courses.START);
+            List<PositionFix> fixes = courses.world(Courses.CENTRES[i % Courses.CENTRES.length], START);
             List<Approach> expected =
                     MotionSimulationTest.sorted(MotionSimulation.approaches(fixes, rules, new Random(i)));
 
@@ -37,27 +42,34 @@ class RestartedMotionTest {
     @Test
     void leavesOutWhatComesBehindTheWatermarkAlsoAfterARestart() throws Exception {
         MotionRules rules = Courses.rules(20);
-        var track = MotionStage.track(rules);
-        track.receive(List.of(Courses.fix("a", new double[] {40, 3}, 1, 90, Courses.START)));
-        assertThat(track.advance(Courses.START + 10)).isNotEmpty();
+        var track = track(rules);
+        track.receive(List.of(Courses.fix("a", new double[] {40, 3}, 1, 90, START)));
+        assertThat(track.advance(START + 10)).isNotEmpty();
         track.restart();
 
-        track.receive(List.of(Courses.fix("b", new double[] {40, 3}, 1, 90, Courses.START + 10)));
-        track.receive(List.of(Courses.fix("c", new double[] {40, 3}, 1, 90, Courses.START + 11)));
+        track.receive(List.of(Courses.fix("b", new double[] {40, 3}, 1, 90, START + 10)));
+        track.receive(List.of(Courses.fix("c", new double[] {40, 3}, 1, 90, START + 11)));
 
-        assertThat(track.advance(Courses.START + 20))
+        assertThat(track.advance(START + 20))
                 .isNotEmpty()
                 .extracting(update -> update.segment().fix().id())
                 .containsOnly("c");
         track.stop();
     }
 
+    private static Stage<String, PositionFix, SegmentUpdate> track(MotionRules rules) throws Exception {
+        return Stage.of(() -> new KeyedLatenessOperator<>(new TrackMotion(rules)), PositionFix::key, Types.STRING);
+    }
+
     private List<Approach> restarted(List<PositionFix> arrivals, MotionRules rules) throws Exception {
-        var track = MotionStage.track(rules);
-        var match = MotionStage.match(rules);
-        var predict = MotionStage.predict(rules);
-        var join = MotionStage.join(rules);
-        List<MotionStage<?, ?, ?>> stages = List.of(track, match, predict, join);
+        var track = track(rules);
+        Stage<Long, SegmentUpdate, ApproachCandidate> match =
+                Stage.of(() -> new KeyedProcessOperator<>(new MatchSegments(rules)), SegmentUpdate::cube, Types.LONG);
+        Stage<String, ApproachCandidate, Approach> predict =
+                Stage.of(() -> new KeyedProcessOperator<>(new TrackPredictions(rules)), ApproachCandidate::pair, Types.STRING);
+        Stage<String, ApproachCandidate, Approach> join =
+                Stage.of(() -> new KeyedProcessOperator<>(new JoinContacts(rules)), ApproachCandidate::pair, Types.STRING);
+        List<Stage<?, ?, ?>> stages = List.of(track, match, predict, join);
         List<Approach> approaches = new ArrayList<>();
         long newest = Long.MIN_VALUE;
         for (int i = 0; i <= arrivals.size(); i++) {
@@ -84,8 +96,9 @@ class RestartedMotionTest {
                 approaches.addAll(join.advance(watermark));
             }
         }
-        for (MotionStage<?, ?, ?> stage : stages) {
-            assertThat(stage.isEmpty()).isTrue();
+        for (Stage<?, ?, ?> stage : stages) {
+            assertThat(stage.stateEntries()).isZero();
+            assertThat(stage.timers()).isZero();
             stage.stop();
         }
         return approaches;

@@ -12,6 +12,10 @@ import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 
+import static io.furrow.analytics.collision.Worlds.place;
+import static io.furrow.analytics.collision.motion.Courses.CENTRES;
+import static io.furrow.analytics.collision.motion.Courses.START;
+import static io.furrow.analytics.collision.motion.Courses.fix;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Machines on great circles at a steady speed, stepped through in small steps, against what was notified of their reports. */
@@ -46,8 +50,7 @@ class StraightCoursesTest {
                 CartesianPoint there = at(elapsed);
                 double[] place = {there.latitude(), there.longitude()};
                 double speed = tells ? 1000 * metersPerMilli : Double.NaN;
-                fixes.add(
-                        Courses.fix(id, place, speed, tells ? heading(elapsed) : Double.NaN, Courses.START + elapsed));
+                fixes.add(fix(id, place, speed, tells ? heading(elapsed) : Double.NaN, START + elapsed));
             }
             return fixes;
         }
@@ -55,7 +58,7 @@ class StraightCoursesTest {
         private double heading(long elapsed) {
             CartesianPoint there = at(elapsed);
             CartesianPoint onward = at(elapsed + 1).minus(there);
-            PositionFix fix = Courses.fix(id, new double[] {there.latitude(), there.longitude()}, 0);
+            PositionFix fix = fix(id, new double[] {there.latitude(), there.longitude()}, 0);
             double east = onward.dot(CartesianPoint.heading(fix, 90));
             double north = onward.dot(CartesianPoint.heading(fix, 0));
             return (Math.toDegrees(Math.atan2(east, north)) + 360) % 360;
@@ -87,14 +90,13 @@ class StraightCoursesTest {
                 long latest = Math.max(3000, first - HORIZON + 2000);
                 assertThat(predictions)
                         .as("case %d: %s and %s meet after %d ms", i, a, b, first)
-                        .anyMatch(told ->
-                                told.time() - Courses.START <= latest && told.time() - Courses.START >= first - HORIZON)
-                        .anyMatch(told -> told.time() + 1000 * told.tcpa() - Courses.START >= first - STEP);
+                        .anyMatch(told -> told.time() - START <= latest && told.time() - START >= first - HORIZON)
+                        .anyMatch(told -> told.time() + 1000 * told.tcpa() - START >= first - STEP);
                 met++;
             }
             if (closest > threshold + ERROR) {
                 // Within the time that was stepped through; a closer pass may lie beyond it.
-                assertThat(predictions.stream().filter(told -> told.time() + HORIZON < Courses.START + LENGTH))
+                assertThat(predictions.stream().filter(told -> told.time() + HORIZON < START + LENGTH))
                         .as("case %d: %s and %s pass at %f m", i, a, b, closest)
                         .isEmpty();
                 passed++;
@@ -114,7 +116,7 @@ class StraightCoursesTest {
             fixes.addAll(b.reports(1000, true));
             long closest = closest(a, b);
             for (Approach told : MotionSimulation.approaches(fixes, RULES, random)) {
-                long cpa = Math.round(told.time() - Courses.START + 1000 * told.tcpa());
+                long cpa = Math.round(told.time() - START + 1000 * told.tcpa());
                 if (told.phase() == Phase.PREDICTED && closest < LENGTH && cpa <= LENGTH) {
                     assertThat(told.dcpa())
                             .isBetween(distance(a, b, cpa) - ERROR, distance(a, b, cpa) + ERROR)
@@ -128,15 +130,15 @@ class StraightCoursesTest {
     void crossWhereAPassAtTwentyMetresPerSecondIsReportedOnceASecond() {
         int crossed = 0;
         for (int i = 0; i < 300; i++) {
-            double[] centre = Courses.CENTRES[i % Courses.CENTRES.length];
+            double[] centre = CENTRES[i % CENTRES.length];
             double phase = 5 + 10 * random.nextDouble();
             double aside = 4.9 * random.nextDouble();
             List<PositionFix> fixes = new ArrayList<>();
             for (int second = 0; second <= 10; second++) {
                 // At the whole seconds the one is at least five meters past or short of the other.
                 double east = 20 * (second - 5) + phase;
-                fixes.add(Courses.fix("a", Courses.place(centre, east, 0), Courses.START + 1000 * second));
-                fixes.add(Courses.fix("b", Courses.place(centre, 0, aside), Courses.START + 1000 * second));
+                fixes.add(fix("a", place(centre, east, 0), START + 1000 * second));
+                fixes.add(fix("b", place(centre, 0, aside), START + 1000 * second));
             }
             List<Approach> told = MotionSimulation.approaches(fixes, RULES, random).stream()
                     .filter(approach -> approach.phase() == Phase.CROSSED)
@@ -145,7 +147,7 @@ class StraightCoursesTest {
                 assertThat(told).as("case %d", i).singleElement().satisfies(approach -> {
                     assertThat(approach.dcpa()).isBetween(aside - 0.01, aside + 0.01);
                     double seconds = 5 - phase / 20;
-                    assertThat(approach.time() - Courses.START)
+                    assertThat(approach.time() - START)
                             .isBetween((long) (1000 * seconds) - 2, (long) (1000 * seconds) + 2);
                 });
                 crossed++;
@@ -158,9 +160,9 @@ class StraightCoursesTest {
     void doNotCrossWhereAReportShowsThemClose() {
         List<PositionFix> fixes = new ArrayList<>();
         for (int second = 0; second <= 10; second++) {
-            double[] centre = Courses.CENTRES[0];
-            fixes.add(Courses.fix("a", Courses.place(centre, 20 * (second - 5), 0), Courses.START + 1000 * second));
-            fixes.add(Courses.fix("b", Courses.place(centre, 0, 1), Courses.START + 1000 * second));
+            double[] centre = CENTRES[0];
+            fixes.add(fix("a", place(centre, 20 * (second - 5), 0), START + 1000 * second));
+            fixes.add(fix("b", place(centre, 0, 1), START + 1000 * second));
         }
         assertThat(MotionSimulation.approaches(fixes, RULES, random))
                 .isNotEmpty()
@@ -169,16 +171,15 @@ class StraightCoursesTest {
 
     /** Passes near the place of the case after this many seconds, so that many meet. */
     private Machine machine(String id, int i, double seconds) {
-        double[] centre = Courses.CENTRES[i % Courses.CENTRES.length];
+        double[] centre = CENTRES[i % CENTRES.length];
         double speed = random.nextInt(10) == 0 ? 0 : 1 + 29 * random.nextDouble();
         double course = 2 * Math.PI * random.nextDouble();
         double east = 3 * random.nextGaussian() - speed * seconds * Math.sin(course);
         double north = 3 * random.nextGaussian() - speed * seconds * Math.cos(course);
-        double[] from = Courses.place(centre, east, north);
-        double[] towards = Courses.place(centre, east + 50 * Math.sin(course), north + 50 * Math.cos(course));
-        CartesianPoint there = CartesianPoint.of(Courses.fix(id, from, 0));
-        CartesianPoint way =
-                CartesianPoint.of(Courses.fix(id, towards, 0)).minus(there).alongTheGroundAt(there);
+        double[] from = place(centre, east, north);
+        double[] towards = place(centre, east + 50 * Math.sin(course), north + 50 * Math.cos(course));
+        CartesianPoint there = CartesianPoint.of(fix(id, from, 0));
+        var way = CartesianPoint.of(fix(id, towards, 0)).minus(there).alongTheGroundAt(there);
         return new Machine(id, there, way.times(1 / way.length()), speed / 1000, random.nextInt(1000));
     }
 

@@ -52,7 +52,7 @@ class CollisionRulesTest {
 
     @Test
     void letTheExactStagesSeeEverythingUpToWhereEncountersEnd() {
-        CollisionRules exact =
+        var exact =
                 CollisionRules.DEFAULT.with(new DebounceRules(2, Duration.ZERO)).exact();
         assertThat(exact.thresholdMeters()).isEqualTo(10);
         assertThat(exact.ongoingEvery()).isZero();

@@ -20,8 +20,7 @@ class RobotJsonTest {
     void isAnEntityAtThePlaceOfTheFix(double latitude, double longitude) throws Exception {
         PositionFix fix = Fleet.fix("farm|/|robot-1", "robot-1", latitude, longitude, 0);
 
-        Entity entity =
-                Entity.parse(RobotJson.record("t", fix, 1_700_000_000_123L).value());
+        var entity = Entity.parse(RobotJson.record("t", fix, 1_700_000_000_123L).value());
 
         assertThat(entity.id()).isEqualTo("robot-1");
         assertThat(entity.number("Time")).contains(1_700_000_000_123.0);

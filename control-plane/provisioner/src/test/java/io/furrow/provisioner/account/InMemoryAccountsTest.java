@@ -1,6 +1,5 @@
 package io.furrow.provisioner.account;
 
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
@@ -14,10 +13,11 @@ import io.furrow.model.device.DeviceConnection.ForeignTopic;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.FarmSecret;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class InMemoryAccountsTest {
-    private static final FarmSecret SECRET = new FarmSecret("0123456789abcdef".getBytes(StandardCharsets.UTF_8));
+    private static final FarmSecret SECRET = new FarmSecret("0123456789abcdef".getBytes(UTF_8));
     private static final FarmSecret.Login DEVICE = SECRET.device("hoeing", "d");
     private static final FarmSecret.Login OTHER = SECRET.device("hoeing", "e");
     private static final String TOPIC = "/" + SECRET.apiKey("hoeing") + "/d/attrs";
@@ -89,6 +89,6 @@ class InMemoryAccountsTest {
     }
 
     private boolean login(String user, String password) {
-        return accounts.authenticates(user, password.getBytes(StandardCharsets.UTF_8));
+        return accounts.authenticates(user, password.getBytes(UTF_8));
     }
 }

@@ -13,8 +13,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.model.device.FarmSecret;
-import io.furrow.provisioner.DesiredDeviceFixture;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -22,14 +22,14 @@ class MosquittoFilesTest {
     @TempDir
     Path directory;
 
-    private final MqttAccount device = MqttAccount.device(DesiredDeviceFixture.SECRET, "hoeing", "d");
-    private final MqttAccount gateway = MqttAccount.gateway(DesiredDeviceFixture.SECRET, "hoeing");
+    private final MqttAccount device = MqttAccount.device(SECRET, "hoeing", "d");
+    private final MqttAccount gateway = MqttAccount.gateway(SECRET, "hoeing");
 
     @Test
     void writesAPasswordAndRulesForEachAccount() throws IOException {
         files(null).replace(List.of(gateway, device), Set.of());
 
-        String key = DesiredDeviceFixture.SECRET.apiKey("hoeing");
+        String key = SECRET.apiKey("hoeing");
         assertThat(Files.readAllLines(rules()))
                 .contains(
                         "user furrow.m.hoeing.1",
@@ -199,7 +199,7 @@ class MosquittoFilesTest {
     }
 
     private static MqttAccount other() {
-        return MqttAccount.device(DesiredDeviceFixture.SECRET, "weeding", "d");
+        return MqttAccount.device(SECRET, "weeding", "d");
     }
 
     private MosquittoFiles files(String reload) {

@@ -6,15 +6,14 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
-import io.furrow.provisioner.DesiredDeviceFixture;
-
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MqttAccountTest {
-    private static final String KEY = "/" + DesiredDeviceFixture.SECRET.apiKey("hoeing");
+    private static final String KEY = "/" + SECRET.apiKey("hoeing");
 
-    private final MqttAccount device = MqttAccount.device(DesiredDeviceFixture.SECRET, "hoeing", "d");
-    private final MqttAccount gateway = MqttAccount.gateway(DesiredDeviceFixture.SECRET, "hoeing");
+    private final MqttAccount device = MqttAccount.device(SECRET, "hoeing", "d");
+    private final MqttAccount gateway = MqttAccount.gateway(SECRET, "hoeing");
 
     @Test
     void letsADeviceSpeakForItselfAndReceiveItsCommands() {
@@ -33,23 +32,15 @@ class MqttAccountTest {
         assertThat(gateway.mayRead(KEY + "/+/cmd")).isTrue();
         assertThat(gateway.mayRead(KEY + "/d/cmd")).isTrue();
 
-        assertThat(gateway.mayWrite("/" + DesiredDeviceFixture.SECRET.apiKey("weeding") + "/d/attrs"))
+        assertThat(gateway.mayWrite("/" + SECRET.apiKey("weeding") + "/d/attrs"))
                 .isFalse();
     }
 
     @ParameterizedTest
     @ValueSource(
             strings = {
-                "#",
-                "/#",
-                "/+/+/cmd",
-                "/KEY/#",
-                "/KEY/+/#",
-                "/KEY/+/+",
-                "$SYS/#",
-                "/KEY/d/e/cmd",
-                "/KEY/d/cmd/e",
-                "/KEY//d/cmd"
+                "#", "/#", "/+/+/cmd", "/KEY/#", "/KEY/+/#",
+                "/KEY/+/+", "$SYS/#", "/KEY/d/e/cmd", "/KEY/d/cmd/e", "/KEY//d/cmd"
             })
     void grantsNoFilterThatTakesMore(String filter) {
         assertThat(gateway.mayRead(filter.replace("/KEY", KEY))).isFalse();

@@ -1,6 +1,5 @@
 package io.furrow.control.alarm;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
 import java.util.Set;
@@ -18,6 +17,7 @@ import io.furrow.model.control.RejectedException;
 import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -41,7 +41,7 @@ class AlarmCommandHandlerTest {
     void showsAnAlarmAsClientsReadIt() {
         handler.raise(silent("urn:t:1"), NOW);
 
-        assertThat(new String(publisher.compacted(Topics.ALARMS).get("silent-device-1"), StandardCharsets.UTF_8))
+        assertThat(new String(publisher.compacted(Topics.ALARMS).get("silent-device-1"), UTF_8))
                 .isEqualTo("""
                         {"alarm":"silent-device-1","kind":"silent-device","subject":"urn:t:1","severity":"minor","state":"open",\
                         "change":"opened","text":"it is silent","devices":[{"id":"urn:t:1","type":"Thermometer"}],\

@@ -1,10 +1,6 @@
 package io.furrow.control.device;
 
 import java.io.IOException;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
-import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -12,9 +8,7 @@ import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.sun.net.httpserver.HttpExchange;
-import com.sun.net.httpserver.HttpServer;
-import org.junit.jupiter.api.AfterEach;
-import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -24,29 +18,21 @@ import org.junit.jupiter.params.provider.ValueSource;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.file.AccessToken;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.stub.StubServer;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.catchThrowable;
 
 class DeviceCommandsTest {
     private final List<String> heard = new ArrayList<>();
-    private HttpServer broker;
     private int status = 204;
     private String answer = "";
     private volatile String authorization;
 
-    @BeforeEach
-    void start() throws IOException {
-        broker = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        broker.createContext("/", this::report);
-        broker.start();
-    }
-
-    @AfterEach
-    void stop() {
-        broker.stop(0);
-    }
+    @AutoClose
+    private final StubServer broker = new StubServer(this::report);
 
     @Test
     void updatesTheAttributeOfTheCommand() throws Exception {
@@ -62,7 +48,7 @@ class DeviceCommandsTest {
     @ValueSource(
             strings = {"3", "2.50", "840380235174088834", "true", "false", "null", "\"007\"", "{\"l\":[1,2.5]}", "[]"})
     void sendsAValueAsWhatItIs(String value) throws Exception {
-        JsonNode json = NgsiJson.read(value.getBytes(StandardCharsets.UTF_8));
+        JsonNode json = NgsiJson.read(value.getBytes(UTF_8));
 
         commands()
                 .send(new DeviceCommands.Order("t1", "Thermometer", "on", json))
@@ -145,7 +131,7 @@ class DeviceCommandsTest {
     @Test
     void reportsThatTheContextBrokerIsUnavailable() {
         DeviceCommands commands = commands();
-        broker.stop(0);
+        broker.close();
 
         assertThatThrownBy(() -> commands.send("urn:x", "Thermometer", "on", ""))
                 .isInstanceOf(IOException.class)
@@ -157,10 +143,7 @@ class DeviceCommandsTest {
     }
 
     private DeviceCommands commands(AccessToken token) {
-        return new DeviceCommands(
-                URI.create("http://127.0.0.1:" + broker.getAddress().getPort() + "/"),
-                new FiwareScope("farm", "/north"),
-                token);
+        return new DeviceCommands(broker.uri("/"), new FiwareScope("farm", "/north"), token);
     }
 
     private void report(HttpExchange exchange) throws IOException {
@@ -171,10 +154,7 @@ class DeviceCommandsTest {
                         exchange.getRequestURI(),
                         exchange.getRequestHeaders().getFirst("Fiware-Service"),
                         exchange.getRequestHeaders().getFirst("Fiware-Servicepath"),
-                        new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8)));
-        byte[] body = answer.getBytes(StandardCharsets.UTF_8);
-        exchange.sendResponseHeaders(status, body.length == 0 ? -1 : body.length);
-        exchange.getResponseBody().write(body);
-        exchange.close();
+                        new String(exchange.getRequestBody().readAllBytes(), UTF_8)));
+        StubServer.answer(exchange, status, answer);
     }
 }

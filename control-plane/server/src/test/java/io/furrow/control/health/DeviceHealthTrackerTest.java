@@ -77,8 +77,7 @@ class DeviceHealthTrackerTest {
     }
 
     private static DeviceConnection refused(long count) {
-        RefusedLogin refused =
-                new RefusedLogin(count, START + 1000, DeviceConnection.WRONG_PASSWORD, "furrow.d.m.d.1.0");
+        var refused = new RefusedLogin(count, START + 1000, DeviceConnection.WRONG_PASSWORD, "furrow.d.m.d.1.0");
         return new DeviceConnection(START, null, refused, null, null, true);
     }
 

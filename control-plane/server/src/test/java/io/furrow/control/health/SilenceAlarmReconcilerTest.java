@@ -1,6 +1,5 @@
 package io.furrow.control.health;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.Optional;
 
@@ -16,6 +15,7 @@ import io.furrow.model.control.AlarmKind;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class SilenceAlarmReconcilerTest {
@@ -55,8 +55,7 @@ class SilenceAlarmReconcilerTest {
     }
 
     private SilenceAlarmReconciler silent() {
-        SilenceAlarmReconciler silence =
-                new SilenceAlarmReconciler(HealthOptions.DEFAULT, alarms, key -> Optional.empty());
+        var silence = new SilenceAlarmReconciler(HealthOptions.DEFAULT, alarms, key -> Optional.empty());
         for (int i = 0; i < 5; i++) {
             String id = "urn:t:" + i;
             silence.put(
@@ -78,7 +77,7 @@ class SilenceAlarmReconcilerTest {
 
     private String farm() {
         return publisher.compacted(Topics.ALARMS).values().stream()
-                .map(alarm -> new String(alarm, StandardCharsets.UTF_8))
+                .map(alarm -> new String(alarm, UTF_8))
                 .filter(alarm -> alarm.contains("silent-farm"))
                 .findFirst()
                 .orElse("");

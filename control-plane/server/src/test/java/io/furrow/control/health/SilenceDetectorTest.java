@@ -1,6 +1,5 @@
 package io.furrow.control.health;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -15,6 +14,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.ngsi.NgsiJson;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class SilenceDetectorTest {
@@ -32,7 +32,7 @@ class SilenceDetectorTest {
     void reportsTheFirstReportThenEveryHalfMinute() {
         addDesired(PERIOD);
         for (int i = 0; i <= 65; i++) {
-            process(Entity.builder(ID, "T"), now);
+            process(now);
             pass(1000);
         }
         assertThat(signs).hasSize(3).noneMatch(Heartbeat::silent);
@@ -42,8 +42,8 @@ class SilenceDetectorTest {
     @Test
     void reportsTheLastOfSomeReportsWithinHalfAMinute() {
         addDesired(PERIOD.multipliedBy(90));
-        process(Entity.builder(ID, "T"), 5);
-        process(Entity.builder(ID, "T"), 6);
+        process(5);
+        process(6);
         for (int i = 0; i <= 60; i++) {
             pass(1000);
         }
@@ -53,7 +53,7 @@ class SilenceDetectorTest {
     @Test
     void reportsOnceOfADeviceThatIsSilentForLongerThanItsPeriods() {
         addDesired(PERIOD);
-        process(Entity.builder(ID, "T"), 5);
+        process(5);
         pass(30_000);
         assertThat(signs).hasSize(1);
         pass(1);
@@ -61,7 +61,7 @@ class SilenceDetectorTest {
         assertThat(signs).hasSize(2);
         assertThat(signs.get(1).silent()).isTrue();
         assertThat(signs.get(1).reported()).isEqualTo(5);
-        process(Entity.builder(ID, "T"), 6);
+        process(6);
         assertThat(signs).hasSize(3);
         assertThat(signs.get(2).silent()).isFalse();
     }
@@ -69,7 +69,7 @@ class SilenceDetectorTest {
     @Test
     void takesTheDefaultForADeviceWithoutAPeriod() {
         addDesired(null);
-        process(Entity.builder(ID, "T"), 5);
+        process(5);
         pass(HealthOptions.DEFAULT.period().multipliedBy(3).toMillis());
         assertThat(signs).hasSize(1);
         pass(1);
@@ -79,7 +79,7 @@ class SilenceDetectorTest {
     @Test
     void goesByAPeriodThatWasChanged() {
         addDesired(PERIOD);
-        process(Entity.builder(ID, "T"), 5);
+        process(5);
         addDesired(PERIOD.multipliedBy(10));
         pass(31_000);
         pass(1000);
@@ -89,10 +89,10 @@ class SilenceDetectorTest {
     @Test
     void judgesNobodyRightAfterAPauseInWhichItDidNotListen() {
         addDesired(PERIOD);
-        process(Entity.builder(ID, "T"), 5);
+        process(5);
         pass(1000);
         pass(60_000); // as a process that stood still finds itself, with reports still to be read
-        process(Entity.builder(ID, "T"), 6);
+        process(6);
         pass(1000);
         assertThat(signs).hasSize(2).noneMatch(Heartbeat::silent);
     }
@@ -101,9 +101,9 @@ class SilenceDetectorTest {
     @Test
     void takesTheSameReportAgainForNoSignOfLife() {
         addDesired(PERIOD);
-        process(Entity.builder(ID, "T"), 5);
+        process(5);
         pass(29_000);
-        process(Entity.builder(ID, "T").text("off_status", "PENDING"), 5);
+        process(5, "off_status", "PENDING");
         pass(1001);
         assertThat(signs).hasSize(2);
         assertThat(signs.get(1).silent()).isTrue();
@@ -114,13 +114,8 @@ class SilenceDetectorTest {
     void takesANewValueAtTheSameTimeForAReport() {
         addDesired(PERIOD);
         for (int i = 0; i < 20; i++) {
-            process(Entity.builder(ID, "T").number("Time", 5).number("Temperature", i), 5);
-            process(
-                    Entity.builder(ID, "T")
-                            .number("Time", 5)
-                            .number("Temperature", i)
-                            .text("off_status", "SENT" + i),
-                    5);
+            process(5, "Time", 5, "Temperature", i);
+            process(5, "Time", 5, "Temperature", i, "off_status", "SENT" + i);
             pass(10_000);
         }
         assertThat(signs).isNotEmpty().noneMatch(Heartbeat::silent);
@@ -131,41 +126,26 @@ class SilenceDetectorTest {
     @Test
     void takesWhatACommandChangesForNoReport() {
         addDesired(PERIOD);
-        process(Entity.builder(ID, "T").number("Temperature", 8), 5);
+        process(5, "Temperature", 8);
         pass(20_000);
-        process(
-                Entity.builder(ID, "T")
-                        .number("Temperature", 8)
-                        .text("cmd", "Stop")
-                        .text("cmd_status", "PENDING"),
-                6);
+        process(6, "Temperature", 8, "cmd", "Stop", "cmd_status", "PENDING");
         pass(10_000);
-        process(
-                Entity.builder(ID, "T")
-                        .number("Temperature", 8)
-                        .text("cmd", "Stop")
-                        .text("cmd_status", "EXPIRED"),
-                7);
+        process(7, "Temperature", 8, "cmd", "Stop", "cmd_status", "EXPIRED");
         pass(1001);
         assertThat(signs).extracting(Heartbeat::silent).containsExactly(false, true);
-        process(
-                Entity.builder(ID, "T")
-                        .number("Temperature", 8)
-                        .text("cmd", "Stop")
-                        .text("cmd_status", "EXPIRED"),
-                8);
+        process(8, "Temperature", 8, "cmd", "Stop", "cmd_status", "EXPIRED");
         assertThat(signs).extracting(Heartbeat::silent).containsExactly(false, true, false);
     }
 
     @Test
     void letsADeviceBeSilentThatReportedItIsOff() {
         addDesired(PERIOD);
-        process(Entity.builder(ID, "T").bool("Status", true), 5);
-        process(Entity.builder(ID, "T").bool("Status", false), 6);
+        process(5, "Status", true);
+        process(6, "Status", false);
         pass(100_000);
         pass(1000);
         assertThat(signs).extracting(Heartbeat::off).containsExactly(false, true);
-        process(Entity.builder(ID, "T").bool("Status", true), 7);
+        process(7, "Status", true);
         pass(30_000);
         pass(1000);
         assertThat(signs).extracting(Heartbeat::silent).containsExactly(false, false, false, true);
@@ -175,25 +155,20 @@ class SilenceDetectorTest {
     @Test
     void takesWhatIsAssignedToADeviceForNoReport() {
         addDesired(PERIOD);
-        process(
-                Entity.builder(ID, "T")
-                        .text("Mission", "m")
-                        .text("on_status", "PENDING")
-                        .text("Temperature", " "),
-                5);
+        process(5, "Mission", "m", "on_status", "PENDING", "Temperature", " ");
         assertThat(signs).isEmpty();
-        process(Entity.builder(ID, "T").text("Mission", "m").number("Temperature", 8), 6);
-        process(Entity.builder(ID, "T").text("on_status", "OK"), 7);
+        process(6, "Mission", "m", "Temperature", 8);
+        process(7, "on_status", "OK");
         assertThat(signs).hasSize(1);
     }
 
     @Test
     void emitsTheNextReportAfterItsMissionWasStartedAgain() {
         addDesired(PERIOD);
-        process(Entity.builder(ID, "T"), 5);
+        process(5);
         addDesired(PERIOD, 9);
         pass(5_000);
-        process(Entity.builder(ID, "T"), 10);
+        process(10);
         assertThat(signs).hasSize(2);
     }
 
@@ -203,37 +178,52 @@ class SilenceDetectorTest {
         addDesired(PERIOD);
         pass(5000);
         assertThat(listener.isMonitored(KEY)).isTrue();
-        process(Entity.builder(ID, "T"), 5);
+        process(5);
         desired.put(KEY, null);
         pass(100_000);
         pass(1000);
         assertThat(signs).hasSize(1);
         assertThat(listener.isMonitored(KEY)).isFalse();
-        desired.put(KEY, "[".getBytes(StandardCharsets.UTF_8));
+        desired.put(KEY, "[".getBytes(UTF_8));
         pass(5000);
         assertThat(listener.isMonitored(KEY)).isFalse();
     }
 
     @Test
     void readsBatteriesAsDevicesAndRobotsReportThem() throws Exception {
-        assertThat(level(Entity.builder(ID, "T").number("battery", 0.8))).isEqualTo(0.8);
-        assertThat(level(Entity.builder(ID, "T").number("battery", 80))).isEqualTo(0.8);
-        assertThat(level(Entity.builder(ID, "T").text("battery", "{%27percentage%27: 0.8}")))
-                .isEqualTo(0.8);
-        assertThat(level(Entity.builder(ID, "T").text("battery", "80"))).isEqualTo(0.8);
-        assertThat(level(Entity.builder(ID, "T").text("battery", "full"))).isNull();
-        assertThat(level(Entity.builder(ID, "T").text("battery", "{}"))).isNull();
-        assertThat(level(Entity.builder(ID, "T").number("battery", -1))).isNull();
-        assertThat(level(Entity.builder(ID, "T"))).isNull();
+        assertThat(level("battery", 0.8)).isEqualTo(0.8);
+        assertThat(level("battery", 80)).isEqualTo(0.8);
+        assertThat(level("battery", "{%27percentage%27: 0.8}")).isEqualTo(0.8);
+        assertThat(level("battery", "80")).isEqualTo(0.8);
+        assertThat(level("battery", "full")).isNull();
+        assertThat(level("battery", "{}")).isNull();
+        assertThat(level("battery", -1)).isNull();
+        assertThat(level()).isNull();
     }
 
-    private static Double level(EntityBuilder entity) throws Exception {
-        return Battery.levelOf(Entity.parse(entity.toBytes()));
+    private static Double level(Object... attributes) throws Exception {
+        return Battery.levelOf(Entity.parse(entity(attributes).toBytes()));
     }
 
-    private void process(EntityBuilder entity, long reported) {
+    private void process(long reported, Object... attributes) {
         assertThat(listener.isMonitored(KEY)).isTrue();
-        listener.process(KEY, entity.build(), reported, now);
+        listener.process(KEY, entity(attributes).build(), reported, now);
+    }
+
+    /** With these names and values by turns. */
+    private static EntityBuilder entity(Object... attributes) {
+        EntityBuilder entity = Entity.builder(ID, "T");
+        for (int i = 0; i < attributes.length; i += 2) {
+            String name = (String) attributes[i];
+            if (attributes[i + 1] instanceof Number number) {
+                entity.number(name, number.doubleValue());
+            } else if (attributes[i + 1] instanceof Boolean bool) {
+                entity.bool(name, bool);
+            } else {
+                entity.text(name, (String) attributes[i + 1]);
+            }
+        }
+        return entity;
     }
 
     private void pass(long millis) {

@@ -1,6 +1,5 @@
 package io.furrow.control.manager;
 
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.Properties;
 
@@ -19,29 +18,26 @@ import org.apache.kafka.streams.kstream.Produced;
 import org.apache.kafka.streams.processor.api.ContextualProcessor;
 import org.apache.kafka.streams.processor.api.Record;
 import org.apache.kafka.streams.test.TestRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 /** A processor that fails where nobody expected it. */
 class FailureHandlerTest {
+    @AutoClose
     private TopologyTestDriver driver;
-
-    @AfterEach
-    void close() {
-        driver.close();
-    }
 
     private static final class Failing extends ContextualProcessor<String, byte[], String, byte[]> {
         @Override
         public void process(Record<String, byte[]> record) {
-            String text = new String(record.value(), StandardCharsets.UTF_8);
+            String text = new String(record.value(), UTF_8);
             if (text.contains("fault")) {
                 throw new IllegalStateException("nobody expected this");
             } else if (text.contains("away")) {
@@ -102,7 +98,7 @@ class FailureHandlerTest {
 
     private void pipe(String topic, String value) {
         driver.createInputTopic(topic, new StringSerializer(), new ByteArraySerializer())
-                .pipeInput("key", value.getBytes(StandardCharsets.UTF_8));
+                .pipeInput("key", value.getBytes(UTF_8));
     }
 
     private List<TestRecord<String, byte[]>> read(String topic) {
@@ -111,10 +107,10 @@ class FailureHandlerTest {
     }
 
     private static String text(TestRecord<String, byte[]> record) {
-        return new String(record.value(), StandardCharsets.UTF_8);
+        return new String(record.value(), UTF_8);
     }
 
     private static String header(TestRecord<String, byte[]> record, String name) {
-        return new String(record.headers().lastHeader(name).value(), StandardCharsets.UTF_8);
+        return new String(record.headers().lastHeader(name).value(), UTF_8);
     }
 }

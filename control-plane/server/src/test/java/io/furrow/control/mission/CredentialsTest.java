@@ -1,7 +1,5 @@
 package io.furrow.control.mission;
 
-import java.nio.charset.StandardCharsets;
-
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
@@ -14,6 +12,7 @@ import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -38,7 +37,7 @@ class CredentialsTest {
                 .isEqualTo("{\"type\":\"response\",\"status\":\"rotated\",\"device\":\"%s\",\"generation\":1}"
                         .formatted(DEVICE));
 
-        DesiredDevice requested =
+        var requested =
                 DesiredDevice.read(farm.publisher.compacted(Topics.DEVICES).get("farm|/|" + DEVICE));
         assertThat(requested.generation()).isEqualTo(1);
         assertThat(requested.version().sequence())
@@ -83,8 +82,7 @@ class CredentialsTest {
     @Test
     void readsTheStateOfAVersionThatRotatedNothing() {
         DeviceState state = StateJson.read(
-                "{\"wanted\":{\"mission\":\"m\"},\"confirmed\":true}".getBytes(StandardCharsets.UTF_8),
-                DeviceState.class);
+                "{\"wanted\":{\"mission\":\"m\"},\"confirmed\":true}".getBytes(UTF_8), DeviceState.class);
 
         assertThat(state.forgotten()).isFalse();
         assertThat(state.generation()).isZero();

@@ -19,6 +19,7 @@ import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.Topics;
 
 import static com.fasterxml.jackson.databind.node.JsonNodeFactory.instance;
+import static io.furrow.control.mission.FarmFixture.group;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -81,7 +82,7 @@ class MissionDevicesTest {
     void writesManyDevicesInSeveralTransactions() throws Exception {
         FarmFixture many = new FarmFixture(10);
         many.domain("north");
-        many.start("m", "north", FarmFixture.group("Camera", 25));
+        many.start("m", "north", group("Camera", 25));
 
         assertThat(many.publisher.compacted(Topics.DEVICES)).hasSize(10);
         assertThat(many.status("m").devices()).isEqualTo(25);
@@ -110,7 +111,7 @@ class MissionDevicesTest {
     void stopsAMissionOfWhichSomeDevicesWereNeverRequested() throws Exception {
         FarmFixture many = new FarmFixture(10);
         many.domain("north");
-        many.start("m", "north", FarmFixture.group("Camera", 25));
+        many.start("m", "north", group("Camera", 25));
         many.request(new MissionCommand.Stop("m"));
         while (many.step()) {
             many.hostAll();
@@ -123,7 +124,7 @@ class MissionDevicesTest {
     void givesNoDeviceAwayThatAMissionIsAboutToRequest() throws Exception {
         FarmFixture many = new FarmFixture(1);
         many.domain("north");
-        many.start("m", "north", FarmFixture.group("Camera", 2), DeviceGroup.entity("urn:robot"));
+        many.start("m", "north", group("Camera", 2), DeviceGroup.entity("urn:robot"));
         assertThatThrownBy(() -> many.start("other", "north", DeviceGroup.entity("urn:robot")))
                 .isInstanceOfSatisfying(
                         RejectedException.class, e -> assertThat(e.code()).isEqualTo(ErrorCode.DEVICE_TAKEN));
@@ -182,13 +183,13 @@ class MissionDevicesTest {
             }
         }
         assertThat(domains).isBetween(30, 40);
-        farm.refused(ErrorCode.QUOTA_EXCEEDED, () -> farm.start("big", "north", FarmFixture.group("Camera", 10_000)));
+        farm.refused(ErrorCode.QUOTA_EXCEEDED, () -> farm.start("big", "north", group("Camera", 10_000)));
         farm.request(new DomainCommand.Delete("d0", false));
         farm.request(new DomainCommand.Create("d0", new DomainDetails(null, null, area, null)));
         for (int i = 0; i < 20; i++) {
             farm.request(new DomainCommand.Delete("d" + i, false));
         }
-        farm.start("big", "north", FarmFixture.group("Camera", 10_000));
+        farm.start("big", "north", group("Camera", 10_000));
 
         area.put("more", "x".repeat(Limits.RECORD_BYTES));
         assertThatThrownBy(

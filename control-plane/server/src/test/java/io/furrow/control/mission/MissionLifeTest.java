@@ -22,6 +22,8 @@ import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static io.furrow.control.mission.FarmFixture.TIMEOUT;
+import static io.furrow.control.mission.FarmFixture.group;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MissionLifeTest {
@@ -34,9 +36,7 @@ class MissionLifeTest {
 
     @Test
     void goesFromStartingToStoppedAsItsDevicesComeUpAndGo() throws Exception {
-        assertThat(farm.start("m", "north", FarmFixture.group("Thermometer", 2))
-                        .json()
-                        .toString())
+        assertThat(farm.start("m", "north", group("Thermometer", 2)).json().toString())
                 .isEqualTo("{\"type\":\"response\",\"status\":\"created\",\"mission\":\"m\",\"domain\":\"north\","
                         + "\"domain_topic\":\"data.north.realtime\",\"mission_topic\":\"data.north.realtime.m\"}");
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STARTING);
@@ -70,7 +70,7 @@ class MissionLifeTest {
         farm.pass(500);
         farm.request(new MissionCommand.Stop("m"));
 
-        DeviceVersion version =
+        var version =
                 DeviceVersion.read(farm.publisher.compacted(Topics.DEVICES).get("farm|/|urn:robot"));
         assertThat(version)
                 .extracting(DeviceVersion::domain, DeviceVersion::mission, DeviceVersion::from, DeviceVersion::until)
@@ -84,10 +84,10 @@ class MissionLifeTest {
 
     @Test
     void namesDevicesThatDidNotComeUpInTime() throws Exception {
-        farm.start("m", "north", FarmFixture.group("Camera", 3));
+        farm.start("m", "north", group("Camera", 3));
         farm.report(farm.device("urn:ngsi-ld:Camera:m-1"), State.RUNNING);
         farm.report(farm.device("urn:ngsi-ld:Camera:m-2"), State.FAILED);
-        farm.pass(FarmFixture.TIMEOUT - 1);
+        farm.pass(TIMEOUT - 1);
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STARTING);
         farm.pass(1);
 
@@ -108,9 +108,9 @@ class MissionLifeTest {
 
     @Test
     void waitsForItsFirstDeviceAndTakesNothingFromAny() throws Exception {
-        farm.start("m", "north", FarmFixture.real("Thermometer", 2), FarmFixture.group("Camera", 2));
+        farm.start("m", "north", FarmFixture.real("Thermometer", 2), group("Camera", 2));
         farm.report(farm.device("urn:ngsi-ld:Camera:m-2"), State.FAILED);
-        farm.pass(FarmFixture.TIMEOUT);
+        farm.pass(TIMEOUT);
         farm.pass(Duration.ofHours(3).toMillis());
 
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STARTING);
@@ -137,7 +137,7 @@ class MissionLifeTest {
         farm.start("m", "north", FarmFixture.real("Thermometer", 1));
         DesiredDevice thermometer = farm.device("urn:ngsi-ld:Thermometer:m-1");
         farm.connect(thermometer, null);
-        farm.pass(FarmFixture.TIMEOUT);
+        farm.pass(TIMEOUT);
         assertThat(reason()).startsWith("it has not connected to the MQTT broker since ");
 
         farm.connect(thermometer, refused(1));
@@ -187,9 +187,9 @@ class MissionLifeTest {
 
     @Test
     void stopsWithoutDevicesThatDoNotGo() throws Exception {
-        farm.start("m", "north", FarmFixture.group("Camera", 1));
+        farm.start("m", "north", group("Camera", 1));
         farm.request(new MissionCommand.Stop("m"));
-        farm.pass(FarmFixture.TIMEOUT);
+        farm.pass(TIMEOUT);
 
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPED);
         assertThat(farm.status("m").missing())
@@ -198,7 +198,7 @@ class MissionLifeTest {
 
     @Test
     void passesOverReportsOfAnEarlierSequence() throws Exception {
-        farm.start("m", "north", FarmFixture.group("Camera", 1));
+        farm.start("m", "north", group("Camera", 1));
         DesiredDevice earlier = farm.device("urn:ngsi-ld:Camera:m-1");
         farm.hostAll();
         farm.request(new MissionCommand.Stop("m"));
@@ -211,7 +211,7 @@ class MissionLifeTest {
     void startsAtItsDateAndStopsAfterItsDuration() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
         farm.request(new MissionCommand.Start(
-                "m", "north", FarmFixture.devices(FarmFixture.group("Camera", 1)), date, Duration.ofSeconds(5)));
+                "m", "north", FarmFixture.devices(group("Camera", 1)), date, Duration.ofSeconds(5)));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.CREATED);
         farm.pass(9_999);
         assertThat(farm.all(farm.devices)).isEmpty();
@@ -227,8 +227,7 @@ class MissionLifeTest {
     @Test
     void doesNotStartWhereTheStartWasTakenBack() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
-        farm.request(new MissionCommand.Start(
-                "m", "north", FarmFixture.devices(FarmFixture.group("Camera", 1)), date, null));
+        farm.request(new MissionCommand.Start("m", "north", FarmFixture.devices(group("Camera", 1)), date, null));
         farm.request(new MissionCommand.Stop("m"));
         farm.pass(20_000);
 
@@ -250,7 +249,7 @@ class MissionLifeTest {
     @Test
     void rejectsWhatCannotBe() throws Exception {
         farm.domain("south");
-        farm.start("m", "north", FarmFixture.group("Camera", 1), DeviceGroup.entity("urn:robot"));
+        farm.start("m", "north", group("Camera", 1), DeviceGroup.entity("urn:robot"));
 
         farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.start("m", "north"));
         farm.refused(ErrorCode.UNKNOWN_MISSION, () -> farm.request(new MissionCommand.Stop("other")));
@@ -261,10 +260,7 @@ class MissionLifeTest {
         farm.refused(
                 ErrorCode.DEVICE_TAKEN,
                 () -> farm.start(
-                        "other",
-                        "south",
-                        FarmFixture.group("Camera", 1),
-                        DeviceGroup.entity("urn:ngsi-ld:Camera:other-1")));
+                        "other", "south", group("Camera", 1), DeviceGroup.entity("urn:ngsi-ld:Camera:other-1")));
         farm.refused(
                 ErrorCode.UNKNOWN_TEMPLATE,
                 () -> farm.request(new MissionCommand.Start(
@@ -282,7 +278,7 @@ class MissionLifeTest {
 
     @Test
     void refusesToDeleteADomainInWhichMissionsRunUnlessForced() throws Exception {
-        farm.start("m", "north", FarmFixture.group("Camera", 1));
+        farm.start("m", "north", group("Camera", 1));
         farm.refused(ErrorCode.MISSIONS_RUNNING, () -> farm.request(new DomainCommand.Delete("north", false)));
 
         farm.request(new DomainCommand.Delete("north", true));
@@ -293,9 +289,9 @@ class MissionLifeTest {
     @Test
     void deletesADomainWithItsMissionsAndEndsItsFields() throws Exception {
         farm.domain("south");
-        farm.start("runs", "north", FarmFixture.group("Camera", 1));
+        farm.start("runs", "north", group("Camera", 1));
         farm.request(new MissionCommand.Create("idle", "north", new MissionPlan.Unspecified()));
-        farm.start("theirs", "south", FarmFixture.group("Camera", 1));
+        farm.start("theirs", "south", group("Camera", 1));
         farm.field("a", 1, "north");
         farm.field("b", 1, "south");
         farm.field("planned", farm.now + 1, "north");
@@ -317,7 +313,7 @@ class MissionLifeTest {
         assertThat(end.key()).isEqualTo(new FieldVersion.Key("a", farm.now).toString());
         assertThat(end.isEnd()).isTrue();
         farm.domain("north");
-        farm.start("runs", "north", FarmFixture.group("Camera", 1));
+        farm.start("runs", "north", group("Camera", 1));
     }
 
     @Test
@@ -328,12 +324,9 @@ class MissionLifeTest {
         assertThat(farm.missions.get("m").template()).isEqualTo("thesis-demo@1");
         assertThat(farm.all(farm.devices).stream()
                         .map(each -> each.device().version().id()))
-                .containsExactlyInAnyOrder(
-                        "urn:ngsi-ld:Camera:m-1",
-                        "urn:ngsi-ld:Robot:m-1",
-                        "urn:ngsi-ld:Thermometer:m-1",
-                        "urn:ngsi-ld:Thermometer:m-2",
-                        "urn:ngsi-ld:Thermometer:m-3");
+                .containsExactlyInAnyOrder("""
+                                urn:ngsi-ld:Camera:m-1 urn:ngsi-ld:Robot:m-1 urn:ngsi-ld:Thermometer:m-1
+                                urn:ngsi-ld:Thermometer:m-2 urn:ngsi-ld:Thermometer:m-3""".split("\\s+"));
         assertThat(farm.settings("urn:ngsi-ld:Camera:m-1").path("path")).hasSize(4);
     }
 

@@ -1,29 +1,26 @@
 package io.furrow.control.readiness;
 
-import java.io.IOException;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.time.Clock;
+import java.time.Duration;
 import java.time.Instant;
-import java.time.ZoneOffset;
 import java.util.concurrent.atomic.AtomicReference;
 
-import com.sun.net.httpserver.HttpServer;
 import org.apache.kafka.clients.producer.MockProducer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.clock.SettableClock;
 import io.furrow.kafka.ComponentStatus;
 import io.furrow.kafka.Probe;
 import io.furrow.kafka.Readiness;
 import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.control.Fault;
 import io.furrow.model.topic.Topics;
+import io.furrow.stub.StubServer;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -36,43 +33,18 @@ class ConnectorWatchTest {
     private final AtomicReference<String> answer = new AtomicReference<>();
     private final MockProducer<String, byte[]> producer =
             new MockProducer<>(true, null, new StringSerializer(), new ByteArraySerializer());
-    private Instant now = Instant.parse("2026-03-01T08:00:00Z");
-    private HttpServer connect;
+    private final SettableClock clock = new SettableClock(Instant.parse("2026-03-01T08:00:00Z"));
     private ConnectorWatch watch;
 
+    @AutoClose
+    private final StubServer connect = new StubServer(exchange -> {
+        boolean isAsked = exchange.getRequestURI().toString().equals("/connectors?expand=status");
+        StubServer.answer(exchange, isAsked ? 200 : 404, answer.get());
+    });
+
     @BeforeEach
-    void start() throws IOException {
-        connect = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        connect.createContext("/connectors", exchange -> {
-            byte[] body = answer.get().getBytes(StandardCharsets.UTF_8);
-            boolean isAsked = "expand=status".equals(exchange.getRequestURI().getQuery());
-            exchange.sendResponseHeaders(isAsked ? 200 : 404, body.length);
-            exchange.getResponseBody().write(body);
-            exchange.close();
-        });
-        connect.start();
-        watch = new ConnectorWatch(
-                URI.create("http://127.0.0.1:" + connect.getAddress().getPort() + "/"), producer, new Clock() {
-                    @Override
-                    public Instant instant() {
-                        return now;
-                    }
-
-                    @Override
-                    public ZoneOffset getZone() {
-                        return ZoneOffset.UTC;
-                    }
-
-                    @Override
-                    public Clock withZone(java.time.ZoneId zone) {
-                        return this;
-                    }
-                });
-    }
-
-    @AfterEach
-    void stop() {
-        connect.stop(0);
+    void start() {
+        watch = new ConnectorWatch(connect.uri("/"), producer, clock);
     }
 
     @Test
@@ -85,7 +57,7 @@ class ConnectorWatchTest {
 
         answer.set(connectors("FAILED", ",\"trace\":\"" + TRACE + "\""));
         watch.poll();
-        now = now.plusSeconds(50);
+        clock.pass(Duration.ofSeconds(50));
         watch.poll();
         assertThat(watch.statuses().get(1))
                 .returns(ComponentStatus.State.DOWN, ComponentStatus::state)
@@ -98,12 +70,12 @@ class ConnectorWatchTest {
                             "connector sink: task 0 failed: http://orion:1026 answers 401; check the token. Correct that")
                     .endsWith("/connectors/sink/restart?includeTasks=true&onlyFailed=true\"");
         });
-        now = now.plusSeconds(10);
+        clock.pass(Duration.ofSeconds(10));
         watch.poll();
         assertThat(producer.history()).hasSize(2);
 
         answer.set(connectors("RUNNING", ""));
-        now = now.plusSeconds(60);
+        clock.pass(Duration.ofSeconds(60));
         watch.poll();
         assertThat(producer.history()).hasSize(2);
     }
@@ -121,7 +93,7 @@ class ConnectorWatchTest {
 
         answer.set("<html>");
         watch.poll();
-        now = now.plusSeconds(30);
+        clock.pass(Duration.ofSeconds(30));
         assertThat(watch.statuses())
                 .singleElement()
                 .returns("connect", ComponentStatus::name)

@@ -1,6 +1,5 @@
 package io.furrow.control.replay;
 
-import java.nio.charset.StandardCharsets;
 import java.util.Optional;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -10,6 +9,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class DeletedNamesTest {
@@ -60,7 +60,7 @@ class DeletedNamesTest {
                 0,
                 0,
                 key,
-                value == null ? null : value.getBytes(StandardCharsets.UTF_8),
+                value == null ? null : value.getBytes(UTF_8),
                 new RecordHeaders(),
                 Optional.empty()));
     }

@@ -7,7 +7,6 @@ import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
 import java.nio.ByteBuffer;
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.Set;
 import java.util.concurrent.CompletableFuture;
@@ -18,6 +17,9 @@ import java.util.concurrent.Flow;
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.NgsiJson;
+
+import static java.nio.charset.StandardCharsets.US_ASCII;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Asks the API, and holds each answer against its description. */
 public final class ApiClient {
@@ -36,16 +38,37 @@ public final class ApiClient {
         this.token = token;
     }
 
-    public HttpResponse<byte[]> send(String method, String path, String body) throws Exception {
-        return send(method, path, body, true);
+    /** @param header none, or its name and value */
+    public HttpResponse<byte[]> send(String method, String path, String body, String... header) throws Exception {
+        HttpRequest.Builder request = request(method, path, body);
+        if (header.length > 0) {
+            request.setHeader(header[0], header[1]);
+        }
+        return send(request, true);
     }
 
     HttpResponse<byte[]> send(String method, String path, String body, boolean described) throws Exception {
         return send(request(method, path, body), described);
     }
 
-    HttpResponse<byte[]> send(String method, String path, String body, String header, String value) throws Exception {
-        return send(request(method, path, body).setHeader(header, value), true);
+    public int status(String method, String path, String body, String... header) throws Exception {
+        return send(method, path, body, header).statusCode();
+    }
+
+    public JsonNode get(String path) throws Exception {
+        return ask("GET", path, null);
+    }
+
+    public JsonNode ask(String method, String path, String body, String... header) throws Exception {
+        return json(send(method, path, body, header));
+    }
+
+    String error(String method, String path, String body, String... header) throws Exception {
+        return error(send(method, path, body, header));
+    }
+
+    String error(String method, String path, String body, boolean described) throws Exception {
+        return error(send(method, path, body, described));
     }
 
     private HttpRequest.Builder request(String method, String path, String body) {
@@ -125,8 +148,8 @@ public final class ApiClient {
     String raw(String path, String host) throws IOException {
         try (Socket socket = new Socket(base.getHost(), base.getPort())) {
             String request = "GET %s HTTP/1.1\r\nHost: %s\r\nConnection: close\r\n\r\n".formatted(path, host);
-            socket.getOutputStream().write(request.getBytes(StandardCharsets.US_ASCII));
-            return new String(socket.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+            socket.getOutputStream().write(request.getBytes(US_ASCII));
+            return new String(socket.getInputStream().readAllBytes(), UTF_8);
         }
     }
 }

@@ -1,7 +1,6 @@
 package io.furrow.control.rest;
 
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -14,7 +13,7 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -25,6 +24,7 @@ import io.furrow.control.rest.view.AuditHistory;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -35,6 +35,7 @@ class AuditIT {
     private static final int ENTRIES = AuditHistory.READ + 3 * StateView.AUDITED;
     private static final Pattern NEXT = Pattern.compile("<(/[^>]+)>; ?rel=\"next\"");
 
+    @AutoClose
     private RunningApi running;
 
     @BeforeAll
@@ -46,20 +47,14 @@ class AuditIT {
                 producer.send(new ProducerRecord<>(Topics.AUDIT, entry(i)));
             }
         }
-        await().atMost(RunningApi.TIMEOUT)
-                .until(() -> running.get("/api/audit?limit=1").at("/0/time").asInt() == ENTRIES - 1);
+        await().until(() -> running.get("/api/audit?limit=1").at("/0/time").asInt() == ENTRIES - 1);
     }
 
     /** The first is about a mission of its own, and so is one of the last. */
     private static byte[] entry(int i) {
         String mission = i == 0 || i == ENTRIES - 5 ? "rare" : "usual";
         return """
-                {"time":%d,"user":"olga","target":"device","command":"on","about":{"mission":"%s"},"result":"sent"}""".formatted(i, mission).getBytes(StandardCharsets.UTF_8);
-    }
-
-    @AfterAll
-    void stop() {
-        running.close();
+                {"time":%d,"user":"olga","target":"device","command":"on","about":{"mission":"%s"},"result":"sent"}""".formatted(i, mission).getBytes(UTF_8);
     }
 
     private record Page(List<Integer> times, String next) {}

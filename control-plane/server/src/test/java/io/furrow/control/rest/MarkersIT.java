@@ -67,18 +67,15 @@ class MarkersIT {
 
         HttpResponse<byte[]> again = add("{\"time\":1772352000000,\"note\":\"The robot turns too early\"}", "k-1");
         assertThat(olga.json(again)).as("a request that is repeated").isEqualTo(marker);
-        assertThat(olga.json(olga.send("GET", MARKERS, null)).findValuesAsText("note"))
-                .containsExactly("before", "The robot turns too early");
-        assertThat(olga.json(olga.send("GET", "/api/missions/other/markers", null)))
-                .isEmpty();
+        assertThat(olga.get(MARKERS).findValuesAsText("note")).containsExactly("before", "The robot turns too early");
+        assertThat(olga.get("/api/missions/other/markers")).isEmpty();
 
-        assertThat(olga.error(olga.send("DELETE", "/api/missions/other/markers/" + id, null)))
+        assertThat(olga.error("DELETE", "/api/missions/other/markers/" + id, null))
                 .isEqualTo("404 unknown-marker");
-        assertThat(olga.send("DELETE", MARKERS + "/" + id, null).statusCode()).isEqualTo(200);
-        assertThat(olga.json(olga.send("GET", MARKERS, null)).findValuesAsText("note"))
-                .containsExactly("before");
-        await().until(() -> olga.json(olga.send("GET", "/api/audit", null)).size() == 5);
-        assertThat(olga.json(olga.send("GET", "/api/audit", null)))
+        assertThat(olga.status("DELETE", MARKERS + "/" + id, null)).isEqualTo(200);
+        assertThat(olga.get(MARKERS).findValuesAsText("note")).containsExactly("before");
+        await().until(() -> olga.get("/api/audit").size() == 5);
+        assertThat(olga.get("/api/audit"))
                 .allSatisfy(entry -> assertThat(entry.path("user").asText()).isEqualTo("olga"))
                 .extracting(entry -> entry.path("command").asText() + " "
                         + entry.path("result").asText())

@@ -1,6 +1,5 @@
 package io.furrow.control.rest;
 
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -8,7 +7,6 @@ import java.util.Map;
 import java.util.Set;
 import java.util.TreeMap;
 import java.util.TreeSet;
-import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.networknt.schema.JsonSchemaFactory;
@@ -18,6 +16,7 @@ import org.glassfish.jersey.server.model.ResourceMethod;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.rest.access.RoleFilter;
+import io.furrow.files.Folders;
 import io.furrow.model.control.AdminCommands;
 import io.furrow.model.control.Role;
 import io.furrow.model.topic.Topics;
@@ -120,17 +119,14 @@ class OpenApiTest {
 
     /** All classes of the package that have a path. */
     private static List<Class<?>> resources() throws Exception {
-        Path folder =
-                Path.of(RestApi.class.getResource("RestApi.class").toURI()).getParent();
+        var folder = Path.of(RestApi.class.getResource("RestApi.class").toURI()).getParent();
         List<Class<?>> types = new ArrayList<>();
-        try (Stream<Path> files = Files.list(folder)) {
-            for (Path file :
-                    files.filter(each -> each.toString().endsWith(".class")).toList()) {
-                String name = file.getFileName().toString().replace(".class", "");
-                Class<?> type = Class.forName(RestApi.class.getPackageName() + "." + name);
-                if (type.isAnnotationPresent(jakarta.ws.rs.Path.class)) {
-                    types.add(type);
-                }
+        for (Path file :
+                Folders.list(folder).stream().filter(each -> each.toString().endsWith(".class")).toList()) {
+            String name = file.getFileName().toString().replace(".class", "");
+            Class<?> type = Class.forName(RestApi.class.getPackageName() + "." + name);
+            if (type.isAnnotationPresent(jakarta.ws.rs.Path.class)) {
+                types.add(type);
             }
         }
         return types;

@@ -159,8 +159,7 @@ class OutagesIT {
     }
 
     private ControlSettings settings() {
-        Properties settings = new Properties();
-        settings.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        Properties settings = kafka.client();
         settings.setProperty("state.dir", directory.resolve("state").toString());
         return ControlSettings.of(settings);
     }

@@ -3,7 +3,7 @@ package io.furrow.control.rest;
 import java.nio.file.Path;
 import java.time.Clock;
 
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -19,7 +19,9 @@ import static org.awaitility.Awaitility.await;
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
 @Tag("full")
 class RefusedRequestsIT {
+    @AutoClose
     private RunningApi running;
+
     private ApiClient client;
 
     @BeforeAll
@@ -28,35 +30,28 @@ class RefusedRequestsIT {
         client = running.client();
     }
 
-    @AfterAll
-    void stop() throws Exception {
-        running.close();
-    }
-
     /** The answer of another request would say that something was done which was not. */
     @Test
     void rejectsAKeyThatWasGivenToAnotherRequest() throws Exception {
         client.send("POST", "/api/domains", "{\"domain\":\"keyed\"}");
         String start = "{\"domain\":\"keyed\"}";
         client.send("POST", "/api/missions/b/start", start);
-        assertThat(client.send("POST", "/api/missions/a/start", start, "Idempotency-Key", "key-2")
-                        .statusCode())
+        assertThat(client.status("POST", "/api/missions/a/start", start, "Idempotency-Key", "key-2"))
                 .isEqualTo(200);
 
-        assertThat(client.error(client.send("POST", "/api/missions/b/stop", null, "Idempotency-Key", "key-2")))
+        assertThat(client.error("POST", "/api/missions/b/stop", null, "Idempotency-Key", "key-2"))
                 .isEqualTo("422 request-id-reused");
-        assertThat(client.error(client.send(
-                        "POST", "/api/missions/a/start", "{\"domain\":\"nowhere\"}", "Idempotency-Key", "key-2")))
+        assertThat(client.error(
+                        "POST", "/api/missions/a/start", "{\"domain\":\"nowhere\"}", "Idempotency-Key", "key-2"))
                 .isEqualTo("422 request-id-reused");
         assertThat(running.get("/api/missions/b").at("/status/state").asText()).isEqualTo("running");
-        assertThat(client.send("POST", "/api/missions/a/start", start, "Idempotency-Key", "key-2")
-                        .statusCode())
+        assertThat(client.status("POST", "/api/missions/a/start", start, "Idempotency-Key", "key-2"))
                 .isEqualTo(200);
 
         try (RestApi other = RestApi.start(running.settings(), RestSettings.on(0), new Readiness(Clock.systemUTC()))) {
             ApiClient there = new ApiClient(other.uri(), null);
-            await().atMost(RunningApi.TIMEOUT).until(other::isReady);
-            assertThat(there.error(there.send("POST", "/api/missions/b/stop", null, "Idempotency-Key", "key-2")))
+            await().until(other::isReady);
+            assertThat(there.error("POST", "/api/missions/b/stop", null, "Idempotency-Key", "key-2"))
                     .isEqualTo("422 request-id-reused");
         }
     }
@@ -66,27 +61,20 @@ class RefusedRequestsIT {
         String area = "{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,0],[1,1],[0,0]]],\"note\":\"%s\"}";
         for (int bytes : new int[] {Limits.REQUEST_BYTES - 100, Limits.REQUEST_BYTES, 1_300_000}) {
             String body = "{\"domain\":\"large\",\"area\":%s}".formatted(area.formatted("x".repeat(bytes)));
-            assertThat(client.error(client.send("POST", "/api/domains", body))).isEqualTo("413 too-large");
+            assertThat(client.error("POST", "/api/domains", body)).isEqualTo("413 too-large");
         }
         String body =
                 "{\"domain\":\"large\",\"area\":%s}".formatted(area.formatted("x".repeat(Limits.REQUEST_BYTES - 400)));
-        assertThat(client.send("POST", "/api/domains", body).statusCode()).isEqualTo(201);
+        assertThat(client.status("POST", "/api/domains", body)).isEqualTo(201);
         assertThat(running.get("/api/domains/large").at("/area/note").asText()).hasSize(Limits.REQUEST_BYTES - 400);
         client.send("DELETE", "/api/domains/large", null);
     }
 
     @Test
     void rejectsAFilterOfAlarmsThatNoneCanPass() throws Exception {
-        for (String query : new String[] {
-            "state=opne",
-            "state=",
-            "state=open&state=open",
-            "state=null&state=null",
-            "limit=0",
-            "limit=1&limit=2",
-            "limit=x"
-        }) {
-            assertThat(client.error(client.send("GET", "/api/alarms?" + query, null)))
+        for (String query : """
+                state=opne state= state=open&state=open state=null&state=null limit=0 limit=1&limit=2 limit=x""".split("\\s+")) {
+            assertThat(client.error("GET", "/api/alarms?" + query, null))
                     .as(query)
                     .isEqualTo("400 wrong-member");
         }

@@ -3,14 +3,13 @@ package io.furrow.control.rest;
 import java.net.Socket;
 import java.net.SocketTimeoutException;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.util.Arrays;
 import java.util.List;
 
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -20,6 +19,7 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.http.AllowedNames;
 import io.furrow.kafka.Readiness;
 
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -29,7 +29,10 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class RestApiAccessIT {
     private Path directory;
+
+    @AutoClose
     private RunningApi running;
+
     private ApiClient client;
 
     @BeforeAll
@@ -39,11 +42,6 @@ class RestApiAccessIT {
         client = running.client();
     }
 
-    @AfterAll
-    void stop() {
-        running.close();
-    }
-
     /** Each would occupy a thread for as long as it likes. */
     @Test
     void waitsForNoBodyThatComesTooSlowly() throws Exception {
@@ -51,13 +49,13 @@ class RestApiAccessIT {
         try (Socket socket = new Socket(uri.getHost(), uri.getPort())) {
             String head =
                     "POST /api/domains HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 1000\r\n\r\n";
-            socket.getOutputStream().write(head.getBytes(StandardCharsets.US_ASCII));
+            socket.getOutputStream().write(head.getBytes(US_ASCII));
             socket.setSoTimeout(200);
             String answer = "";
             for (int i = 0; i < 900 && answer.isEmpty(); i++) {
                 socket.getOutputStream().write(' ');
                 try {
-                    answer = new String(socket.getInputStream().readNBytes(12), StandardCharsets.US_ASCII);
+                    answer = new String(socket.getInputStream().readNBytes(12), US_ASCII);
                 } catch (SocketTimeoutException e) {
                     // The next byte, then.
                 }
@@ -76,15 +74,15 @@ class RestApiAccessIT {
                 socket.setSoTimeout(200);
                 String head = refused
                         + " HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 9\r\n\r\n";
-                socket.getOutputStream().write(head.getBytes(StandardCharsets.US_ASCII));
+                socket.getOutputStream().write(head.getBytes(US_ASCII));
                 assertThatThrownBy(() -> socket.getInputStream().read())
                         .as(refused)
                         .isInstanceOf(SocketTimeoutException.class);
                 socket.setSoTimeout((int) RunningApi.TIMEOUT.toMillis());
                 String next = "{\"a\": 1 }GET /health HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
-                socket.getOutputStream().write(next.getBytes(StandardCharsets.US_ASCII));
+                socket.getOutputStream().write(next.getBytes(US_ASCII));
 
-                assertThat(new String(socket.getInputStream().readAllBytes(), StandardCharsets.US_ASCII))
+                assertThat(new String(socket.getInputStream().readAllBytes(), US_ASCII))
                         .as(refused)
                         .startsWith("HTTP/1.1 4")
                         .contains("HTTP/1.1 200");
@@ -100,14 +98,13 @@ class RestApiAccessIT {
         running.refused("POST", "/api/domains", "{}", 400, "missing-member");
         running.refused("POST", "/api/domains", "{\"domain\":\"x\",\"name\":7}", 400, "wrong-member");
         running.refused("GET", "/api/audit?limit=0", null, 400, "wrong-member");
-        assertThat(client.error(client.send("GET", "/api/nosuch", null, false))).isEqualTo("404 not-found");
-        assertThat(client.error(client.send("PUT", "/api/domains", "{}", false)))
-                .isEqualTo("405 method-not-allowed");
-        assertThat(client.error(client.send("POST", "/api/domains", "{}", "Content-Type", "text/plain")))
+        assertThat(client.error("GET", "/api/nosuch", null, false)).isEqualTo("404 not-found");
+        assertThat(client.error("PUT", "/api/domains", "{}", false)).isEqualTo("405 method-not-allowed");
+        assertThat(client.error("POST", "/api/domains", "{}", "Content-Type", "text/plain"))
                 .isEqualTo("415 unsupported-media-type");
-        assertThat(client.error(client.send("POST", "/api/domains", "{}", "Idempotency-Key", "a b")))
+        assertThat(client.error("POST", "/api/domains", "{}", "Idempotency-Key", "a b"))
                 .isEqualTo("400 wrong-header");
-        assertThat(client.error(client.send("POST", "/api/domains", "{}", "Origin", "http://evil.example")))
+        assertThat(client.error("POST", "/api/domains", "{}", "Origin", "http://evil.example"))
                 .isEqualTo("403 foreign-origin");
         assertThat(client.raw("/api/domains", "evil.example"))
                 .contains(" 403 ", "\"error\":\"foreign-host\"", "'evil.example'", "--allowed-hosts");
@@ -117,8 +114,7 @@ class RestApiAccessIT {
                 .contains(" 400 ", "{\"type\":\"response\",\"status\":\"error\"");
         byte[] large = new byte[9 * 1024 * 1024];
         Arrays.fill(large, (byte) ' ');
-        assertThat(client.error(client.send("POST", "/api/domains", new String(large))))
-                .isEqualTo("413 too-large");
+        assertThat(client.error("POST", "/api/domains", new String(large))).isEqualTo("413 too-large");
     }
 
     @Test
@@ -131,26 +127,24 @@ class RestApiAccessIT {
         try (RestApi other = RestApi.start(running.settings(), settings, new Readiness(Clock.systemUTC()))) {
             ApiClient nobody = new ApiClient(other.uri(), null);
             ApiClient ann = new ApiClient(other.uri(), "a-token-of-sixteen-signs");
-            await().atMost(RunningApi.TIMEOUT)
-                    .until(() -> nobody.send("GET", "/ready", null).statusCode() == 200);
+            await().until(() -> nobody.status("GET", "/ready", null) == 200);
             for (String path :
                     new String[] {"/api/domains", "//api/domains", "/api/../api/domains", "/api;x/domains"}) {
                 assertThat(nobody.raw(path, "localhost")).as(path).containsAnyOf(" 401 ", " 400 ");
             }
             assertThat(nobody.raw("/api/domains", "farm.example.org")).contains(" 401 ");
             assertThat(nobody.raw("/api/domains", "evil.example")).contains(" 403 ", "foreign-host");
-            assertThat(client.error(ann.send("GET", "/api/domains", null, "Origin", "https://evil.example")))
+            assertThat(ann.error("GET", "/api/domains", null, "Origin", "https://evil.example"))
                     .isEqualTo("403 foreign-origin");
-            assertThat(client.error(nobody.send("GET", "/api/domains", null))).isEqualTo("401 unauthorized");
+            assertThat(nobody.error("GET", "/api/domains", null)).isEqualTo("401 unauthorized");
             assertThat(client.error(
                             new ApiClient(other.uri(), "another-token-of-signs").send("GET", "/api/domains", null)))
                     .isEqualTo("401 unauthorized");
             assertThat(ann.send("GET", "/api/domains", null).statusCode()).isEqualTo(200);
             ann.send("POST", "/api/domains", "{\"domain\":\"ann-s\",\"user\":\"bob\"}");
         }
-        await().atMost(RunningApi.TIMEOUT)
-                .untilAsserted(() -> assertThat(running.get("/api/audit?limit=1000"))
-                        .anyMatch(entry -> entry.path("user").asText().equals("ann")
-                                && entry.at("/about/domain").asText().equals("ann-s")));
+        await().untilAsserted(() -> assertThat(running.get("/api/audit?limit=1000"))
+                .anyMatch(entry -> entry.path("user").asText().equals("ann")
+                        && entry.at("/about/domain").asText().equals("ann-s")));
     }
 }

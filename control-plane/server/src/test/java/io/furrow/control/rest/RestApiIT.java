@@ -55,10 +55,9 @@ class RestApiIT {
     /** More of these is in tests of their own. */
     @Test
     void reportsWhoRequestsAndWhatIsNotThere() throws Exception {
-        assertThat(client.send("GET", "/api/me", null).statusCode()).isEqualTo(200);
-        assertThat(client.send("HEAD", "/api/replays/events", null).statusCode())
-                .isEqualTo(200);
-        assertThat(client.send("HEAD", "/api/replays/none.1/events", null).statusCode())
+        assertThat(client.status("GET", "/api/me", null)).isEqualTo(200);
+        assertThat(client.status("HEAD", "/api/replays/events", null)).isEqualTo(200);
+        assertThat(client.status("HEAD", "/api/replays/none.1/events", null))
                 .isEqualTo(200); // of an answer without an end only the form is told
         running.refused("GET", "/api/recordings/none/timeline", null, 501, "no-mongodb");
     }
@@ -69,14 +68,12 @@ class RestApiIT {
         assertThat(made.statusCode()).isEqualTo(201);
         assertThat(made.headers().firstValue("Location")).contains(running.api().uri() + "/api/domains/north");
         assertThat(running.get("/api/domains/north").path("name").asText()).isEqualTo("North");
-        assertThat(client.send("PATCH", "/api/domains/north", "{\"description\":\"wet\"}")
-                        .statusCode())
+        assertThat(client.status("PATCH", "/api/domains/north", "{\"description\":\"wet\"}"))
                 .isEqualTo(200);
         assertThat(running.get("/api/domains").findValuesAsText("description")).contains("wet");
 
         running.refused("POST", "/api/domains", "{\"domain\":\"north\"}", 409, "domain-exists");
-        assertThat(client.send("DELETE", "/api/domains/north", null).statusCode())
-                .isEqualTo(200);
+        assertThat(client.status("DELETE", "/api/domains/north", null)).isEqualTo(200);
         running.refused("GET", "/api/domains/north", null, 404, "unknown-domain");
         running.refused("DELETE", "/api/domains/north?force=true", null, 404, "unknown-domain");
         running.refused("PATCH", "/api/domains/north", "{}", 404, "unknown-domain");
@@ -86,11 +83,10 @@ class RestApiIT {
     void takesAMissionFromItsBeginningToItsEnd() throws Exception {
         client.send("POST", "/api/domains", "{\"domain\":\"south\"}");
         String mission = "{\"mission\":\"hoeing\",\"domain\":\"south\",\"devices\":%s}".formatted(DEVICES);
-        assertThat(client.send("POST", "/api/missions", mission).statusCode()).isEqualTo(201);
+        assertThat(client.status("POST", "/api/missions", mission)).isEqualTo(201);
         assertThat(running.get("/api/missions/hoeing").at("/status/state").asText())
                 .isEqualTo("created");
-        assertThat(client.send("POST", "/api/missions/hoeing/start", null).statusCode())
-                .isEqualTo(200);
+        assertThat(client.status("POST", "/api/missions/hoeing/start", null)).isEqualTo(200);
         JsonNode started = running.get("/api/missions/hoeing");
         assertThat(started.at("/status/state").asText()).isEqualTo("starting");
         assertThat(started.at("/status/devices").asInt()).isEqualTo(4);
@@ -102,8 +98,7 @@ class RestApiIT {
         running.refused("POST", "/api/missions/hoeing/start", "{}", 409, "mission-running");
         running.refused("DELETE", "/api/domains/south", null, 409, "missions-running");
         devices();
-        assertThat(client.send("POST", "/api/missions/hoeing/stop", null).statusCode())
-                .isEqualTo(200);
+        assertThat(client.status("POST", "/api/missions/hoeing/stop", null)).isEqualTo(200);
         running.refused("DELETE", "/api/missions/hoeing", null, 409, "mission-running");
         running.refused("GET", "/api/missions/nosuch", null, 404, "unknown-mission");
         running.refused("POST", "/api/missions/nosuch/stop", null, 404, "unknown-mission");
@@ -124,8 +119,7 @@ class RestApiIT {
         String key = running.settings().missions().scope().identity(id);
         running.write(Topics.DEVICES_CONNECTION, key, connection.toBytes());
 
-        await().atMost(RunningApi.TIMEOUT)
-                .until(() -> running.get("/api/devices/" + id).has("connection"));
+        await().until(() -> running.get("/api/devices/" + id).has("connection"));
         JsonNode shown = running.get("/api/devices/" + id).path("connection");
         assertThat(shown.at("/refusedLogin/count").asInt()).isEqualTo(12);
         assertThat(shown.at("/unreadablePayload/payload").asText()).isEqualTo("{");
@@ -142,8 +136,7 @@ class RestApiIT {
         byte[] device = new DeviceVersion(id, other.service(), other.servicePath(), "", "", 0, null, 1, null).toBytes();
         running.write(Topics.DEVICES, other.identity(id), device);
 
-        await().atMost(RunningApi.TIMEOUT)
-                .untilAsserted(() -> running.refused("GET", "/api/devices/" + id, null, 409, "ambiguous-device"));
+        await().untilAsserted(() -> running.refused("GET", "/api/devices/" + id, null, 409, "ambiguous-device"));
         running.refused("GET", "/api/devices/" + id + "/credentials", null, 409, "ambiguous-device");
         running.refused("POST", "/api/devices/" + id + "/credentials", null, 409, "ambiguous-device");
         running.refused(
@@ -166,11 +159,9 @@ class RestApiIT {
         running.refused("GET", "/api/devices/" + id + there + "&type=Pump", null, 404, "unknown-device");
 
         running.write(Topics.DEVICES, other.identity(id), null);
-        await().atMost(RunningApi.TIMEOUT)
-                .untilAsserted(() -> assertThat(running.get("/api/devices/" + id)
-                                .path("mission")
-                                .asText())
-                        .isEqualTo("hoeing"));
+        await().untilAsserted(() -> assertThat(
+                        running.get("/api/devices/" + id).path("mission").asText())
+                .isEqualTo("hoeing"));
     }
 
     private void devices() throws Exception {
@@ -208,7 +199,7 @@ class RestApiIT {
         }
         running.refused("GET", "/api/missions/nosuch/credentials", null, 404, "unknown-mission");
 
-        JsonNode rotated = client.json(client.send("POST", "/api/devices/" + id + "/credentials", null));
+        JsonNode rotated = client.ask("POST", "/api/devices/" + id + "/credentials", null);
         assertThat(rotated.path("password").asText())
                 .isEqualTo(RunningApi.SECRET.device("hoeing", id, 1).password());
         assertThat(running.get("/api/devices/" + id + "/credentials")).isEqualTo(rotated);
@@ -218,8 +209,7 @@ class RestApiIT {
         running.refused("POST", "/api/devices/urn:own:1/credentials", null, 404, "no-credentials");
         running.refused("POST", "/api/devices/nosuch/credentials", null, 404, "unknown-device");
 
-        assertThat(client.send("POST", "/api/devices/" + id + "/commands", "{\"command\":\"restart\",\"value\":7}")
-                        .statusCode())
+        assertThat(client.status("POST", "/api/devices/" + id + "/commands", "{\"command\":\"restart\",\"value\":7}"))
                 .isEqualTo(202);
         assertThat(running.broker().last())
                 .contains("Thermometer%3Ahoeing-1")
@@ -230,11 +220,8 @@ class RestApiIT {
         client.send("POST", "/api/devices/" + id + "/commands", "{\"command\":\"on\",\"type\":\"ROBOT\"}");
         assertThat(running.broker().last()).contains("hoeing-1/attrs?type=Thermometer {\"on\":");
         for (String own : new String[] {"urn:own:1", "urn:on:no-mission"}) {
-            assertThat(client.send(
-                                    "POST",
-                                    "/api/devices/" + own + "/commands",
-                                    "{\"command\":\"Stop\",\"type\":\"ROBOT\"}")
-                            .statusCode())
+            assertThat(client.status(
+                            "POST", "/api/devices/" + own + "/commands", "{\"command\":\"Stop\",\"type\":\"ROBOT\"}"))
                     .as(own)
                     .isEqualTo(202);
             assertThat(running.broker().last())
@@ -256,42 +243,40 @@ class RestApiIT {
         running.refused("GET", "/api/devices/nosuch", null, 404, "unknown-device");
         running.refused("POST", "/api/devices/nosuch/commands", "{\"command\":\"on\"}", 404, "unknown-device");
 
-        await().atMost(RunningApi.TIMEOUT)
-                .untilAsserted(() -> assertThat(running.get("/api/audit?limit=1000"))
-                        .anyMatch(entry -> entry.path("command").asText().equals("Stop")
-                                && entry.at("/about/device").asText().equals("robot-1")
-                                && entry.path("user").asText().equals("rest")
-                                && entry.path("result").asText().equals("sent"))
-                        .anyMatch(entry -> entry.path("command").asText().equals("restart")
-                                && entry.at("/about/value").asText().equals("7"))
-                        .anyMatch(entry -> entry.path("command").asText().equals("credentials"))
-                        .anyMatch(entry -> entry.path("command").asText().equals("rotate-credentials")
-                                && entry.at("/about/device").asText().equals(id)
-                                && entry.path("result").asText().equals("rotated"))
-                        .anyMatch(entry -> entry.path("error").asText().equals("context-broker"))
-                        .anyMatch(entry -> entry.path("command").asText().equals("start")
-                                && entry.at("/about/mission").asText().equals("hoeing")));
+        await().untilAsserted(() -> assertThat(running.get("/api/audit?limit=1000"))
+                .anyMatch(entry -> entry.path("command").asText().equals("Stop")
+                        && entry.at("/about/device").asText().equals("robot-1")
+                        && entry.path("user").asText().equals("rest")
+                        && entry.path("result").asText().equals("sent"))
+                .anyMatch(entry -> entry.path("command").asText().equals("restart")
+                        && entry.at("/about/value").asText().equals("7"))
+                .anyMatch(entry -> entry.path("command").asText().equals("credentials"))
+                .anyMatch(entry -> entry.path("command").asText().equals("rotate-credentials")
+                        && entry.at("/about/device").asText().equals(id)
+                        && entry.path("result").asText().equals("rotated"))
+                .anyMatch(entry -> entry.path("error").asText().equals("context-broker"))
+                .anyMatch(entry -> entry.path("command").asText().equals("start")
+                        && entry.at("/about/mission").asText().equals("hoeing")));
     }
 
     @Test
     void retainsTemplatesByVersion() throws Exception {
         String template = "{\"template\":\"t\",\"devices\":[{\"type\":\"Thermometer\",\"count\":3}]}";
         client.send("POST", "/api/templates", template);
-        JsonNode second = client.json(client.send("POST", "/api/templates", template));
+        JsonNode second = client.ask("POST", "/api/templates", template);
         assertThat(second.path("version").asInt()).isEqualTo(2);
         assertThat(running.get("/api/templates/t").path("version").asInt()).isEqualTo(2);
         assertThat(running.get("/api/templates/t@1").path("version").asInt()).isEqualTo(1);
         assertThat(running.get("/api/templates").findValuesAsText("template")).contains("t", "thesis-demo");
 
         String exported = running.get("/api/templates/thesis-demo").toString();
-        assertThat(client.json(client.send("POST", "/api/templates", exported))
+        assertThat(client.ask("POST", "/api/templates", exported)
                         .path("version")
                         .asInt())
                 .isEqualTo(2);
-        assertThat(client.send("DELETE", "/api/templates/t@2", null).statusCode())
-                .isEqualTo(200);
+        assertThat(client.status("DELETE", "/api/templates/t@2", null)).isEqualTo(200);
         assertThat(running.get("/api/templates/t").path("version").asInt()).isEqualTo(1);
-        assertThat(client.send("DELETE", "/api/templates/t", null).statusCode()).isEqualTo(200);
+        assertThat(client.status("DELETE", "/api/templates/t", null)).isEqualTo(200);
         running.refused("GET", "/api/templates/t", null, 404, "unknown-template");
         running.refused("DELETE", "/api/templates/t@1", null, 404, "unknown-template");
         running.refused("DELETE", "/api/templates/t@x", null, 404, "unknown-template");
@@ -299,26 +284,21 @@ class RestApiIT {
 
     @Test
     void steersReplays() throws Exception {
-        JsonNode made = client.json(client.send("POST", "/api/replays", "{\"mission\":\"hoeing\",\"speed\":\"max\"}"));
+        JsonNode made = client.ask("POST", "/api/replays", "{\"mission\":\"hoeing\",\"speed\":\"max\"}");
         String replay = "/api/replays/" + made.path("replay").asText();
         assertThat(running.get(replay).path("wanted").asText()).isEqualTo("running");
-        assertThat(client.json(client.send("POST", replay + "/pause", null))
-                        .path("status")
-                        .asText())
+        assertThat(client.ask("POST", replay + "/pause", null).path("status").asText())
                 .isEqualTo("paused");
-        assertThat(client.send("POST", replay + "/step", "{\"count\":3}").statusCode())
+        assertThat(client.status("POST", replay + "/step", "{\"count\":3}")).isEqualTo(200);
+        assertThat(client.status("POST", replay + "/seek", "{\"to\":1700000000000}"))
                 .isEqualTo(200);
-        assertThat(client.send("POST", replay + "/seek", "{\"to\":1700000000000}")
-                        .statusCode())
-                .isEqualTo(200);
-        assertThat(client.send("POST", replay + "/speed", "{\"speed\":2}").statusCode())
-                .isEqualTo(200);
-        assertThat(client.send("POST", replay + "/resume", null).statusCode()).isEqualTo(200);
+        assertThat(client.status("POST", replay + "/speed", "{\"speed\":2}")).isEqualTo(200);
+        assertThat(client.status("POST", replay + "/resume", null)).isEqualTo(200);
         assertThat(running.get("/api/replays").findValuesAsText("replay"))
                 .contains(made.path("replay").asText());
         running.refused("POST", replay + "/step", "{}", 409, "wrong-state");
         running.refused("POST", replay + "/dance", null, 404, "not-found");
-        assertThat(client.send("DELETE", replay, null).statusCode()).isEqualTo(200);
+        assertThat(client.status("DELETE", replay, null)).isEqualTo(200);
         running.refused("GET", "/api/replays/hoeing.00000000", null, 404, "unknown-replay");
     }
 
@@ -335,11 +315,10 @@ class RestApiIT {
         assertThat(running.get(replay).path("stamps").asText()).isEqualTo("now");
         assertThat(running.get(replay).at("/source/file").asText()).isEqualTo("a.jsonl");
 
-        assertThat(client.send("POST", replay + "/loop", "{\"from\":3000,\"to\":4000}")
-                        .statusCode())
+        assertThat(client.status("POST", replay + "/loop", "{\"from\":3000,\"to\":4000}"))
                 .isEqualTo(200);
         assertThat(running.get(replay).at("/range/to").asLong()).isEqualTo(4000);
-        assertThat(client.send("POST", replay + "/loop", null).statusCode()).isEqualTo(200);
+        assertThat(client.status("POST", replay + "/loop", null)).isEqualTo(200);
         assertThat(running.get(replay).has("range")).isFalse();
         running.refused(
                 "POST",
@@ -347,8 +326,8 @@ class RestApiIT {
                 "{\"mission\":\"ridging\",\"topic\":\"data.show.replay.0000cafe\"}",
                 409,
                 "replay-exists");
-        assertThat(client.send("GET", replay + "/events", null).statusCode()).isEqualTo(200);
-        assertThat(client.send("GET", "/api/replays/events", null).statusCode()).isEqualTo(200);
+        assertThat(client.status("GET", replay + "/events", null)).isEqualTo(200);
+        assertThat(client.status("GET", "/api/replays/events", null)).isEqualTo(200);
         running.refused("GET", "/api/replays/ridging.00000000/events", null, 404, "unknown-replay");
         assertThat(running.get("/api/recordings")).isEmpty();
     }
@@ -370,13 +349,12 @@ class RestApiIT {
         assertThat(made.headers().firstValue("Location")).contains(running.api().uri() + group);
         assertThat(running.get(group).findValuesAsText("mission")).containsExactly("rolling", "sowing");
 
-        assertThat(client.send("POST", group + "/pause", null).statusCode()).isEqualTo(200);
-        assertThat(client.send("POST", group + "/seek", "{\"to\":5000}").statusCode())
-                .isEqualTo(200);
+        assertThat(client.status("POST", group + "/pause", null)).isEqualTo(200);
+        assertThat(client.status("POST", group + "/seek", "{\"to\":5000}")).isEqualTo(200);
         assertThat(running.get(group).get(0).at("/clock/shows").asLong()).isEqualTo(5000);
         running.refused("POST", group + "/step", "{}", 409, "wrong-state");
         running.refused("GET", "/api/replays/groups/0a1b2c3d", null, 404, "unknown-replay");
-        assertThat(client.send("DELETE", group, null).statusCode()).isEqualTo(200);
+        assertThat(client.status("DELETE", group, null)).isEqualTo(200);
         assertThat(running.get(group).findValuesAsText("wanted")).containsExactly("stopped", "stopped");
     }
 
@@ -391,17 +369,16 @@ class RestApiIT {
 
         try (RestApi other = RestApi.start(running.settings(), RestSettings.on(0), new Readiness(Clock.systemUTC()))) {
             ApiClient there = new ApiClient(other.uri(), null);
-            await().atMost(RunningApi.TIMEOUT)
-                    .until(() -> there.send("GET", "/ready", null).statusCode() == 200);
+            await().until(() -> there.status("GET", "/ready", null) == 200);
             assertThat(there.send("POST", "/api/domains", body, "Idempotency-Key", "key-1")
                             .body())
                     .isEqualTo(first.body());
-            assertThat(there.send("POST", "/api/domains", body).statusCode()).isEqualTo(409);
+            assertThat(there.status("POST", "/api/domains", body)).isEqualTo(409);
             there.send("POST", "/api/missions/self/start", "{\"domain\":\"once\",\"devices\":[\"urn:own:2\"]}");
             String commands = "/api/devices/urn:own:2/commands";
-            assertThat(client.error(there.send("POST", commands, "{\"command\":\"on\",\"type\":\"Pump\"}")))
+            assertThat(there.error("POST", commands, "{\"command\":\"on\",\"type\":\"Pump\"}"))
                     .isEqualTo("501 no-context-broker");
-            assertThat(client.error(there.send("GET", "/api/devices/urn:own:2/credentials", null)))
+            assertThat(there.error("GET", "/api/devices/urn:own:2/credentials", null))
                     .isEqualTo("404 no-credentials");
             assertThatThrownBy(() -> RestApi.start(
                             running.settings(),
@@ -421,16 +398,13 @@ class RestApiIT {
                     .mapToObj(i ->
                             "\"urn:ngsi-ld:Sensor:of-a-farm-with-long-names:%04d-%s\"".formatted(i, "x".repeat(40)))
                     .collect(Collectors.joining(","));
-            assertThat(client.send("POST", "/api/missions/long/devices", "{\"devices\":[" + ids + "]}")
-                            .statusCode())
+            assertThat(client.status("POST", "/api/missions/long/devices", "{\"devices\":[" + ids + "]}"))
                     .isEqualTo(200);
         }
         assertThat(running.get("/api/missions/long").path("devices")).hasSize(10_000);
         running.refused("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 400, "wrong-member");
-        assertThat(client.send("POST", "/api/missions/long/start", "{}").statusCode())
-                .isEqualTo(200);
-        await().atMost(RunningApi.TIMEOUT)
-                .until(() -> running.get("/api/devices?mission=long").size() == 10_000);
+        assertThat(client.status("POST", "/api/missions/long/start", "{}")).isEqualTo(200);
+        await().until(() -> running.get("/api/devices?mission=long").size() == 10_000);
         running.refused("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 409, "mission-running");
     }
 
@@ -443,8 +417,8 @@ class RestApiIT {
                   {"type":"Feature","id":"b","geometry":{"type":"Point","coordinates":[10,50]},"properties":{}}]}
                 """.formatted(square);
 
-        JsonNode first = client.json(client.send("POST", "/api/fields?domain=north", file));
-        JsonNode again = client.json(client.send("POST", "/api/fields?domain=north", file));
+        JsonNode first = client.ask("POST", "/api/fields?domain=north", file);
+        JsonNode again = client.ask("POST", "/api/fields?domain=north", file);
 
         assertThat(first.path("imported").asInt()).isEqualTo(1);
         assertThat(first.at("/fields/0/change").asText()).isEqualTo("added");
@@ -468,32 +442,27 @@ class RestApiIT {
                         now -> assertThat(now.at("/properties/name").asText()).isEqualTo("Behind the barn"));
 
         String bow = file.replace(square, "[[[10,50],[10.002,50.002],[10.002,50],[10,50.002],[10,50]]]");
-        assertThat(client.json(client.send("POST", "/api/fields?domain=north", bow))
-                        .at("/fields/0/mended"))
+        assertThat(client.ask("POST", "/api/fields?domain=north", bow).at("/fields/0/mended"))
                 .anySatisfy(note -> assertThat(note.asText()).contains("Self-intersection"));
         assertThat(running.get("/api/fields").at("/features/0/geometry/type").asText())
                 .isEqualTo("MultiPolygon");
-        assertThat(client.json(client.send("POST", "/api/fields?crs=EPSG:1", file))
+        assertThat(client.ask("POST", "/api/fields?crs=EPSG:1", file)
                         .path("reason")
                         .asText())
                 .contains("specify it with 'crs'");
-        assertThat(client.json(client.send("POST", "/api/fields?name-property=nosuch", file))
+        assertThat(client.ask("POST", "/api/fields?name-property=nosuch", file)
                         .path("reason")
                         .asText())
                 .contains("'name-property' nosuch: no feature of the file has this attribute");
 
-        JsonNode renamed = client.json(client.send("PATCH", "/api/fields/a", "{\"name\":\"Hill\"}"));
+        JsonNode renamed = client.ask("PATCH", "/api/fields/a", "{\"name\":\"Hill\"}");
         assertThat(renamed.path("status").asText() + " " + renamed.path("name").asText())
                 .isEqualTo("changed Hill");
         assertThat(running.get("/api/fields").at("/features/0/properties/name").asText())
                 .isEqualTo("Hill");
         for (String body : new String[] {
-            "{}",
-            "{\"name\":\" \"}",
-            "{\"nmae\":\"x\"}",
-            "{\"name\":\"x\",\"validTo\":1}",
-            "{\"validTo\":\"soon\"}",
-            "{\"validTo\":null}",
+            "{}", "{\"name\":\" \"}", "{\"nmae\":\"x\"}",
+            "{\"name\":\"x\",\"validTo\":1}", "{\"validTo\":\"soon\"}", "{\"validTo\":null}",
             "{\"name\":7}"
         }) {
             running.refused("PATCH", "/api/fields/a", body, 400, "wrong-member");
@@ -502,21 +471,18 @@ class RestApiIT {
         running.refused("DELETE", "/api/fields/z", null, 404, "unknown-field");
         running.refused("PATCH", "/api/fields/a", "{\"validTo\":1}", 409, "wrong-state");
         String now = Instant.now().toString();
-        assertThat(client.json(client.send("PATCH", "/api/fields/a", "{\"validTo\":\"%s\"}".formatted(now)))
+        assertThat(client.ask("PATCH", "/api/fields/a", "{\"validTo\":\"%s\"}".formatted(now))
                         .path("status")
                         .asText())
                 .isEqualTo("ended");
         assertThat(running.get("/api/fields").path("features")).isEmpty();
-        assertThat(client.json(client.send("DELETE", "/api/fields/a", null))
-                        .path("versions")
-                        .asInt())
+        assertThat(client.ask("DELETE", "/api/fields/a", null).path("versions").asInt())
                 .isEqualTo(4);
 
         running.refused("POST", "/api/fields", "{\"type\":\"Feature", 400, "unusable-file");
         running.refused("POST", "/api/fields?domain=a.b", file, 400, "wrong-member");
         running.refused("POST", "/api/fields", " ".repeat(FieldsResource.LARGEST + 1), 413, "too-large");
-        await().atMost(RunningApi.TIMEOUT)
-                .untilAsserted(
+        await().untilAsserted(
                         () -> assertThat(running.get("/api/audit?limit=1000").findValuesAsText("command"))
                                 .contains("import-fields", "rename-field", "end-field", "delete-field"));
     }
@@ -528,8 +494,7 @@ class RestApiIT {
             client.send("POST", "/api/missions", """
                     {"mission":"%s","domain":"audited","devices":["urn:%s"]}""".formatted(mission, mission));
         }
-        await().atMost(RunningApi.TIMEOUT)
-                .until(() -> running.get("/api/audit?mission=two").size() == 1);
+        await().until(() -> running.get("/api/audit?mission=two").size() == 1);
         assertThat(running.get("/api/audit?mission=two").at("/0/about/mission").asText())
                 .isEqualTo("two");
         assertThat(running.get("/api/audit?device=urn:nobody")).isEmpty();
@@ -557,9 +522,9 @@ class RestApiIT {
         try (RestApi other =
                 RestApi.start(running.settings(), RestSettings.on(0).withTimeout(Duration.ofMillis(300)), readiness)) {
             ApiClient there = new ApiClient(other.uri(), null);
-            await().atMost(RunningApi.TIMEOUT).until(other::isReady);
-            assertThat(there.send("GET", "/health", null).statusCode()).isEqualTo(200);
-            assertThat(there.send("GET", "/ready", null).statusCode()).isEqualTo(503);
+            await().until(other::isReady);
+            assertThat(there.status("GET", "/health", null)).isEqualTo(200);
+            assertThat(there.status("GET", "/ready", null)).isEqualTo(503);
             for (String path : new String[] {"/api/alarms/a-1/mute", "/api/alarms/mute"}) {
                 HttpResponse<byte[]> answer = there.send("POST", path, "{}", "Idempotency-Key", "again");
                 assertThat(client.error(answer)).isEqualTo("503 not-answered");

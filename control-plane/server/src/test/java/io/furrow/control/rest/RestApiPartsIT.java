@@ -74,7 +74,7 @@ class RestApiPartsIT {
             kafka = EmbeddedKafka.start(directory.resolve("kafka"), port);
             await().atMost(TIMEOUT).until(() -> create("key-2").statusCode() == 409);
         }
-        assertThat(client.json(client.send("GET", "/api/audit", null)))
+        assertThat(client.get("/api/audit"))
                 .filteredOn(entry -> entry.path("requestId").asText().equals("key-1"))
                 .hasSize(1);
     }
@@ -88,11 +88,8 @@ class RestApiPartsIT {
             await().atMost(TIMEOUT).until(watch::isHealthy);
             producer.send(new ProducerRecord<>(Topics.COLLISION, "r1-r2", collision("started")));
             await().atMost(TIMEOUT)
-                    .until(() -> client.json(client.send("GET", "/api/alarms?state=open", null))
-                                    .size()
-                            == 1);
-            JsonNode alarm =
-                    client.json(client.send("GET", "/api/alarms", null)).get(0);
+                    .until(() -> client.get("/api/alarms?state=open").size() == 1);
+            JsonNode alarm = client.get("/api/alarms").get(0);
             String path = "/api/alarms/" + alarm.path("alarm").asText();
             assertThat(alarm.path("kind").asText()).isEqualTo("collision");
 
@@ -108,10 +105,8 @@ class RestApiPartsIT {
                     .isEqualTo(409);
             producer.send(new ProducerRecord<>(Topics.COLLISION, "r1-r2", collision("ended")));
             await().atMost(TIMEOUT)
-                    .until(() -> client.json(client.send("GET", "/api/alarms?state=closed&limit=1", null))
-                                    .size()
-                            == 1);
-            assertThat(client.json(client.send("GET", "/api/alarms?state=closed", null))
+                    .until(() -> client.get("/api/alarms?state=closed&limit=1").size() == 1);
+            assertThat(client.get("/api/alarms?state=closed")
                             .get(0)
                             .path("acknowledgedBy")
                             .asText())
@@ -126,11 +121,8 @@ class RestApiPartsIT {
     private int answered(String path, String body) throws Exception {
         String key = java.util.UUID.randomUUID().toString();
         await().atMost(TIMEOUT)
-                .until(() -> client.send("POST", path, body == null ? "" : body, "Idempotency-Key", key)
-                                .statusCode()
-                        != 503);
-        return client.send("POST", path, body == null ? "" : body, "Idempotency-Key", key)
-                .statusCode();
+                .until(() -> client.status("POST", path, body == null ? "" : body, "Idempotency-Key", key) != 503);
+        return client.status("POST", path, body == null ? "" : body, "Idempotency-Key", key);
     }
 
     private HttpResponse<byte[]> create(String key) throws Exception {
@@ -151,8 +143,7 @@ class RestApiPartsIT {
     }
 
     private ControlSettings settings() {
-        Properties settings = new Properties();
-        settings.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        Properties settings = kafka.client();
         settings.setProperty("state.dir", directory.resolve("state").toString());
         return ControlSettings.of(settings);
     }

@@ -21,8 +21,8 @@ import javax.net.ssl.SSLParameters;
 import javax.net.ssl.SSLSocket;
 import javax.net.ssl.TrustManagerFactory;
 
-import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -46,7 +46,10 @@ import static org.awaitility.Awaitility.await;
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
 class RestApiTlsIT {
     private Path directory;
+
+    @AutoClose
     private EmbeddedKafka kafka;
+
     private SelfSignedCertificate first;
     private SelfSignedCertificate second;
     private RestApi api;
@@ -64,11 +67,6 @@ class RestApiTlsIT {
         if (api != null) {
             api.close();
         }
-    }
-
-    @AfterAll
-    void stopKafka() {
-        kafka.close();
     }
 
     @Test
@@ -113,17 +111,13 @@ class RestApiTlsIT {
         assertThat(subject()).isEqualTo("CN=first");
 
         Files.copy(second.certificate(), certificate, StandardCopyOption.REPLACE_EXISTING);
-        await().atMost(RunningApi.TIMEOUT)
-                .untilAsserted(() -> assertThat(NgsiJson.read(health(first).body())
-                                .path("warnings")
-                                .path(0)
-                                .asText())
-                        .startsWith("the files of the certificate cannot be used"));
+        await().untilAsserted(() -> assertThat(
+                        NgsiJson.read(health(first).body()).at("/warnings/0").asText())
+                .startsWith("the files of the certificate cannot be used"));
         assertThat(subject()).isEqualTo("CN=first");
 
         Files.copy(second.key(), key, StandardCopyOption.REPLACE_EXISTING);
-        await().atMost(RunningApi.TIMEOUT)
-                .untilAsserted(() -> assertThat(subject()).isEqualTo("CN=second"));
+        await().untilAsserted(() -> assertThat(subject()).isEqualTo("CN=second"));
         assertThat(NgsiJson.read(health(second).body()).path("warnings")).isEmpty();
     }
 
@@ -140,8 +134,7 @@ class RestApiTlsIT {
     }
 
     private void start(CertificateFiles files) throws IOException {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        Properties client = kafka.client();
         api = RestApi.start(
                 ControlSettings.of(client),
                 RestSettings.on(0).withCertificate(files),

@@ -59,7 +59,7 @@ class RolesIT {
         callers.put(Role.VIEWER, new ApiClient(api.uri(), "token-of-a-viewer-1"));
         callers.put(Role.OPERATOR, new ApiClient(api.uri(), "token-of-an-operator"));
         callers.put(Role.ADMIN, new ApiClient(api.uri(), "token-of-an-admin-1"));
-        await().atMost(RunningApi.TIMEOUT).until(api::isReady);
+        await().until(api::isReady);
     }
 
     @AfterAll
@@ -120,7 +120,7 @@ class RolesIT {
     void letsEverybodyHaveWhatShowsNothingOfTheFarm() throws Exception {
         ApiClient nobody = new ApiClient(api.uri(), null);
         for (String path : List.of("/health", "/metrics", "/openapi.json")) {
-            assertThat(nobody.send("GET", path, null).statusCode()).as(path).isEqualTo(200);
+            assertThat(nobody.status("GET", path, null)).as(path).isEqualTo(200);
         }
     }
 
@@ -150,7 +150,7 @@ class RolesIT {
         assertThat(me("token-that-speaks-1", "an na", "admin")).contains("400", "wrong-header");
         assertThat(me("token-that-speaks-1", "anna", "root")).contains("400", "wrong-header");
         ApiClient itself = new ApiClient(api.uri(), "token-that-speaks-1");
-        assertThat(itself.error(itself.send("GET", "/api/me", null, false))).isEqualTo("400 wrong-header");
+        assertThat(itself.error("GET", "/api/me", null, false)).isEqualTo("400 wrong-header");
     }
 
     private String me(String token, String user, String role) throws Exception {
@@ -169,28 +169,22 @@ class RolesIT {
     void takesNewTokensUpAndRetainsTheOldOnesWhereTheFileIsBad() throws Exception {
         ApiClient late = new ApiClient(api.uri(), "token-of-a-late-one");
         String before = Files.readString(tokens);
-        assertThat(late.send("GET", "/api/domains", null).statusCode()).isEqualTo(401);
+        assertThat(late.status("GET", "/api/domains", null)).isEqualTo(401);
         try {
             Files.writeString(tokens, before + "lea token-of-a-late-one viewer\n");
-            await().atMost(RunningApi.TIMEOUT)
-                    .until(() -> late.send("GET", "/api/domains", null).statusCode() == 200);
-            assertThat(late.json(late.send("GET", "/health", null)).path("warnings"))
-                    .isEmpty();
+            await().until(() -> late.status("GET", "/api/domains", null) == 200);
+            assertThat(late.get("/health").path("warnings")).isEmpty();
 
             Files.writeString(tokens, "lea short viewer\n");
-            await().atMost(RunningApi.TIMEOUT)
-                    .until(() -> late.json(late.send("GET", "/health", null))
-                            .path("warnings")
-                            .path(0)
-                            .asText()
-                            .equals("the file of tokens cannot be used as it is; the tokens from before count"));
-            assertThat(late.send("GET", "/api/domains", null).statusCode()).isEqualTo(200);
+            await().until(() -> late.get("/health")
+                    .at("/warnings/0")
+                    .asText()
+                    .equals("the file of tokens cannot be used as it is; the tokens from before count"));
+            assertThat(late.status("GET", "/api/domains", null)).isEqualTo(200);
 
             Files.writeString(tokens, before);
-            await().atMost(RunningApi.TIMEOUT)
-                    .until(() -> late.send("GET", "/api/domains", null).statusCode() == 401);
-            assertThat(late.json(late.send("GET", "/health", null)).path("warnings"))
-                    .isEmpty();
+            await().until(() -> late.status("GET", "/api/domains", null) == 401);
+            assertThat(late.get("/health").path("warnings")).isEmpty();
         } finally {
             Files.writeString(tokens, before);
         }

@@ -47,7 +47,7 @@ public final class RunningApi implements AutoCloseable {
         readiness.require(plane::status);
         api = RestApi.start(settings(), rest, readiness, FieldFiles::read);
         client = new ApiClient(api.uri(), null);
-        await().atMost(TIMEOUT).until(() -> client.send("GET", "/ready", null).statusCode() == 200);
+        await().until(() -> client.status("GET", "/ready", null) == 200);
     }
 
     public RestApi api() {
@@ -72,7 +72,7 @@ public final class RunningApi implements AutoCloseable {
     /** Asks for what is refused; where nothing is known of the path, that is not a described answer. */
     public void refused(String method, String path, String body, int status, String error) throws Exception {
         boolean described = !error.equals("not-found");
-        assertThat(client.error(client.send(method, path, body, described))).isEqualTo(status + " " + error);
+        assertThat(client.error(method, path, body, described)).isEqualTo(status + " " + error);
     }
 
     /** What somebody else than the control plane writes. */
@@ -84,8 +84,7 @@ public final class RunningApi implements AutoCloseable {
     }
 
     public ControlSettings settings() {
-        Properties settings = new Properties();
-        settings.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        Properties settings = kafka.client();
         settings.setProperty("state.dir", directory.resolve("state").toString());
         return ControlSettings.of(settings);
     }

@@ -1,32 +1,25 @@
 package io.furrow.control.rest;
 
 import java.io.IOException;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.util.concurrent.CountDownLatch;
-import java.util.concurrent.Executors;
 
 import com.sun.net.httpserver.HttpExchange;
-import com.sun.net.httpserver.HttpServer;
+
+import io.furrow.stub.StubServer;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Takes or refuses updates, and reports the last. */
 final class StubContextBroker implements AutoCloseable {
-    private final HttpServer server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
+    private final StubServer server = new StubServer(this::take);
     private volatile String last = "";
     private volatile String scope = "";
     private volatile int status = 204;
     private volatile CountDownLatch held = new CountDownLatch(0);
 
-    StubContextBroker() throws IOException {
-        server.createContext("/", this::take);
-        server.setExecutor(Executors.newCachedThreadPool());
-        server.start();
-    }
-
     URI uri() {
-        return URI.create("http://127.0.0.1:" + server.getAddress().getPort());
+        return server.uri("");
     }
 
     String last() {
@@ -48,7 +41,7 @@ final class StubContextBroker implements AutoCloseable {
     }
 
     private void take(HttpExchange exchange) throws IOException {
-        String body = new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8);
+        String body = new String(exchange.getRequestBody().readAllBytes(), UTF_8);
         last = exchange.getRequestURI() + " " + body;
         scope = exchange.getRequestHeaders().getFirst("Fiware-Service") + " "
                 + exchange.getRequestHeaders().getFirst("Fiware-Servicepath");
@@ -63,6 +56,6 @@ final class StubContextBroker implements AutoCloseable {
 
     @Override
     public void close() {
-        server.stop(0);
+        server.close();
     }
 }

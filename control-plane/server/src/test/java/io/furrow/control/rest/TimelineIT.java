@@ -51,8 +51,7 @@ class TimelineIT {
         }
         Properties producing = new Properties();
         producing.putAll(running.settings().client());
-        try (KafkaProducer<String, byte[]> producer =
-                new KafkaProducer<>(producing, new StringSerializer(), new ByteArraySerializer())) {
+        try (var producer = new KafkaProducer<>(producing, new StringSerializer(), new ByteArraySerializer())) {
             for (String mission : List.of("hoeing", "deleted")) {
                 producer.send(new ProducerRecord<>(
                         Topics.RECORDINGS, mission, new RecordedMission(mission, TIME, TIME + 9_999).toBytes()));
@@ -78,10 +77,8 @@ class TimelineIT {
     }
 
     private JsonNode counted(String query) throws Exception {
-        await().until(() -> client.json(client.send("GET", TIMELINE + query, null))
-                .path("complete")
-                .asBoolean());
-        return client.json(client.send("GET", TIMELINE + query, null));
+        await().until(() -> client.get(TIMELINE + query).path("complete").asBoolean());
+        return client.get(TIMELINE + query);
     }
 
     @Test
@@ -108,7 +105,7 @@ class TimelineIT {
         assertRefused(TIMELINE + "?from=0&to=144115188076800000&buckets=1", "400 wrong-member");
         assertRefused(TIMELINE + "?from=0&to=999999999999999&buckets=1", "400 wrong-member");
         assertRefused(TIMELINE + "?from=" + (TIME + 10_000), "400 wrong-member");
-        assertThat(running.client().error(running.client().send("GET", TIMELINE, null)))
+        assertThat(running.client().error("GET", TIMELINE, null))
                 .as("without --mongo")
                 .isEqualTo("501 no-mongodb");
 
@@ -117,7 +114,6 @@ class TimelineIT {
     }
 
     private void assertRefused(String path, String error) throws Exception {
-        await().untilAsserted(() ->
-                assertThat(client.error(client.send("GET", path, null))).isEqualTo(error));
+        await().untilAsserted(() -> assertThat(client.error("GET", path, null)).isEqualTo(error));
     }
 }

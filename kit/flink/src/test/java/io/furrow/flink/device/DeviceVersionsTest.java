@@ -52,8 +52,7 @@ class DeviceVersionsTest {
 
     @Test
     void endsWithTheDeletionAndKeepsWhatWasBeforeIt() {
-        DeviceVersions history =
-                DeviceVersions.EMPTY.with(change("a", 100, 1)).with(new DeviceChange("|/|r", 0, 0, 300, null));
+        var history = DeviceVersions.EMPTY.with(change("a", 100, 1)).with(new DeviceChange("|/|r", 0, 0, 300, null));
 
         assertThat(missionAt(history, 299)).isEqualTo("a");
         assertThat(history.at(300)).isEmpty();

@@ -1,6 +1,5 @@
 package io.furrow.flink.job;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -18,14 +17,12 @@ import picocli.CommandLine.ParameterException;
 
 import io.furrow.flink.kafka.TopicOptions;
 
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class JobOptionsTest {
     private static final int REFUSED = 2;
-
-    @TempDir
-    Path directory;
 
     @Test
     void haveTheDefaultsOfTheManual() {
@@ -45,7 +42,7 @@ class JobOptionsTest {
     }
 
     @Test
-    void takeWhatTheCommandLineSays() throws Exception {
+    void takeWhatTheCommandLineSays(@TempDir Path directory) throws Exception {
         Path file = Files.writeString(directory.resolve("kafka.properties"), "security.protocol=SSL\n");
 
         JobOptions options = parsed(
@@ -83,8 +80,7 @@ class JobOptionsTest {
 
     @Test
     void refuseAReplayBesideWhatHasAnotherEventTime() {
-        TestJob.Outcome mixed =
-                TestJob.run(JobOptions::inputTopics, "copy", "--input", "data.raw,data.hoeing.replay.0a1b2c3d");
+        var mixed = TestJob.run(JobOptions::inputTopics, "copy", "--input", "data.raw,data.hoeing.replay.0a1b2c3d");
         TestJob.Outcome advanced = TestJob.run(
                 JobOptions::idleAdvance, "copy", "--input", "data.hoeing.replay.0a1b2c3d", "--idle-advance");
 
@@ -135,14 +131,13 @@ class JobOptionsTest {
     }
 
     @Test
-    void refuseAPropertiesFileThatCannotBeRead() throws Exception {
+    void refuseAPropertiesFileThatCannotBeRead(@TempDir Path directory) throws Exception {
         Path missing = directory.resolve("missing.properties");
-        Path latin1 = Files.write(directory.resolve("latin1"), "a=ñ".getBytes(StandardCharsets.ISO_8859_1));
+        Path latin1 = Files.write(directory.resolve("latin1"), "a=ñ".getBytes(ISO_8859_1));
         Path broken = Files.writeString(directory.resolve("broken"), "a=\\u12G4\n");
 
         for (Path file : List.of(missing, directory, latin1, broken)) {
-            TestJob.Outcome outcome =
-                    TestJob.run(JobOptions::kafkaProperties, "copy", "--kafka-properties", file.toString());
+            var outcome = TestJob.run(JobOptions::kafkaProperties, "copy", "--kafka-properties", file.toString());
 
             assertThat(outcome.exitCode()).isEqualTo(REFUSED);
             assertThat(outcome.err().lines())

@@ -1,6 +1,5 @@
 package io.furrow.flink.kafka;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -17,7 +16,6 @@ import org.apache.flink.configuration.Configuration;
 import org.apache.flink.core.execution.JobClient;
 import org.apache.flink.metrics.Gauge;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.apache.kafka.clients.admin.NewTopic;
@@ -34,11 +32,13 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.TestJob;
 import io.furrow.model.ngsi.Entity;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -48,31 +48,23 @@ class AlignedInputIT {
     private static final InMemoryReporter METRICS = InMemoryReporter.createWithRetainedMetrics();
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setConfiguration(METRICS.addToConfiguration(new Configuration()))
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(1)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(1, METRICS.addToConfiguration(new Configuration()));
 
     private static final int BACKLOG = 300_000;
     private static final byte[] ENTITY = IntStream.range(0, 8)
             .mapToObj(i -> ",\"attribute" + i + "\":{\"type\":\"Number\",\"value\":" + i + ".25,\"metadata\":{}}")
             .collect(Collectors.joining("", "{\"id\":\"urn:ngsi-ld:T:1\",\"type\":\"T\"", "}"))
-            .getBytes(StandardCharsets.UTF_8);
+            .getBytes(UTF_8);
     private static final long HOUR = Duration.ofHours(1).toMillis();
-
-    @TempDir
-    private Path directory;
 
     private KafkaProducer<byte[], byte[]> producer;
 
     @Test
-    void readsAPartitionThatIsAheadOnlyWhenTheSlowestHasComeCloser() throws Exception {
+    void readsAPartitionThatIsAheadOnlyWhenTheSlowestHasComeCloser(@TempDir Path directory) throws Exception {
         long begin = System.currentTimeMillis() - 10 * HOUR;
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory)) {
             Map<String, Object> client = Map.of("bootstrap.servers", kafka.bootstrapServers());
-            try (KafkaConsumer<String, String> consumer =
-                    new KafkaConsumer<>(client, new StringDeserializer(), new StringDeserializer())) {
+            try (var consumer = new KafkaConsumer<>(client, new StringDeserializer(), new StringDeserializer())) {
                 producer = new KafkaProducer<>(
                         kafka.producerSettings(), new ByteArraySerializer(), new ByteArraySerializer());
                 kafka.createTopics(List.of(new NewTopic("in", 2, (short) 1), new NewTopic("out", 1, (short) 1)));
@@ -84,12 +76,12 @@ class AlignedInputIT {
 
                 JobClient job = job(kafka.bootstrapServers(), "out", Optional.of(Duration.ofSeconds(10)));
                 try {
-                    await().atMost(Duration.ofMinutes(1)).until(() -> waits(job.getJobID()));
+                    await().until(() -> waits(job.getJobID()));
                     write(0, begin + HOUR + 1, "fast, later");
                     write(1, begin + 2 * HOUR, "slow, two hours on");
 
                     List<String> read = new ArrayList<>();
-                    await().atMost(Duration.ofMinutes(1)).until(() -> {
+                    await().until(() -> {
                         consumer.poll(Duration.ofMillis(200)).forEach(record -> read.add(record.value()));
                         return read.size() >= 5;
                     });
@@ -105,7 +97,7 @@ class AlignedInputIT {
 
     /** Of a farm's rate, 125 a second: the drift of two minutes is read in a fraction of a second. */
     @Test
-    void readsABacklogOfOnePartitionNearlyAsFastAsWithoutAlignment() throws Exception {
+    void readsABacklogOfOnePartitionNearlyAsFastAsWithoutAlignment(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory)) {
             kafka.createTopics(List.of(new NewTopic("in", 1, (short) 1)));
             producer =
@@ -139,7 +131,6 @@ class AlignedInputIT {
             long begun = System.nanoTime();
             await().pollInSameThread()
                     .pollInterval(Duration.ofMillis(10))
-                    .atMost(Duration.ofMinutes(1))
                     .until(() -> end(consumer, written) == BACKLOG);
             return Duration.ofNanos(System.nanoTime() - begun);
         } finally {
@@ -158,7 +149,7 @@ class AlignedInputIT {
     }
 
     private void write(int partition, long time, String value) throws Exception {
-        producer.send(new ProducerRecord<>("in", partition, time, null, value.getBytes(StandardCharsets.UTF_8)))
+        producer.send(new ProducerRecord<>("in", partition, time, null, value.getBytes(UTF_8)))
                 .get();
     }
 

@@ -1,6 +1,5 @@
 package io.furrow.flink.kafka;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.HashMap;
@@ -27,18 +26,16 @@ import io.furrow.flink.job.TestJob;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 @Timeout(120)
 @Tag("full")
 class DeadLetterSinkIT {
-    @TempDir
-    private Path directory;
-
     @Test
-    void makesTheTopicAsTheJobMakesItsTopicsAndShortensWhatItDoesNotTake() throws Exception {
+    void makesTheTopicAsTheJobMakesItsTopicsAndShortensWhatItDoesNotTake(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory);
-                Admin admin = Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()))) {
+                Admin admin = Admin.create(kafka.client())) {
             AtomicReference<JobOptions> options = new AtomicReference<>();
             TestJob.run(options::set, "copy", "--bootstrap-servers", kafka.bootstrapServers());
             Map<String, String> reasons = Map.of(DeadLetter.REASON, "refused", DeadLetter.MESSAGE, "why");
@@ -76,12 +73,12 @@ class DeadLetterSinkIT {
             while (messages.size() < letters) { // ended by the class's timeout
                 consumer.poll(Duration.ofMillis(200))
                         .forEach(record -> messages.put(
-                                new String(record.key(), StandardCharsets.UTF_8),
+                                new String(record.key(), UTF_8),
                                 new String(
                                         record.headers()
                                                 .lastHeader(DeadLetter.MESSAGE)
                                                 .value(),
-                                        StandardCharsets.UTF_8)));
+                                        UTF_8)));
             }
         }
         return messages;

@@ -1,6 +1,5 @@
 package io.furrow.flink.kafka;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -18,7 +17,7 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -31,6 +30,7 @@ import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.TestJob;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -40,7 +40,9 @@ class KafkaConnectorsIT {
     @TempDir
     static Path directory;
 
+    @AutoClose
     private static EmbeddedKafka embedded;
+
     private static String bootstrapServers;
 
     /** A record without what two copies may differ in. */
@@ -52,13 +54,6 @@ class KafkaConnectorsIT {
         if (bootstrapServers == null) {
             embedded = EmbeddedKafka.start(directory);
             bootstrapServers = embedded.bootstrapServers();
-        }
-    }
-
-    @AfterAll
-    static void stop() {
-        if (embedded != null) {
-            embedded.close();
         }
     }
 
@@ -197,8 +192,7 @@ class KafkaConnectorsIT {
     private static void write(String topic, List<Copied> records) {
         Map<String, Object> settings =
                 Map.of("bootstrap.servers", bootstrapServers, "max.in.flight.requests.per.connection", 1);
-        try (KafkaProducer<byte[], byte[]> producer =
-                new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer())) {
+        try (var producer = new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer())) {
             for (Copied each : records) {
                 var record = new ProducerRecord<>(topic, null, each.timestamp(), utf8(each.key()), utf8(each.value()));
                 each.headers().forEach((name, text) -> record.headers().add(name, utf8(text)));
@@ -214,8 +208,7 @@ class KafkaConnectorsIT {
                 "auto.offset.reset", "earliest",
                 "metadata.max.age.ms", "500",
                 "isolation.level", "read_committed");
-        KafkaConsumer<byte[], byte[]> consumer =
-                new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer());
+        var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer());
         consumer.subscribe(List.of(topic));
         return consumer;
     }
@@ -227,10 +220,10 @@ class KafkaConnectorsIT {
     }
 
     private static byte[] utf8(String text) {
-        return text == null ? null : text.getBytes(StandardCharsets.UTF_8);
+        return text == null ? null : text.getBytes(UTF_8);
     }
 
     private static String text(byte[] utf8) {
-        return utf8 == null ? null : new String(utf8, StandardCharsets.UTF_8);
+        return utf8 == null ? null : new String(utf8, UTF_8);
     }
 }

@@ -16,9 +16,6 @@ import io.furrow.flink.job.TestJob;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class KafkaConnectorsTest {
-    @TempDir
-    private Path directory;
-
     @Test
     void haveOneRequestUnderWaySoThatANewTopicStallsNoProducer() {
         assertThat(KafkaConnectors.producerProperties(parsed("copy")))
@@ -26,7 +23,7 @@ class KafkaConnectorsTest {
     }
 
     @Test
-    void letTheFileOfKafkaPropertiesPrevail() throws Exception {
+    void letTheFileOfKafkaPropertiesPrevail(@TempDir Path directory) throws Exception {
         Path file = Files.writeString(
                 directory.resolve("kafka.properties"),
                 "max.in.flight.requests.per.connection=5\nbatch.size=1\npartition.discovery.interval.ms=7\n");
@@ -41,7 +38,7 @@ class KafkaConnectorsTest {
     }
 
     @Test
-    void compressUnlessTheFileOfKafkaPropertiesSaysOtherwise() throws Exception {
+    void compressUnlessTheFileOfKafkaPropertiesSaysOtherwise(@TempDir Path directory) throws Exception {
         Path file = Files.writeString(directory.resolve("kafka.properties"), "compression.type=none\n");
 
         assertThat(KafkaConnectors.producerProperties(parsed("copy"))).containsEntry("compression.type", "lz4");

@@ -19,11 +19,8 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 @Timeout(45) // a broker may be silent for a minute unless the properties say otherwise
 class KafkaTopicSnapshotTest {
-    @TempDir
-    private Path directory;
-
     @Test
-    void failsWhenTheBrokerIsSilentForLongerThanTheKafkaPropertiesAllow() throws Exception {
+    void failsWhenTheBrokerIsSilentForLongerThanTheKafkaPropertiesAllow(@TempDir Path directory) throws Exception {
         Path properties = Files.writeString(directory.resolve("kafka.properties"), "default.api.timeout.ms=300\n");
         try (ServerSocket silent = new ServerSocket(0, 10, InetAddress.getLoopbackAddress())) {
             AtomicReference<JobOptions> options = new AtomicReference<>();

@@ -1,7 +1,6 @@
 package io.furrow.flink.kafka;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
@@ -24,7 +23,7 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.common.config.ConfigResource;
 import org.apache.kafka.common.errors.RecordTooLargeException;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -36,6 +35,7 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Reason;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -49,19 +49,16 @@ class LimitRecordSizeIT {
     @TempDir
     static Path directory;
 
+    @AutoClose
     private static EmbeddedKafka kafka;
+
+    @AutoClose
     private static Admin admin;
 
     @BeforeAll
     static void start() {
         kafka = EmbeddedKafka.start(directory);
-        admin = Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()));
-    }
-
-    @AfterAll
-    static void stop() {
-        admin.close();
-        kafka.close();
+        admin = Admin.create(kafka.client());
     }
 
     @Test
@@ -75,7 +72,7 @@ class LimitRecordSizeIT {
             TopicRecord letter = records.of(record("small", large));
             assertThat(letter.topic()).isEqualTo("small.dead");
             assertThat(letter.value()).isEqualTo(large);
-            assertThat(letter.key()).isEqualTo("k".getBytes(StandardCharsets.UTF_8));
+            assertThat(letter.key()).isEqualTo("k".getBytes(UTF_8));
             assertThat(letter.headers())
                     .containsEntry("ce_id", "7f")
                     .containsEntry(DeadLetter.REASON, Reason.TOO_LARGE.code())
@@ -265,8 +262,7 @@ class LimitRecordSizeIT {
     }
 
     private static LimitRecordSize writable(Properties producer, LongSupplier nanoTime) {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        Properties client = kafka.client();
         Properties all = new Properties();
         all.setProperty("max.request.size", Integer.toString(KafkaConnectors.MAX_REQUEST_BYTES));
         all.putAll(producer);

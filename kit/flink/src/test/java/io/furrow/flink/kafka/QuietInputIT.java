@@ -1,6 +1,5 @@
 package io.furrow.flink.kafka;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -9,8 +8,6 @@ import java.util.Map;
 
 import org.apache.flink.core.execution.JobClient;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
-import org.apache.flink.streaming.api.functions.co.CoProcessFunction;
-import org.apache.flink.util.Collector;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
@@ -26,8 +23,9 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.TestJob;
-import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.TellEventTime;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -36,12 +34,9 @@ import static org.awaitility.Awaitility.await;
 class QuietInputIT {
     private static final int CHANGES = 30;
 
-    @TempDir
-    Path directory;
-
     /** Else the first event after a quiet time, and all that follow, would be late. */
     @Test
-    void leavesEventTimeWhereItIsThoughTheStreamBesideItGoesOn() throws Exception {
+    void leavesEventTimeWhereItIsThoughTheStreamBesideItGoesOn(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory)) {
             List<Long> seen = new ArrayList<>();
             Map<String, Object> settings = Map.of("bootstrap.servers", kafka.bootstrapServers());
@@ -65,10 +60,9 @@ class QuietInputIT {
                     // One after the other: by then no event has come for many times the idle timeout.
                     for (int i = 1; i <= CHANGES; i++) {
                         int expected = i;
-                        await().atMost(Duration.ofSeconds(60)).until(() -> {
+                        await().until(() -> {
                             consumer.poll(Duration.ofMillis(100))
-                                    .forEach(each ->
-                                            seen.add(Long.parseLong(new String(each.value(), StandardCharsets.UTF_8))));
+                                    .forEach(each -> seen.add(Long.parseLong(new String(each.value(), UTF_8))));
                             return seen.size() >= expected;
                         });
                         producer.send(record("changes")).get();
@@ -83,7 +77,7 @@ class QuietInputIT {
     }
 
     private static ProducerRecord<byte[], byte[]> record(String topic) {
-        return new ProducerRecord<>(topic, 0, null, "{}".getBytes(StandardCharsets.UTF_8));
+        return new ProducerRecord<>(topic, 0, null, "{}".getBytes(UTF_8));
     }
 
     private static JobClient job(String servers) throws Exception {
@@ -111,22 +105,5 @@ class QuietInputIT {
                 .sinkTo(KafkaConnectors.sink(options))
                 .uid("write-event-time");
         return env.executeAsync();
-    }
-
-    /** Emits the event time at each change. */
-    private static final class TellEventTime extends CoProcessFunction<TopicRecord, TopicRecord, TopicRecord> {
-        private static final long serialVersionUID = 1L;
-
-        @Override
-        public void processElement1(TopicRecord event, Context context, Collector<TopicRecord> out) {
-            out.collect(event.to("seen"));
-        }
-
-        @Override
-        public void processElement2(TopicRecord change, Context context, Collector<TopicRecord> out) {
-            byte[] time =
-                    Long.toString(context.timerService().currentWatermark()).getBytes(StandardCharsets.UTF_8);
-            out.collect(new TopicRecord("seen", 0, 0, 0, null, time, Map.of()));
-        }
     }
 }

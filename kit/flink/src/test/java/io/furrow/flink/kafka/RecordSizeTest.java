@@ -1,6 +1,5 @@
 package io.furrow.flink.kafka;
 
-import java.nio.charset.StandardCharsets;
 import java.util.Map;
 import java.util.Properties;
 import java.util.Random;
@@ -18,6 +17,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.flink.record.TopicRecord;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class RecordSizeTest {
@@ -76,7 +76,7 @@ class RecordSizeTest {
 
     private static long countedByTheProducer(TopicRecord record) {
         Header[] headers = record.headers().entrySet().stream()
-                .map(each -> new RecordHeader(each.getKey(), each.getValue().getBytes(StandardCharsets.UTF_8)))
+                .map(each -> new RecordHeader(each.getKey(), each.getValue().getBytes(UTF_8)))
                 .toArray(Header[]::new);
         return AbstractRecords.estimateSizeInBytesUpperBound(
                 RecordBatch.CURRENT_MAGIC_VALUE, CompressionType.NONE, record.key(), record.value(), headers);

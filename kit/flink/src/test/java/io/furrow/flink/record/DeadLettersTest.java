@@ -1,6 +1,5 @@
 package io.furrow.flink.record;
 
-import java.nio.charset.StandardCharsets;
 import java.util.Map;
 
 import org.junit.jupiter.api.Test;
@@ -10,6 +9,7 @@ import io.furrow.model.event.OriginalReference;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class DeadLettersTest {
@@ -48,7 +48,7 @@ class DeadLettersTest {
 
     private static TopicRecord record(int bytes, long offset) {
         byte[] value = new byte[bytes];
-        System.arraycopy("begun".getBytes(StandardCharsets.UTF_8), 0, value, 0, 5);
+        System.arraycopy("begun".getBytes(UTF_8), 0, value, 0, 5);
         return new TopicRecord("data.raw", 3, offset, 5, new byte[] {'k'}, value, Map.of("ce_id", "7f"));
     }
 }

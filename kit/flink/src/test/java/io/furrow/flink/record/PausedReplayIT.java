@@ -1,6 +1,5 @@
 package io.furrow.flink.record;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -10,8 +9,6 @@ import java.util.Optional;
 
 import org.apache.flink.core.execution.JobClient;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
-import org.apache.flink.streaming.api.functions.co.CoProcessFunction;
-import org.apache.flink.util.Collector;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
@@ -30,8 +27,10 @@ import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.TestJob;
 import io.furrow.flink.kafka.KafkaConnectors;
 import io.furrow.flink.kafka.KafkaInput;
+import io.furrow.flink.time.TellEventTime;
 import io.furrow.model.event.HeaderNames;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -44,11 +43,8 @@ class PausedReplayIT {
     /** One after the other they take many times the idle timeout. */
     private static final int CHANGES = 30;
 
-    @TempDir
-    Path directory;
-
     @Test
-    void goesOnWhereItWasAndBeginsAnewAfterASeekBack() throws Exception {
+    void goesOnWhereItWasAndBeginsAnewAfterASeekBack(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory)) {
             Map<String, Object> settings = Map.of("bootstrap.servers", kafka.bootstrapServers());
             kafka.createTopics(List.of(topic(REPLAY, 2), topic("changes", 1), topic("seen", 1)));
@@ -80,7 +76,7 @@ class PausedReplayIT {
 
     private static void awaitEventTime(
             long expected, KafkaProducer<byte[], byte[]> producer, KafkaConsumer<byte[], byte[]> consumer) {
-        await().atMost(Duration.ofMinutes(1)).pollInSameThread().until(() -> eventTime(producer, consumer) == expected);
+        await().pollInSameThread().until(() -> eventTime(producer, consumer) == expected);
     }
 
     /** What the job says to one more change. */
@@ -88,9 +84,9 @@ class PausedReplayIT {
             throws Exception {
         producer.send(new ProducerRecord<>("changes", 0, null, new byte[0])).get();
         List<Long> seen = new ArrayList<>();
-        await().atMost(Duration.ofMinutes(1)).pollInSameThread().until(() -> {
+        await().pollInSameThread().until(() -> {
             consumer.poll(Duration.ofMillis(100))
-                    .forEach(each -> seen.add(Long.parseLong(new String(each.value(), StandardCharsets.UTF_8))));
+                    .forEach(each -> seen.add(Long.parseLong(new String(each.value(), UTF_8))));
             return !seen.isEmpty();
         });
         return seen.get(0);
@@ -102,7 +98,7 @@ class PausedReplayIT {
 
     private static ProducerRecord<byte[], byte[]> event(int partition, String epoch, long time) {
         ProducerRecord<byte[], byte[]> event = new ProducerRecord<>(REPLAY, partition, time, null, new byte[0]);
-        event.headers().add(HeaderNames.REPLAY_EPOCH, epoch.getBytes(StandardCharsets.UTF_8));
+        event.headers().add(HeaderNames.REPLAY_EPOCH, epoch.getBytes(UTF_8));
         return event;
     }
 
@@ -124,22 +120,5 @@ class PausedReplayIT {
                 .sinkTo(KafkaConnectors.sink(options))
                 .uid("write-event-time");
         return env.executeAsync();
-    }
-
-    /** Emits the event time at each change. */
-    private static final class TellEventTime extends CoProcessFunction<TopicRecord, TopicRecord, TopicRecord> {
-        private static final long serialVersionUID = 1L;
-
-        @Override
-        public void processElement1(TopicRecord event, Context context, Collector<TopicRecord> out) {
-            // moves event time
-        }
-
-        @Override
-        public void processElement2(TopicRecord change, Context context, Collector<TopicRecord> out) {
-            byte[] time =
-                    Long.toString(context.timerService().currentWatermark()).getBytes(StandardCharsets.UTF_8);
-            out.collect(new TopicRecord("seen", 0, 0, 0, null, time, Map.of()));
-        }
     }
 }

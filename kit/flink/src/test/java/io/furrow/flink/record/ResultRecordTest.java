@@ -1,7 +1,5 @@
 package io.furrow.flink.record;
 
-import java.nio.charset.StandardCharsets;
-
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.event.FiwareScope;
@@ -9,6 +7,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ResultRecordTest {
@@ -19,7 +18,7 @@ class ResultRecordTest {
         TopicRecord record = result(18.5, 60_000);
 
         assertThat(record.topic()).isEqualTo("data.answers");
-        assertThat(record.key()).isEqualTo("key-1".getBytes(StandardCharsets.UTF_8));
+        assertThat(record.key()).isEqualTo("key-1".getBytes(UTF_8));
         assertThat(record.timestamp()).isEqualTo(60_000);
         assertThat(Entity.parse(record.value()).number("answer")).contains(18.5);
         assertThat(record.headers())

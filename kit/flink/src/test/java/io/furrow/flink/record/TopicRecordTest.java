@@ -1,7 +1,6 @@
 package io.furrow.flink.record;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.util.Map;
 import java.util.Optional;
 
@@ -22,6 +21,7 @@ import io.furrow.flink.kafka.TopicRecordSchema;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -95,8 +95,7 @@ class TopicRecordTest {
 
     @Test
     void becomesAKafkaRecordWithTheKeysOwnPartition() {
-        TopicRecord record =
-                TopicRecord.of("t", -1, "k", null, Map.of("a", "1")).with("b", "ñ");
+        var record = TopicRecord.of("t", -1, "k", null, Map.of("a", "1")).with("b", "ñ");
 
         ProducerRecord<byte[], byte[]> out = new TopicRecordSchema().serialize(record, null, null);
 
@@ -147,6 +146,6 @@ class TopicRecordTest {
     }
 
     private static byte[] utf8(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

@@ -29,7 +29,7 @@ final class Input {
     private Input() {}
 
     static void newRun(JobCase job, int first, Judges seenBy) {
-        arrivals = job.arrivals();
+        arrivals = job.arrivals;
         judges = seenBy;
         newest = Long.MIN_VALUE;
         GATE.newRun(first);
@@ -40,7 +40,7 @@ final class Input {
         long bound = job.bound();
         return env.fromSource(
                         new DataGeneratorSource<>(
-                                nth, job.arrivals().size(), new Gate.Limit<>(), TypeInformation.of(TopicRecord.class)),
+                                nth, job.arrivals.size(), new Gate.Limit<>(), TypeInformation.of(TopicRecord.class)),
                         WatermarkStrategy.<TopicRecord>forGenerator(context -> new AfterEachRecord(bound))
                                 .withTimestampAssigner((record, unused) -> record.timestamp()),
                         NAME)

@@ -1,5 +1,6 @@
 package io.furrow.flink.restart;
 
+import java.util.ArrayList;
 import java.util.List;
 import java.util.Set;
 
@@ -10,33 +11,33 @@ import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.record.TopicRecord;
 
 /** A job over a random input, for {@link Restarts}. */
-public interface JobCase {
+public abstract class JobCase {
     /** In the order of arrival. */
-    List<Arrival> arrivals();
+    protected final List<Arrival> arrivals = new ArrayList<>();
 
     /** How much later than a newer record an older one may come, ms. */
-    long bound();
+    public abstract long bound();
 
     /** With {@code --parallelism}. */
-    JobOptions options(int parallelism);
+    public abstract JobOptions options(int parallelism);
 
     /** The pipeline of these options; every operator has a uid. */
-    DataStream<TopicRecord> define(StreamExecutionEnvironment env, DataStream<TopicRecord> records, JobOptions options)
-            throws Exception;
+    public abstract DataStream<TopicRecord> define(
+            StreamExecutionEnvironment env, DataStream<TopicRecord> records, JobOptions options) throws Exception;
 
     /** To which an undisturbed run must write, else it shows little. */
-    Set<String> topics();
+    public abstract Set<String> topics();
 
     /** Names of the operators that treat what is late in another way. */
-    List<String> judges();
+    public abstract List<String> judges();
 
     /** Of records with the same identity the last counts; by default only equal ones have it. */
-    default String identity(TopicRecord record) {
+    public String identity(TopicRecord record) {
         return content(record);
     }
 
     /** What a record says; nothing that differs from run to run. */
-    default String content(TopicRecord record) {
+    public String content(TopicRecord record) {
         return Restarts.text(record);
     }
 
@@ -46,5 +47,5 @@ public interface JobCase {
      * @param afterAll whether it arrives only when all judges have the watermark of the records before it; else which of them
      *     has it already depends on chance
      */
-    record Arrival(TopicRecord record, boolean afterAll) {}
+    public record Arrival(TopicRecord record, boolean afterAll) {}
 }

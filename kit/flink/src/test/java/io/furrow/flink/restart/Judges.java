@@ -18,7 +18,6 @@ record Judges(InMemoryReporter metrics, JobID job, List<String> operators, int p
                     .pollInSameThread()
                     .pollDelay(Duration.ZERO)
                     .pollInterval(Duration.ofMillis(1))
-                    .atMost(Duration.ofMinutes(1))
                     .until(() -> at(operator, newest - bound - 1) == parallelism);
         }
     }

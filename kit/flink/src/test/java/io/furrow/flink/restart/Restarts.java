@@ -2,8 +2,6 @@ package io.furrow.flink.restart;
 
 import java.io.IOException;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -41,10 +39,12 @@ import org.awaitility.Awaitility;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.files.Folders;
 import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.record.TopicRecord;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.apache.flink.runtime.execution.ExecutionState.FINISHED;
 import static org.apache.flink.runtime.execution.ExecutionState.RUNNING;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -125,7 +125,7 @@ public final class Restarts {
     public void goOnFromReleases(String name, JobCase job) throws Exception {
         Map<String, String> undisturbed = undisturbed(job);
         Written.clear();
-        int cut = job.arrivals().size() / 2;
+        int cut = job.arrivals.size() / 2;
         JobID first = start(job, 0, new Run(2, false), null);
         pass(first, Math.max(0, cut - ON_THEIR_WAY));
         Input.awaitJudges();
@@ -152,9 +152,7 @@ public final class Restarts {
     }
 
     private static List<Path> releasesIn(Path folder) throws IOException {
-        try (Stream<Path> releases = Files.list(folder)) {
-            return releases.sorted().toList();
-        }
+        return Folders.list(folder);
     }
 
     private Map<String, String> undisturbed(JobCase job) throws Exception {
@@ -168,7 +166,7 @@ public final class Restarts {
     private String disturbed(JobCase job, Random random) throws Exception {
         Written.clear();
         StringBuilder how = new StringBuilder();
-        int last = job.arrivals().size() - 1;
+        int last = job.arrivals.size() - 1;
         int position = 0;
         String state = null;
         int restarts = 2 + random.nextInt(3);
@@ -252,7 +250,6 @@ public final class Restarts {
         Awaitility.await()
                 .pollDelay(Duration.ZERO)
                 .pollInterval(Duration.ofMillis(2))
-                .atMost(Duration.ofMinutes(1))
                 .failFast("the job has ended", () -> requireUnended(run))
                 .until(condition);
     }
@@ -282,7 +279,6 @@ public final class Restarts {
     private static String taken(Callable<CompletableFuture<String>> checkpoint) {
         return Awaitility.await()
                 .pollDelay(Duration.ZERO)
-                .atMost(Duration.ofMinutes(1))
                 .ignoreExceptionsMatching(e -> e.getCause() instanceof CheckpointException)
                 .until(() -> checkpoint.call().get(1, TimeUnit.MINUTES), path -> true);
     }
@@ -294,7 +290,6 @@ public final class Restarts {
         flink.cancelJob(run).get(1, TimeUnit.MINUTES);
         Awaitility.await()
                 .pollInterval(Duration.ofMillis(2))
-                .atMost(Duration.ofMinutes(1))
                 .until(() -> flink.getJobStatus(run).get() == JobStatus.CANCELED);
         return checkpoint;
     }
@@ -327,6 +322,6 @@ public final class Restarts {
     }
 
     private static String of(byte[] bytes) {
-        return bytes == null ? "-" : new String(bytes, StandardCharsets.UTF_8);
+        return bytes == null ? "-" : new String(bytes, UTF_8);
     }
 }

@@ -12,7 +12,7 @@ import org.apache.flink.runtime.metrics.groups.UnregisteredMetricGroups.Unregist
 import org.apache.flink.runtime.metrics.util.InterceptingOperatorMetricGroup;
 import org.apache.flink.runtime.operators.testutils.MockEnvironmentBuilder;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
@@ -25,17 +25,14 @@ class DeduplicateByIdTest {
     private static final long FORGOTTEN = WINDOW.toMillis() * 12 / 10;
 
     private OperatorMetrics metrics;
+
+    @AutoClose
     private KeyedOneInputStreamOperatorTestHarness<String, String, String> operator;
 
     @BeforeEach
     void open() throws Exception {
         create();
         operator.open();
-    }
-
-    @AfterEach
-    void close() throws Exception {
-        operator.close();
     }
 
     @Test

@@ -35,8 +35,8 @@ class DelayedPartitionsTest {
     private boolean idle;
     private final ClockBoundedWatermarks.Reader reader = new ClockBoundedWatermarks.Reader(new SimpleCounter());
     private final WatermarkOutputMultiplexer combined = new WatermarkOutputMultiplexer(new Reached());
-    private final Partition one = new Partition("one");
-    private final Partition other = new Partition("other");
+    private final TestPartition one = partition("one");
+    private final TestPartition other = partition("other");
 
     @Test
     void areNotWaitedForWhereTheOnlyClockIsTwoHoursBehind() {
@@ -66,9 +66,9 @@ class DelayedPartitionsTest {
 
     @Test
     void areNoLongerWaitedForOnceTheirOtherDevicesAreOff() {
-        other.read(RIGHT.applyAsLong(now), now);
+        read(other, RIGHT.applyAsLong(now), now);
         report(2 * SECOND, RIGHT, time -> time - 30 * MINUTE);
-        other.read(now, now);
+        read(other, now, now);
         report(15 * SECOND, RIGHT, time -> time - 30 * MINUTE);
         assertThat(now - reached).isLessThan(BEHIND_LIVE);
         report(HOUR, RIGHT, time -> time - 30 * MINUTE);
@@ -117,9 +117,9 @@ class DelayedPartitionsTest {
 
     @Test
     void waitForABacklogWhateverItsAge() {
-        one.read(now, now);
+        read(one, now, now);
         for (long time = now - 5 * HOUR; time < now; time += 10 * SECOND) {
-            other.read(time, time);
+            read(other, time, time);
             emit();
             assertThat(reached).isLessThan(time);
         }
@@ -127,13 +127,13 @@ class DelayedPartitionsTest {
 
     @Test
     void keepTheirPlaceInABacklogWhileOnlyASlowClockReported() {
-        one.read(now, now);
+        read(one, now, now);
         for (long received = now - 5 * HOUR; received < now - HOUR; received += 10 * SECOND) {
-            other.read(SLOW.applyAsLong(received), received);
+            read(other, SLOW.applyAsLong(received), received);
             emit();
             assertThat(reached).as("what comes next is on time").isLessThan(received);
         }
-        other.read(now - HOUR, now - HOUR);
+        read(other, now - HOUR, now - HOUR);
         emit();
         assertThat(now - reached).isBetween(HOUR, HOUR + BEHIND_LIVE);
     }
@@ -163,10 +163,10 @@ class DelayedPartitionsTest {
     private void report(long duration, LongUnaryOperator clock, LongUnaryOperator otherClock) {
         for (long end = now + duration; now < end; now += SECOND) {
             if (clock != null) {
-                one.read(clock.applyAsLong(now), now);
+                read(one, clock.applyAsLong(now), now);
             }
             if (otherClock != null) {
-                other.read(otherClock.applyAsLong(now), now);
+                read(other, otherClock.applyAsLong(now), now);
             }
             emit();
         }
@@ -182,37 +182,18 @@ class DelayedPartitionsTest {
         return TopicRecord.of("data.raw", time, "r", new byte[0], headers);
     }
 
-    private final class Partition {
-        private final ClockBoundedWatermarks watermarks = new ClockBoundedWatermarks(
+    private TestPartition partition(String name) {
+        ClockBoundedWatermarks watermarks = new ClockBoundedWatermarks(
                 new ReceiptTime(Duration.ofSeconds(10)),
                 Duration.ofSeconds(2),
                 new ClockBoundedWatermarks.Hold(Duration.ofSeconds(10), false, Duration.ofMinutes(1)),
                 new ClockBoundedWatermarks.Clocks(() -> now, () -> now),
                 reader);
-        private final String name;
+        return new TestPartition(name, watermarks, combined);
+    }
 
-        Partition(String name) {
-            this.name = name;
-            combined.registerNewOutput(name, new WatermarkOutputMultiplexer.WatermarkUpdateListener() {
-                @Override
-                public void onWatermarkUpdate(long watermark) {}
-
-                @Override
-                public void onIdleUpdate(boolean isIdle) {}
-            });
-        }
-
-        void read(long time, long received) {
-            read(record(time, Map.of(HeaderNames.TS_SOURCE, Long.toString(received))), time);
-        }
-
-        void read(TopicRecord record, long time) {
-            watermarks.onEvent(record, time, combined.getImmediateOutput(name));
-        }
-
-        void emit() {
-            watermarks.onPeriodicEmit(combined.getDeferredOutput(name));
-        }
+    private static void read(TestPartition partition, long time, long received) {
+        partition.read(record(time, Map.of(HeaderNames.TS_SOURCE, Long.toString(received))), time);
     }
 
     private final class Reached implements WatermarkOutput {

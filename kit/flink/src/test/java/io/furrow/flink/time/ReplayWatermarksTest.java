@@ -1,6 +1,7 @@
 package io.furrow.flink.time;
 
 import java.time.Duration;
+import java.util.List;
 import java.util.Map;
 
 import org.apache.flink.api.common.eventtime.Watermark;
@@ -24,14 +25,14 @@ class ReplayWatermarksTest {
     private long reached = Long.MIN_VALUE;
     private final ReplayProgress progress = new ReplayProgress(() -> clock, IDLE / 10);
     private final WatermarkOutputMultiplexer combined = new WatermarkOutputMultiplexer(new Reached());
-    private final Partition one = new Partition("one");
-    private final Partition other = new Partition("other");
-    private final Partition empty = new Partition("empty");
+    private final TestPartition one = partition("one");
+    private final TestPartition other = partition("other");
+    private final TestPartition empty = partition("empty");
 
     @Test
     void waitForAPartitionThatHasNothingForTheIdleTimeoutOnly() {
-        one.read(0, 50_000);
-        other.read(0, 50_000);
+        read(one, 0, 50_000);
+        read(other, 0, 50_000);
         assertThat(afterwards(IDLE - 1)).isEqualTo(Long.MIN_VALUE);
         assertThat(afterwards(1)).isEqualTo(50_000 - BOUND - 1);
     }
@@ -39,54 +40,54 @@ class ReplayWatermarksTest {
     @Test
     void waitForTheOtherPartitionsHoweverLateTheReplayBegins() {
         assertThat(afterwards(HOUR)).isEqualTo(Long.MIN_VALUE);
-        one.read(0, 20_000);
-        one.read(0, 40_000);
+        read(one, 0, 20_000);
+        read(one, 0, 40_000);
         assertThat(afterwards(IDLE - 1))
                 .as("the others' first records are not late")
                 .isEqualTo(Long.MIN_VALUE);
 
-        other.read(0, 20_000);
+        read(other, 0, 20_000);
         assertThat(afterwards(1)).isEqualTo(20_000 - BOUND - 1);
     }
 
     @Test
     void leaveAPausedReplayWhereItIs() {
-        one.read(0, 50_000);
-        other.read(0, 40_000);
+        read(one, 0, 50_000);
+        read(other, 0, 40_000);
         assertThat(afterwards(HOUR)).isEqualTo(40_000 - BOUND - 1);
 
-        one.read(0, 51_000);
+        read(one, 0, 51_000);
         assertThat(afterwards(HOUR)).as("the other's next record is not late").isEqualTo(40_000 - BOUND - 1);
 
-        other.read(0, 40_500);
+        read(other, 0, 40_500);
         assertThat(afterwards(0)).isEqualTo(40_500 - BOUND - 1);
     }
 
     @Test
     void goOnWithoutAPartitionThatFellSilentWhileOthersHadRecords() {
-        other.read(0, 40_000);
+        read(other, 0, 40_000);
         for (long time = 40_000; time <= 60_000; time += 1_000) {
-            one.read(0, time);
+            read(one, 0, time);
             afterwards(1_000);
         }
         assertThat(reached).isGreaterThan(50_000);
 
-        other.read(0, 60_000);
+        read(other, 0, 60_000);
         assertThat(reached).as("in the order of the replay, so in time").isLessThan(60_000);
     }
 
     @Test
     void beginAnewWithEachEpoch() {
-        for (Partition partition : new Partition[] {one, other, empty}) {
-            partition.read(0, 50_000);
+        for (TestPartition partition : List.of(one, other, empty)) {
+            read(partition, 0, 50_000);
         }
-        one.read(1, 20_000);
+        read(one, 1, 20_000);
         assertThat(afterwards(0))
                 .as("until the other partitions are there, too")
                 .isEqualTo(50_000 - BOUND - 1);
 
-        other.read(1, 20_000);
-        empty.read(1, 20_000);
+        read(other, 1, 20_000);
+        read(empty, 1, 20_000);
         assertThat(afterwards(0)).isEqualTo(Epochs.SPAN + 20_000 - BOUND - 1);
     }
 
@@ -94,21 +95,21 @@ class ReplayWatermarksTest {
     void bringTheFormerEpochToItsEndBeforeTheNext() {
         empty.idle();
         other.idle();
-        one.read(0, 50_000);
+        read(one, 0, 50_000);
         assertThat(reached).as("before the next periodic watermark").isEqualTo(Long.MIN_VALUE);
-        one.read(1, 20_000);
+        read(one, 1, 20_000);
         assertThat(reached).isEqualTo(50_000 - BOUND - 1);
     }
 
     @Test
     void closeAnEpochWithItsEnd() {
-        one.read(0, 50_000);
-        other.read(0, 40_000);
-        one.end(0, 50_000);
-        other.end(0, 50_000);
+        read(one, 0, 50_000);
+        read(other, 0, 40_000);
+        end(one, 0, 50_000);
+        end(other, 0, 50_000);
         assertThat(afterwards(IDLE)).isEqualTo(Epochs.SPAN - 1);
-        one.read(1, 0);
-        other.read(1, 0);
+        read(one, 1, 0);
+        read(other, 1, 0);
         assertThat(afterwards(0))
                 .as("the first instant of the next is not late")
                 .isEqualTo(Epochs.SPAN - 1);
@@ -116,27 +117,27 @@ class ReplayWatermarksTest {
 
     @Test
     void waitForTheOtherPartitionsHoweverLongAfterItsEndAnEpochIsFollowed() {
-        one.end(0, 50_000);
-        other.end(0, 50_000);
-        empty.end(0, 50_000);
+        end(one, 0, 50_000);
+        end(other, 0, 50_000);
+        end(empty, 0, 50_000);
         assertThat(afterwards(HOUR)).isEqualTo(Epochs.SPAN - 1);
-        one.read(1, 20_000);
-        one.read(1, 40_000);
+        read(one, 1, 20_000);
+        read(one, 1, 40_000);
         assertThat(afterwards(IDLE / 10))
                 .as("the others' first records are not late")
                 .isEqualTo(Epochs.SPAN - 1);
 
-        other.read(1, 20_000);
-        empty.read(1, 30_000);
+        read(other, 1, 20_000);
+        read(empty, 1, 30_000);
         assertThat(afterwards(0)).isEqualTo(Epochs.SPAN + 20_000 - BOUND - 1);
     }
 
     @Test
     void waitForThePartitionsThatDoNotEndForTheIdleTimeoutOnly() {
-        empty.end(0, 50_000);
-        one.read(0, 50_000);
-        other.read(0, 40_000);
-        one.end(0, 50_000);
+        end(empty, 0, 50_000);
+        read(one, 0, 50_000);
+        read(other, 0, 40_000);
+        end(one, 0, 50_000);
         assertThat(afterwards(IDLE - 1)).isEqualTo(40_000 - BOUND - 1);
         assertThat(afterwards(1)).isEqualTo(Epochs.SPAN - 1);
     }
@@ -145,7 +146,7 @@ class ReplayWatermarksTest {
     void passOverWhatTellsNoTime() {
         empty.idle();
         other.idle();
-        one.read(0, 50_000);
+        read(one, 0, 50_000);
         one.read(record(70_000, Map.of(HeaderNames.REPLAY_EPOCH, "next")), 70_000);
         assertThat(afterwards(0)).isEqualTo(50_000 - BOUND - 1);
     }
@@ -163,45 +164,20 @@ class ReplayWatermarksTest {
         return TopicRecord.of("data.hoeing.replay.0a1b2c3d", timestamp, "r", new byte[0], headers);
     }
 
-    private final class Partition {
-        private final ReplayWatermarks watermarks =
-                new ReplayWatermarks(Duration.ofMillis(BOUND), Duration.ofMillis(IDLE), progress);
-        private final String name;
+    private TestPartition partition(String name) {
+        var watermarks = new ReplayWatermarks(Duration.ofMillis(BOUND), Duration.ofMillis(IDLE), progress);
+        return new TestPartition(name, watermarks, combined);
+    }
 
-        Partition(String name) {
-            this.name = name;
-            combined.registerNewOutput(name, new WatermarkOutputMultiplexer.WatermarkUpdateListener() {
-                @Override
-                public void onWatermarkUpdate(long watermark) {}
+    private static void read(TestPartition partition, long epoch, long time) {
+        Map<String, String> headers = Map.of(HeaderNames.REPLAY_EPOCH, Long.toString(epoch));
+        partition.read(record(time, headers), epoch * Epochs.SPAN + time);
+    }
 
-                @Override
-                public void onIdleUpdate(boolean idle) {}
-            });
-        }
-
-        void read(long epoch, long time) {
-            read(record(time, Map.of(HeaderNames.REPLAY_EPOCH, Long.toString(epoch))), epoch * Epochs.SPAN + time);
-        }
-
-        void end(long epoch, long time) {
-            read(
-                    record(
-                            time,
-                            Map.of(HeaderNames.REPLAY_EPOCH, Long.toString(epoch), HeaderNames.REPLAY_KIND, "end")),
-                    epoch * Epochs.SPAN + time);
-        }
-
-        void read(TopicRecord record, long time) {
-            watermarks.onEvent(record, time, combined.getImmediateOutput(name));
-        }
-
-        void idle() {
-            combined.getImmediateOutput(name).markIdle();
-        }
-
-        void emit() {
-            watermarks.onPeriodicEmit(combined.getDeferredOutput(name));
-        }
+    private static void end(TestPartition partition, long epoch, long time) {
+        Map<String, String> headers =
+                Map.of(HeaderNames.REPLAY_EPOCH, Long.toString(epoch), HeaderNames.REPLAY_KIND, "end");
+        partition.read(record(time, headers), epoch * Epochs.SPAN + time);
     }
 
     private final class Reached implements WatermarkOutput {

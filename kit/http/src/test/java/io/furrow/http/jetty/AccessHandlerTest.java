@@ -4,7 +4,6 @@ import java.io.IOException;
 import java.net.InetAddress;
 import java.net.Socket;
 import java.nio.ByteBuffer;
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.concurrent.atomic.AtomicInteger;
 
@@ -24,6 +23,7 @@ import io.furrow.http.AccessRule;
 import io.furrow.http.AllowedNames;
 import io.furrow.http.OptionNames;
 
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class AccessHandlerTest {
@@ -37,7 +37,7 @@ class AccessHandlerTest {
         @Override
         public boolean handle(Request request, Response response, Callback callback) {
             handled.incrementAndGet();
-            response.write(true, ByteBuffer.wrap("hello".getBytes(StandardCharsets.US_ASCII)), callback);
+            response.write(true, ByteBuffer.wrap("hello".getBytes(US_ASCII)), callback);
             return true;
         }
     }
@@ -49,9 +49,7 @@ class AccessHandlerTest {
         AccessRule rule = AccessRule.allowing(
                 new AllowedNames(List.of(), List.of("https://map.example.org")), new OptionNames("hosts", "origins"));
         server.setHandler(new AccessHandler(
-                rule,
-                refused -> ("{\"error\":\"" + refused.error() + "\"}").getBytes(StandardCharsets.US_ASCII),
-                new Counting()));
+                rule, refused -> ("{\"error\":\"" + refused.error() + "\"}").getBytes(US_ASCII), new Counting()));
         server.start();
     }
 
@@ -134,13 +132,13 @@ class AccessHandlerTest {
     }
 
     private static void write(Socket socket, String text) throws IOException {
-        socket.getOutputStream().write(text.getBytes(StandardCharsets.US_ASCII));
+        socket.getOutputStream().write(text.getBytes(US_ASCII));
         socket.getOutputStream().flush();
     }
 
     /** All that comes until the server closes the connection, which it does only where it is to. */
     private static String read(Socket socket) throws IOException {
-        return new String(socket.getInputStream().readAllBytes(), StandardCharsets.US_ASCII);
+        return new String(socket.getInputStream().readAllBytes(), US_ASCII);
     }
 
     private String ask(String request) throws IOException {

@@ -29,16 +29,13 @@ class FieldChangeTest {
         assertThat(changes)
                 .extracting(FieldChange::kind)
                 .containsExactly(
-                        FieldChange.Kind.UNCHANGED,
-                        FieldChange.Kind.CHANGED,
-                        FieldChange.Kind.ADDED,
-                        FieldChange.Kind.ADDED);
+                        FieldChange.Kind.UNCHANGED, FieldChange.Kind.CHANGED,
+                        FieldChange.Kind.ADDED, FieldChange.Kind.ADDED);
     }
 
     @Test
     void endsWhatIsNotAmongThemOnlyWhereTheyReplaceAll() {
-        List<FieldVersion> known =
-                List.of(field("gone", 10, 1), field("past", 10, 1), end("past", 20), field("to come", 90, 1));
+        var known = List.of(field("gone", 10, 1), field("past", 10, 1), end("past", 20), field("to come", 90, 1));
 
         assertThat(FieldChange.of(List.of(), known, FieldChange.NONE, 50)).isEmpty();
         assertThat(FieldChange.of(List.of(), known, field -> true, 50))
@@ -53,8 +50,7 @@ class FieldChangeTest {
 
     @Test
     void endsNoFieldOfAnotherDomain() {
-        List<FieldVersion> known =
-                List.of(of("gone", "north"), of("held", "north"), of("other", "south"), of("no", ""));
+        var known = List.of(of("gone", "north"), of("held", "north"), of("other", "south"), of("no", ""));
 
         List<FieldChange> changes = FieldChange.of(
                 List.of(of("held", "north")), known, field -> field.domain().equals("north"), 50);

@@ -4,17 +4,18 @@ import java.io.IOException;
 import java.nio.file.Path;
 import java.time.Instant;
 import java.util.ArrayList;
+import java.util.Collections;
 import java.util.List;
 import java.util.Map;
-import java.util.Properties;
 import java.util.concurrent.CyclicBarrier;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
 import java.util.concurrent.Future;
+import java.util.stream.Stream;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
@@ -37,6 +38,8 @@ class SecretTopicIT {
 
     private final FarmSecret first = FarmSecret.generate();
     private final FarmSecret second = first.rotated(NOW, NOW.plusSeconds(60), false);
+
+    @AutoClose
     private EmbeddedKafka kafka;
 
     @BeforeAll
@@ -44,14 +47,9 @@ class SecretTopicIT {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
     }
 
-    @AfterAll
-    void stop() {
-        kafka.close();
-    }
-
     @BeforeEach
     void makeAFarmWithoutASecret() throws Exception {
-        try (Admin admin = Admin.create(client())) {
+        try (Admin admin = Admin.create(kafka.client())) {
             if (admin.listTopics().names().get().contains(Topics.SECRETS)) {
                 admin.deleteTopics(List.of(Topics.SECRETS)).all().get();
                 await().until(() -> !admin.listTopics().names().get().contains(Topics.SECRETS));
@@ -106,29 +104,12 @@ class SecretTopicIT {
     /** Of processes that start at once on a new farm, each with a secret of its own, one wins and all others are told. */
     @Test
     void letsExactlyOneOfSeveralWin() throws Exception {
-        int processes = 4;
-        CyclicBarrier together = new CyclicBarrier(processes);
-        ExecutorService threads = Executors.newFixedThreadPool(processes);
-        List<FarmSecret> secrets = new ArrayList<>();
-        List<Future<Boolean>> outcomes = new ArrayList<>();
-        for (int i = 0; i < processes; i++) {
-            FarmSecret secret = FarmSecret.generate();
-            secrets.add(secret);
-            outcomes.add(threads.submit(() -> {
-                together.await();
-                return isTaken(secret);
-            }));
-        }
-        List<FarmSecret> taken = new ArrayList<>();
-        for (int i = 0; i < processes; i++) {
-            if (outcomes.get(i).get()) {
-                taken.add(secrets.get(i));
-            }
-        }
-        threads.shutdown();
+        List<FarmSecret> secrets =
+                Stream.generate(FarmSecret::generate).limit(4).toList();
+        List<Boolean> taken = atOnce(secrets);
 
-        assertThat(taken).hasSize(1);
-        topic(null).claim(taken.get(0));
+        assertThat(taken).containsOnlyOnce(true);
+        topic(null).claim(secrets.get(taken.indexOf(true)));
     }
 
     /** Instances of one control plane are started at once, and none may give up. */
@@ -136,21 +117,27 @@ class SecretTopicIT {
     void takesTheSameSecretFromSeveralAtOnce() throws Exception {
         for (int round = 0; round < 10; round++) {
             makeAFarmWithoutASecret();
-            int processes = 6;
-            CyclicBarrier together = new CyclicBarrier(processes);
-            ExecutorService threads = Executors.newFixedThreadPool(processes);
-            List<Future<Boolean>> outcomes = new ArrayList<>();
-            for (int i = 0; i < processes; i++) {
-                outcomes.add(threads.submit(() -> {
-                    together.await();
-                    return isTaken(first);
-                }));
-            }
-            for (Future<Boolean> outcome : outcomes) {
-                assertThat(outcome.get()).isTrue();
-            }
-            threads.shutdown();
+            assertThat(atOnce(Collections.nCopies(6, first))).hasSize(6).containsOnly(true);
         }
+    }
+
+    /** Which of the secrets were taken when as many processes claimed them together. */
+    private List<Boolean> atOnce(List<FarmSecret> secrets) throws Exception {
+        CyclicBarrier together = new CyclicBarrier(secrets.size());
+        ExecutorService threads = Executors.newFixedThreadPool(secrets.size());
+        List<Future<Boolean>> outcomes = new ArrayList<>();
+        for (FarmSecret secret : secrets) {
+            outcomes.add(threads.submit(() -> {
+                together.await();
+                return isTaken(secret);
+            }));
+        }
+        List<Boolean> taken = new ArrayList<>();
+        for (Future<Boolean> outcome : outcomes) {
+            taken.add(outcome.get());
+        }
+        threads.shutdown();
+        return taken;
     }
 
     private boolean isTaken(FarmSecret secret) throws IOException {
@@ -166,12 +153,6 @@ class SecretTopicIT {
     }
 
     private SecretTopic topic(String replaced) {
-        return new SecretTopic(client(), replaced);
-    }
-
-    private Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
+        return new SecretTopic(kafka.client(), replaced);
     }
 }

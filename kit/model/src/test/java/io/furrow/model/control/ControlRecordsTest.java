@@ -1,7 +1,5 @@
 package io.furrow.model.control;
 
-import java.nio.charset.StandardCharsets;
-
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
@@ -12,6 +10,7 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.MissionDeviceList;
 import io.furrow.model.device.SecretFingerprints;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Records of {@code service.*} are written as they were read, member by member, whole and without what may be missing. */
@@ -41,7 +40,7 @@ class ControlRecordsTest {
             """)
     void areWrittenAsTheyWereRead(String kind, String record) throws Exception {
         String json = record.replace('\'', '"');
-        byte[] value = json.getBytes(StandardCharsets.UTF_8);
+        byte[] value = json.getBytes(UTF_8);
         byte[] written = switch (kind) {
             case "replay" -> DesiredReplay.read(value).toBytes();
             case "replay-status" -> ReplayStatus.read(value).toBytes();
@@ -55,6 +54,6 @@ class ControlRecordsTest {
             case "fault" -> Fault.read(value).toBytes();
             default -> SecretFingerprints.read(value).toBytes();
         };
-        assertThat(new String(written, StandardCharsets.UTF_8)).isEqualTo(json);
+        assertThat(new String(written, UTF_8)).isEqualTo(json);
     }
 }

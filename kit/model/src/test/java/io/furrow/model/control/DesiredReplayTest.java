@@ -1,6 +1,5 @@
 package io.furrow.model.control;
 
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 
 import org.junit.jupiter.api.Test;
@@ -9,6 +8,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -138,9 +138,9 @@ class DesiredReplayTest {
             "created":5          | "from":"now"        | 'from' must be a time
             """)
     void refusesWhatNoManagerWrites(String member, String other, String reason) {
-        String json = new String(started(ReplayPlan.PLAIN).toBytes(), StandardCharsets.UTF_8);
+        String json = new String(started(ReplayPlan.PLAIN).toBytes(), UTF_8);
         assertThat(json).contains(member);
-        byte[] changed = json.replace(member, other).getBytes(StandardCharsets.UTF_8);
+        byte[] changed = json.replace(member, other).getBytes(UTF_8);
 
         assertThatThrownBy(() -> DesiredReplay.read(NAME, changed))
                 .isInstanceOf(UnreadableException.class)

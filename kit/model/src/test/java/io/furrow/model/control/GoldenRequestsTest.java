@@ -1,7 +1,6 @@
 package io.furrow.model.control;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -10,6 +9,7 @@ import java.util.List;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /**
@@ -40,7 +40,7 @@ class GoldenRequestsTest {
         String json = line.startsWith("{'type'") || !line.startsWith("{") || line.equals("{}")
                 ? line
                 : line.replaceFirst("\\{", "{'type':'request',");
-        return json.replace('\'', '"').getBytes(StandardCharsets.UTF_8);
+        return json.replace('\'', '"').getBytes(UTF_8);
     }
 
     private static String answer(String manager, byte[] request) {
@@ -60,6 +60,6 @@ class GoldenRequestsTest {
     }
 
     private static String text(byte[] json) {
-        return new String(json, StandardCharsets.UTF_8);
+        return new String(json, UTF_8);
     }
 }

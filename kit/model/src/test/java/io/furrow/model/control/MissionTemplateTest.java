@@ -1,9 +1,8 @@
 package io.furrow.model.control;
 
-import java.nio.charset.StandardCharsets;
-
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -15,20 +14,20 @@ class MissionTemplateTest {
 
     @Test
     void isImportedAsItWasExported() throws Exception {
-        MissionTemplate template = MissionTemplate.read(EXPORTED.getBytes(StandardCharsets.UTF_8));
+        MissionTemplate template = MissionTemplate.read(EXPORTED.getBytes(UTF_8));
 
         assertThat(template.key()).isEqualTo("scouting@3");
         assertThat(template.devices().count()).isEqualTo(5);
-        assertThat(new String(template.toBytes(), StandardCharsets.UTF_8)).isEqualTo(EXPORTED);
+        assertThat(new String(template.toBytes(), UTF_8)).isEqualTo(EXPORTED);
         assertThat(MissionTemplate.read(template.toBytes())).isEqualTo(template);
     }
 
     @Test
     void saysWhatIsWrongWithAFile() {
-        assertThatThrownBy(() -> MissionTemplate.read("{\"template\":\"a b\"}".getBytes(StandardCharsets.UTF_8)))
+        assertThatThrownBy(() -> MissionTemplate.read("{\"template\":\"a b\"}".getBytes(UTF_8)))
                 .isInstanceOf(RejectedException.class)
                 .hasMessageContaining("'a b' is not a name for 'template'");
-        assertThatThrownBy(() -> MissionTemplate.read("nonsense".getBytes(StandardCharsets.UTF_8)))
+        assertThatThrownBy(() -> MissionTemplate.read("nonsense".getBytes(UTF_8)))
                 .isInstanceOfSatisfying(
                         RejectedException.class, e -> assertThat(e.code()).isEqualTo(ErrorCode.NOT_JSON));
     }

@@ -1,13 +1,12 @@
 package io.furrow.model.control;
 
-import java.nio.charset.StandardCharsets;
-
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -16,7 +15,7 @@ class RecordedMissionTest {
     void comesBackAsItWasWritten() throws Exception {
         RecordedMission mission = new RecordedMission("weeding", 1000, 2000);
 
-        assertThat(new String(mission.toBytes(), StandardCharsets.UTF_8))
+        assertThat(new String(mission.toBytes(), UTF_8))
                 .isEqualTo("{\"mission\":\"weeding\",\"first\":1000,\"last\":2000}");
         assertThat(RecordedMission.read(mission.toBytes())).isEqualTo(mission);
     }
@@ -25,7 +24,6 @@ class RecordedMissionTest {
     @ValueSource(
             strings = {"7", "{", "{\"mission\":\"m\",\"first\":1}", "{\"mission\":\"m\",\"first\":1,\"last\":\"2\"}"})
     void refusesWhatIsNone(String json) {
-        assertThatThrownBy(() -> RecordedMission.read(json.getBytes(StandardCharsets.UTF_8)))
-                .isInstanceOf(UnreadableException.class);
+        assertThatThrownBy(() -> RecordedMission.read(json.getBytes(UTF_8))).isInstanceOf(UnreadableException.class);
     }
 }

@@ -1,9 +1,8 @@
 package io.furrow.model.control;
 
-import java.nio.charset.StandardCharsets;
-
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ReplayStatusTest {
@@ -21,7 +20,7 @@ class ReplayStatusTest {
 
     @Test
     void readsARecordOfBeforeThereWasProgress() throws Exception {
-        byte[] old = "{\"sequence\":7,\"state\":\"ended\"}".getBytes(StandardCharsets.UTF_8);
+        byte[] old = "{\"sequence\":7,\"state\":\"ended\"}".getBytes(UTF_8);
 
         assertThat(ReplayStatus.read(old)).isEqualTo(new ReplayStatus(7, ReplayStatus.State.ENDED, null, true, null));
     }
@@ -30,6 +29,6 @@ class ReplayStatusTest {
     void saysOfARunningReplayNothingOfBeingSettled() {
         byte[] running = new ReplayStatus(7, ReplayStatus.State.RUNNING, null, false, null).toBytes();
 
-        assertThat(new String(running, StandardCharsets.UTF_8)).isEqualTo("{\"sequence\":7,\"state\":\"running\"}");
+        assertThat(new String(running, UTF_8)).isEqualTo("{\"sequence\":7,\"state\":\"running\"}");
     }
 }

@@ -1,9 +1,8 @@
 package io.furrow.model.control;
 
-import java.nio.charset.StandardCharsets;
-
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** By what a request is known again, and what is read of one that is not read whole. */
@@ -56,7 +55,7 @@ class RequestIdentityTest {
         assertThat(Limits.reason("\ud800x")).isEqualTo("\ufffdx");
         String cut = Limits.reason("𝄞".repeat(600));
         assertThat(cut.codePointCount(0, cut.length())).isEqualTo(Limits.REASON_LENGTH);
-        assertThat(StandardCharsets.UTF_8.newEncoder().canEncode(cut)).isTrue();
+        assertThat(UTF_8.newEncoder().canEncode(cut)).isTrue();
     }
 
     private static String fingerprint(String json) {
@@ -68,6 +67,6 @@ class RequestIdentityTest {
     }
 
     private static byte[] bytes(String json) {
-        return json.replace('\'', '"').getBytes(StandardCharsets.UTF_8);
+        return json.replace('\'', '"').getBytes(UTF_8);
     }
 }

@@ -1,31 +1,19 @@
 package io.furrow.model.control;
 
-import java.nio.charset.StandardCharsets;
 import java.util.Random;
 import java.util.function.Function;
 
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class RequestsPropertyTest {
     private static final int CASES = 3000;
     private static final String[] SPLICES = {
-        "null",
-        "{}",
-        "[]",
-        "1e999",
-        "-1",
-        "1000e2147483647",
-        "\"\\ud800\"",
-        "\"\"",
-        "[[[[]]]]",
-        "true",
-        "\"a.b\"",
-        "999999999999999999",
-        "\"+999999999-12-31T23:59:59Z\"",
-        "\"PT9999999999999999H\"",
-        "{\"type\":\"Polygon\"}"
+        "null", "{}", "[]", "1e999", "-1", "1000e2147483647",
+        "\"\\ud800\"", "\"\"", "[[[[]]]]", "true", "\"a.b\"", "999999999999999999",
+        "\"+999999999-12-31T23:59:59Z\"", "\"PT9999999999999999H\"", "{\"type\":\"Polygon\"}"
     };
 
     @Test
@@ -68,13 +56,13 @@ class RequestsPropertyTest {
     private static <C extends Command> int refusals(
             byte[] request, Function<byte[], ParsedRequest<C>> reader, long seed) throws Exception {
         ParsedRequest<C> parsedRequest = reader.apply(request);
-        String said = "seed %d: %s".formatted(seed, new String(request, StandardCharsets.UTF_8));
+        String said = "seed %d: %s".formatted(seed, new String(request, UTF_8));
         if (parsedRequest instanceof ParsedRequest.Request<C> understood) {
             assertThat(reader.apply(Requests.write(understood.requestId(), understood.command())))
                     .as(said)
                     .isEqualTo(parsedRequest);
         } else if (parsedRequest instanceof ParsedRequest.Refused<C> refused) {
-            CommandResult answer =
+            var answer =
                     CommandResult.read(refused.answer().to(refused.requestId()).toBytes());
             assertThat(answer.status()).as(said).isEqualTo("error");
             assertThat(answer.error()).as(said).isPresent();
@@ -85,7 +73,7 @@ class RequestsPropertyTest {
     }
 
     private static byte[] broken(byte[] request, Random random) {
-        String text = new String(request, StandardCharsets.UTF_8);
+        String text = new String(request, UTF_8);
         int at = random.nextInt(text.length());
         int colon = text.indexOf(':', at);
         text = switch (random.nextInt(4)) {
@@ -93,7 +81,7 @@ class RequestsPropertyTest {
             case 1 -> text.substring(0, at) + (char) random.nextInt(128) + text.substring(at + 1);
             default -> colon < 0 ? text + "]" : spliced(text, colon + 1, SPLICES[random.nextInt(SPLICES.length)]);
         };
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 
     /** Puts another value in the place of a plain one. */

@@ -1,6 +1,5 @@
 package io.furrow.model.control;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -8,6 +7,7 @@ import java.util.List;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class RequestsTest {
@@ -85,7 +85,7 @@ class RequestsTest {
 
         assertThat(parsedRequest).isInstanceOfSatisfying(ParsedRequest.Refused.class, refused -> {
             assertThat(refused.requestId()).isEqualTo("r");
-            assertThat(new String(refused.answer().toBytes(), StandardCharsets.UTF_8))
+            assertThat(new String(refused.answer().toBytes(), UTF_8))
                     .isEqualTo(
                             "{'type':'response','status':'error','error':'unknown-command','reason':\"there is no command "
                                             .replace('\'', '"')
@@ -102,6 +102,6 @@ class RequestsTest {
     }
 
     private static byte[] json(String text) {
-        return text.replace('\'', '"').getBytes(StandardCharsets.UTF_8);
+        return text.replace('\'', '"').getBytes(UTF_8);
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.model.device;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
@@ -8,6 +7,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -27,7 +27,7 @@ class DesiredDeviceTest {
 
         assertThat(DeviceVersion.read(camera.toBytes())).isEqualTo(VERSION);
         assertThat(DesiredDevice.read(camera.toBytes())).isEqualTo(camera);
-        assertThat(new String(camera.toBytes(), StandardCharsets.UTF_8)).isEqualTo("""
+        assertThat(new String(camera.toBytes(), UTF_8)).isEqualTo("""
                 {"id":"urn:Camera:m-1","service":"farm","servicePath":"/","domain":"d","mission":"m","from":5,"until":9,\
                 "sequence":7,"carriedBy":"urn:Robot:m-1","type":"Camera","device":"camera-m-1","simulated":true,"wanted":"stopped",\
                 "period":"PT5S","settings":{"area":"field-1"}}""");
@@ -38,7 +38,7 @@ class DesiredDeviceTest {
         DesiredDevice rotated = DesiredDevice.read(VERSION.toBytes()).withGeneration(3);
 
         assertThat(DesiredDevice.read(rotated.toBytes())).isEqualTo(rotated);
-        assertThat(new String(rotated.toBytes(), StandardCharsets.UTF_8)).endsWith(",\"generation\":3}");
+        assertThat(new String(rotated.toBytes(), UTF_8)).endsWith(",\"generation\":3}");
         assertThat(DesiredDevice.read(VERSION.toBytes()).generation()).isZero();
         assertThatThrownBy(
                         () -> DesiredDevice.read(bytes("{\"id\":\"a\",\"from\":0,\"sequence\":1,\"generation\":-1}")))
@@ -71,6 +71,6 @@ class DesiredDeviceTest {
     }
 
     private static byte[] bytes(String json) {
-        return json.getBytes(StandardCharsets.UTF_8);
+        return json.getBytes(UTF_8);
     }
 }

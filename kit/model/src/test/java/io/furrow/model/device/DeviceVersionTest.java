@@ -2,7 +2,6 @@ package io.furrow.model.device;
 
 import java.io.IOException;
 import java.io.InputStream;
-import java.nio.charset.StandardCharsets;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -11,6 +10,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -30,8 +30,8 @@ class DeviceVersionTest {
 
     @Test
     void isWrittenAndReadAsItsGoldenJson() throws Exception {
-        assertThat(new String(ROBOT.toBytes(), StandardCharsets.UTF_8)).isEqualTo(golden("robot"));
-        assertThat(new String(THERMOMETER.toBytes(), StandardCharsets.UTF_8)).isEqualTo(golden("thermometer"));
+        assertThat(new String(ROBOT.toBytes(), UTF_8)).isEqualTo(golden("robot"));
+        assertThat(new String(THERMOMETER.toBytes(), UTF_8)).isEqualTo(golden("thermometer"));
         assertThat(read(golden("robot"))).isEqualTo(ROBOT);
         assertThat(read(golden("thermometer"))).isEqualTo(THERMOMETER);
     }
@@ -80,12 +80,12 @@ class DeviceVersionTest {
     }
 
     private static DeviceVersion read(String json) throws UnreadableException {
-        return DeviceVersion.read(json.replace('\'', '"').getBytes(StandardCharsets.UTF_8));
+        return DeviceVersion.read(json.replace('\'', '"').getBytes(UTF_8));
     }
 
     private static String golden(String name) throws IOException {
         try (InputStream json = DeviceVersionTest.class.getResourceAsStream("/golden/device/" + name + ".json")) {
-            return new String(json.readAllBytes(), StandardCharsets.UTF_8).strip();
+            return new String(json.readAllBytes(), UTF_8).strip();
         }
     }
 }

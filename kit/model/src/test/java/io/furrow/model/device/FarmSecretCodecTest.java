@@ -1,7 +1,6 @@
 package io.furrow.model.device;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Instant;
@@ -11,6 +10,7 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -23,7 +23,7 @@ class FarmSecretCodecTest {
     @Test
     void readsAFileOfOneLine() throws IOException {
         assertThat(FarmSecret.read(file("0123456789abcdef\n")))
-                .isEqualTo(new FarmSecret("0123456789abcdef".getBytes(StandardCharsets.UTF_8)));
+                .isEqualTo(new FarmSecret("0123456789abcdef".getBytes(UTF_8)));
     }
 
     @Test
@@ -48,8 +48,7 @@ class FarmSecretCodecTest {
                 """));
 
         assertThat(secret.newestKey()).isEqualTo(2);
-        assertThat(secret.apiKey("a"))
-                .isEqualTo(new FarmSecret("0123456789abcdef".getBytes(StandardCharsets.UTF_8)).apiKey("a"));
+        assertThat(secret.apiKey("a")).isEqualTo(new FarmSecret("0123456789abcdef".getBytes(UTF_8)).apiKey("a"));
     }
 
     /** An older version reads the first line as the secret: it must find that too short. */

@@ -1,6 +1,5 @@
 package io.furrow.model.device;
 
-import java.nio.charset.StandardCharsets;
 import java.util.Optional;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
@@ -11,6 +10,7 @@ import org.junit.jupiter.api.Test;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -57,7 +57,7 @@ class MissionDeviceListsTest {
         assertThat(MissionDeviceList.read(list.toBytes())).isEqualTo(list);
         DesiredDevice device = device(new GroupRef(3, 0, 0, 9));
         assertThat(DesiredDevice.read(device.toBytes())).isEqualTo(device);
-        assertThat(new String(device.toBytes(), StandardCharsets.UTF_8))
+        assertThat(new String(device.toBytes(), UTF_8))
                 .endsWith("\"group\":{\"part\":3,\"index\":0,\"member\":0,\"sequence\":9}}");
         for (String wrong : new String[] {"{}", "[]", "{'mission':'m','part':0,'sequence':1,'devices':{}}"}) {
             assertThatThrownBy(() -> MissionDeviceList.read(bytes(wrong))).isInstanceOf(UnreadableException.class);
@@ -86,6 +86,6 @@ class MissionDeviceListsTest {
     }
 
     private static byte[] bytes(String json) {
-        return json.replace('\'', '"').getBytes(StandardCharsets.UTF_8);
+        return json.replace('\'', '"').getBytes(UTF_8);
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.model.device;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.List;
 
@@ -9,6 +8,7 @@ import org.junit.jupiter.api.Test;
 import io.furrow.model.device.SecretFingerprints.Relation;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -55,7 +55,7 @@ class SecretFingerprintsTest {
     @Test
     void isReadAsItIsWrittenAndHoldsNoKey() throws Exception {
         SecretFingerprints fingerprints = SecretFingerprints.of(second);
-        String json = new String(fingerprints.toBytes(), StandardCharsets.UTF_8);
+        String json = new String(fingerprints.toBytes(), UTF_8);
 
         assertThat(SecretFingerprints.read(fingerprints.toBytes())).isEqualTo(fingerprints);
         assertThat(json)
@@ -63,7 +63,7 @@ class SecretFingerprintsTest {
                         .formatted(first.fingerprint(), second.fingerprint()))
                 .doesNotContain(first.newest().text(), second.newest().text());
         assertThat(fingerprints.toString()).isEqualTo(second.toString());
-        assertThatThrownBy(() -> SecretFingerprints.read("{\"newest\":1}".getBytes(StandardCharsets.UTF_8)))
+        assertThatThrownBy(() -> SecretFingerprints.read("{\"newest\":1}".getBytes(UTF_8)))
                 .isInstanceOf(UnreadableException.class);
     }
 

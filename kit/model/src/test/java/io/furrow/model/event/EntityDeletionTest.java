@@ -1,6 +1,5 @@
 package io.furrow.model.event;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 
@@ -9,6 +8,7 @@ import org.junit.jupiter.api.Test;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.Notification;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class EntityDeletionTest {
@@ -86,8 +86,6 @@ class EntityDeletionTest {
     }
 
     private static Entity entity(String body) throws Exception {
-        return Notification.read(body.getBytes(StandardCharsets.UTF_8), null)
-                .entities()
-                .get(0);
+        return Notification.read(body.getBytes(UTF_8), null).entities().get(0);
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.model.event;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 
@@ -8,6 +7,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.model.ngsi.Entity;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.entry;
 
@@ -16,7 +16,7 @@ class EntityEventTest {
 
     @Test
     void carriesTheHeadersOfTheContract() {
-        Entity entity =
+        var entity =
                 Entity.builder("a", "T").integer("Time", 1_795_223_399_000L).build();
         EntityEvent event = EntityEvent.of(
                 entity,
@@ -60,7 +60,7 @@ class EntityEventTest {
                 {"id": "a", "type": "T", "TimeInstant": {"value": "2026-11-20T01:00:00.000Z"},
                  "temp": {"value": 5, "metadata": {"TimeInstant": {"value": "2026-11-20T01:00:00.000Z"}}},
                  "Latitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:00:00.000Z"}}},
-                 "Longitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:00:00.000Z"}}}}""".getBytes(StandardCharsets.UTF_8));
+                 "Longitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:00:00.000Z"}}}}""".getBytes(UTF_8));
 
         assertThat(received(entity, RECEIVED).headers("s"))
                 .containsEntry(HeaderNames.LATER_ATTRIBUTES, "Latitude,Longitude");
@@ -72,7 +72,7 @@ class EntityEventTest {
         Entity entity = Entity.parse("""
                 {"id": "a", "type": "T", "Time": {"value": 1795223399000},
                  "TimeInstant": {"value": "2026-11-21T01:10:00.000Z"},
-                 "Latitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:10:00.000Z"}}}}""".getBytes(StandardCharsets.UTF_8));
+                 "Latitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:10:00.000Z"}}}}""".getBytes(UTF_8));
 
         assertThat(received(entity, RECEIVED).headers("s")).doesNotContainKey(HeaderNames.LATER_ATTRIBUTES);
     }

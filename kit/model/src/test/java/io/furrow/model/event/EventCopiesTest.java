@@ -1,6 +1,5 @@
 package io.furrow.model.event;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -11,6 +10,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.Notification;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Which copies of a change share an id: one test for each row of the table in {@code docs/topics.md}. */
@@ -102,7 +102,7 @@ class EventCopiesTest {
     private static String id(String json, Origin origin, Instant received) throws UnreadableException {
         byte[] body = ("{'subscriptionId':'s','data':[" + json + "]}")
                 .replace('\'', '"')
-                .getBytes(StandardCharsets.UTF_8);
+                .getBytes(UTF_8);
         Entity entity = Notification.read(body, null).entities().get(0);
         return EntityEvent.of(entity, SCOPE, received, RULE, origin).id();
     }

@@ -1,6 +1,5 @@
 package io.furrow.model.event;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.HashMap;
 import java.util.List;
@@ -16,6 +15,7 @@ import io.furrow.model.ngsi.Notification;
 import io.furrow.model.ngsi.RecordedNotification;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class EventIdTest {
@@ -190,6 +190,6 @@ class EventIdTest {
     }
 
     private static byte[] utf8(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.model.event;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -12,6 +11,7 @@ import org.junit.jupiter.params.provider.CsvFileSource;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.Notification;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -53,7 +53,7 @@ class EventTimeTest {
     }
 
     private static EventTime time(String json, String order) throws Exception {
-        Entity entity = Entity.parse(json.getBytes(StandardCharsets.UTF_8));
+        Entity entity = Entity.parse(json.getBytes(UTF_8));
         return EventTime.of(entity, RECEIVED, EventTimeRule.of(List.of(order.split(",")), Duration.ofMinutes(5)));
     }
 
@@ -61,7 +61,7 @@ class EventTimeTest {
     @CsvFileSource(resources = "event-times.csv", delimiter = '|', quoteCharacter = '\u0001')
     void followsTheCaseTable(String attributes, EventTime.Basis basis, EventTime.Fault fault, Instant time)
             throws Exception {
-        byte[] body = ("{\"id\":\"a\"," + attributes + "}").getBytes(StandardCharsets.UTF_8);
+        byte[] body = ("{\"id\":\"a\"," + attributes + "}").getBytes(UTF_8);
         Entity entity =
                 Notification.read(body, "simplifiedKeyValues").entities().get(0);
 

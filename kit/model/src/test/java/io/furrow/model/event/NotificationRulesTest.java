@@ -1,6 +1,5 @@
 package io.furrow.model.event;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
@@ -15,6 +14,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.Notification;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class NotificationRulesTest {
@@ -121,6 +121,6 @@ class NotificationRulesTest {
     }
 
     private static Notification notification(String json) throws UnreadableException {
-        return Notification.read(json.getBytes(StandardCharsets.UTF_8), null);
+        return Notification.read(json.getBytes(UTF_8), null);
     }
 }

@@ -2,7 +2,6 @@ package io.furrow.model.field;
 
 import java.io.IOException;
 import java.io.InputStream;
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -15,6 +14,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -30,8 +30,8 @@ class FieldVersionTest {
                 object("{'name':'Behind the barn','Domain':'canary','crop':'maize'}"));
         FieldVersion ended = new FieldVersion("7", 0, null, object("{}"));
 
-        assertThat(new String(north.toBytes(), StandardCharsets.UTF_8)).isEqualTo(golden("north"));
-        assertThat(new String(ended.toBytes(), StandardCharsets.UTF_8)).isEqualTo(golden("ended"));
+        assertThat(new String(north.toBytes(), UTF_8)).isEqualTo(golden("north"));
+        assertThat(new String(ended.toBytes(), UTF_8)).isEqualTo(golden("ended"));
         assertThat(read(golden("north"))).isEqualTo(north);
         assertThat(read(golden("ended"))).isEqualTo(ended);
     }
@@ -105,16 +105,16 @@ class FieldVersionTest {
     }
 
     private static FieldVersion read(String json) throws UnreadableException {
-        return FieldVersion.read(json.replace('\'', '"').getBytes(StandardCharsets.UTF_8));
+        return FieldVersion.read(json.replace('\'', '"').getBytes(UTF_8));
     }
 
     private static ObjectNode object(String json) throws UnreadableException {
-        return (ObjectNode) NgsiJson.read(json.replace('\'', '"').getBytes(StandardCharsets.UTF_8));
+        return (ObjectNode) NgsiJson.read(json.replace('\'', '"').getBytes(UTF_8));
     }
 
     private static String golden(String name) throws IOException {
         try (InputStream json = FieldVersionTest.class.getResourceAsStream("/golden/field/" + name + ".json")) {
-            return new String(json.readAllBytes(), StandardCharsets.UTF_8).strip();
+            return new String(json.readAllBytes(), UTF_8).strip();
         }
     }
 }

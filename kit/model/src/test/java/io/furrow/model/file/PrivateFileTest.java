@@ -13,11 +13,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class PrivateFileTest {
-    @TempDir
-    Path folder;
-
     @Test
-    void createsAFileForItsOwnerAndOverwritesNone() throws IOException {
+    void createsAFileForItsOwnerAndOverwritesNone(@TempDir Path folder) throws IOException {
         Path file = folder.resolve("file");
 
         PrivateFile.create(file, "one");
@@ -28,7 +25,7 @@ class PrivateFileTest {
     }
 
     @Test
-    void replacesAFileBehindALinkAndKeepsItsPermissions() throws IOException {
+    void replacesAFileBehindALinkAndKeepsItsPermissions(@TempDir Path folder) throws IOException {
         Path file = Files.writeString(folder.resolve("file"), "one");
         Files.setPosixFilePermissions(file, PosixFilePermissions.fromString("rw-r-----"));
         Path link = Files.createSymbolicLink(folder.resolve("link"), file);
@@ -42,7 +39,7 @@ class PrivateFileTest {
     }
 
     @Test
-    void tellsOfAFileThatOthersMayRead() throws IOException {
+    void tellsOfAFileThatOthersMayRead(@TempDir Path folder) throws IOException {
         Path file = Files.writeString(folder.resolve("file"), "one");
         Files.setPosixFilePermissions(file, PosixFilePermissions.fromString("rw-r-----"));
         assertThat(PrivateFile.exposure(file)).isEmpty();

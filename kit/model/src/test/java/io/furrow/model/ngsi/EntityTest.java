@@ -1,6 +1,5 @@
 package io.furrow.model.ngsi;
 
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 
 import org.junit.jupiter.api.Test;
@@ -8,6 +7,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatIllegalArgumentException;
 
@@ -101,6 +101,6 @@ class EntityTest {
     }
 
     private static Entity parse(String json) throws UnreadableException {
-        return Entity.parse(json.getBytes(StandardCharsets.UTF_8));
+        return Entity.parse(json.getBytes(UTF_8));
     }
 }

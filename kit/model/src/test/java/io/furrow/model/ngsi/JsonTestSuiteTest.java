@@ -1,7 +1,6 @@
 package io.furrow.model.ngsi;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Base64;
@@ -13,6 +12,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatCode;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -53,8 +53,8 @@ public class JsonTestSuiteTest {
     @ParameterizedTest
     @MethodSource("mustBeAccepted")
     void carriesItAsTheValueOfAnAttribute(Case each) {
-        String document = new String(each.document, StandardCharsets.UTF_8);
-        byte[] body = ("{\"id\": \"a\", \"x\": {\"value\": " + document + "}}").getBytes(StandardCharsets.UTF_8);
+        String document = new String(each.document, UTF_8);
+        byte[] body = ("{\"id\": \"a\", \"x\": {\"value\": " + document + "}}").getBytes(UTF_8);
 
         assertThatCode(() -> Entity.parse(
                         Notification.read(body, "normalized").entities().get(0).toBytes()))
@@ -88,7 +88,7 @@ public class JsonTestSuiteTest {
 
     private static Case read(String line) {
         try {
-            JsonNode json = NgsiJson.read(line.getBytes(StandardCharsets.UTF_8));
+            JsonNode json = NgsiJson.read(line.getBytes(UTF_8));
             String name = json.get("name").textValue();
             if (json.has("base64")) {
                 return new Case(
@@ -97,7 +97,7 @@ public class JsonTestSuiteTest {
             String text = json.has("repeat")
                     ? json.get("repeat").textValue().repeat(json.get("times").intValue())
                     : json.get("text").textValue();
-            return new Case(name, text.getBytes(StandardCharsets.UTF_8));
+            return new Case(name, text.getBytes(UTF_8));
         } catch (UnreadableException e) {
             throw new IllegalArgumentException(line, e);
         }

@@ -8,51 +8,14 @@ import java.util.Random;
 /** Entities with everything that devices, brokers and robots write, and much that none should; mostly well-formed. */
 public final class MadeUpEntities {
     private static final String[] NAMES = {
-        "location",
-        "Latitude",
-        "Longitude",
-        "gnss",
-        "pose",
-        "temperature",
-        "Mission",
-        "TimeInstant",
-        "Time",
-        "speed",
-        "other",
-        "Image",
-        "id",
-        "type",
-        "na\\u006de",
-        "\\ud83d\\ude9c",
+        "location", "Latitude", "Longitude", "gnss", "pose", "temperature", "Mission", "TimeInstant",
+        "Time", "speed", "other", "Image", "id", "type", "na\\u006de", "\\ud83d\\ude9c",
         "\\ud83d"
     };
-    private static final String[] NUMBERS = {
-        "0",
-        "-0",
-        "-0.0",
-        "1",
-        "40.3125",
-        "-3.70379",
-        "89.999999999999999999",
-        "1.5e1",
-        "-3.7E-4",
-        "1e400",
-        "1e-400",
-        "0e1",
-        "0.0e99999999999",
-        "1e999",
-        "1e1000",
-        "1e1001",
-        "1e-1001",
-        "1e99999999999",
-        "181",
-        "123456789012345678901234567890",
-        "1795223400000",
-        "1.7952234e12",
-        "999999999999999999",
-        "9007199254740993",
-        "0.1000000000000000055511151231257827"
-    };
+    private static final String[] NUMBERS = """
+            0 -0 -0.0 1 40.3125 -3.70379 89.999999999999999999 1.5e1 -3.7E-4 1e400 1e-400 0e1 0.0e99999999999 1e999
+            1e1000 1e1001 1e-1001 1e99999999999 181 123456789012345678901234567890 1795223400000 1.7952234e12
+            999999999999999999 9007199254740993 0.1000000000000000055511151231257827""".split("\\s+");
     private static final String[] TEXTS = {
         "",
         " ",

@@ -1,6 +1,5 @@
 package io.furrow.model.ngsi;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -15,6 +14,7 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.Origin;
 import io.furrow.model.position.PositionReading;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.fail;
 
@@ -49,9 +49,7 @@ class MutatedNotificationsTest {
                 assertThat(e).hasMessageMatching("(?s).+");
                 unreadable++;
             } catch (RuntimeException | StackOverflowError e) {
-                fail(
-                        "seed %d round %d header %s body %s",
-                        SEED, round, header, new String(body, StandardCharsets.UTF_8), e);
+                fail("seed %d round %d header %s body %s", SEED, round, header, new String(body, UTF_8), e);
             }
         }
         assertThat(read).as("entities that could be read").isGreaterThan(ROUNDS / 5);

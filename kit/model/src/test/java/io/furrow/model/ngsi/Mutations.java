@@ -1,52 +1,26 @@
 package io.furrow.model.ngsi;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
+
 /** Breaks JSON at random: values and names become others, the end is cut off, a byte is replaced. */
 public final class Mutations {
     private static final String[] SPLICES = {
-        "null",
-        "{}",
-        "[]",
-        "1e999",
-        "-1e999999999",
-        "1000e2147483647",
-        "1e99999999999",
-        "\"\\ud800\"",
-        "NaN",
-        "\"\"",
-        "{\"value\":null}",
-        "{\"type\":null,\"value\":1,\"metadata\":[]}",
-        "\"%27\"",
-        "[[[[]]]]",
-        "\"0,0\"",
-        "-1",
-        "true",
-        "{\"type\":\"Point\",\"coordinates\":{\"a\":1,\"b\":2}}",
-        "\"9999-12-31T23:59:59Z\"",
-        "999999999999999999",
-        "\"+999999999-12-31T23:59:59Z\"",
+        "null", "{}", "[]",
+        "1e999", "-1e999999999", "1000e2147483647",
+        "1e99999999999", "\"\\ud800\"", "NaN",
+        "\"\"", "{\"value\":null}", "{\"type\":null,\"value\":1,\"metadata\":[]}",
+        "\"%27\"", "[[[[]]]]", "\"0,0\"",
+        "-1", "true", "{\"type\":\"Point\",\"coordinates\":{\"a\":1,\"b\":2}}",
+        "\"9999-12-31T23:59:59Z\"", "999999999999999999", "\"+999999999-12-31T23:59:59Z\"",
         "\"2026-11-21T01:00:00/\""
     };
-    private static final String[] NAMES = {
-        "id",
-        "type",
-        "data",
-        "value",
-        "metadata",
-        "location",
-        "Time",
-        "TimeInstant",
-        "dateObserved",
-        "dateModified",
-        "Latitude",
-        "Longitude",
-        "gnss",
-        "coordinates"
-    };
+    private static final String[] NAMES = """
+            id type data value metadata location Time TimeInstant dateObserved dateModified Latitude Longitude gnss
+            coordinates""".split("\\s+");
 
     private final Random random;
 
@@ -55,7 +29,7 @@ public final class Mutations {
     }
 
     public byte[] of(byte[] body) {
-        String text = new String(body, StandardCharsets.UTF_8);
+        String text = new String(body, UTF_8);
         for (int changes = 1 + random.nextInt(3); changes > 0; changes--) {
             text = switch (random.nextInt(10)) {
                 case 0, 1, 2, 3 -> replaceValue(text);
@@ -64,7 +38,7 @@ public final class Mutations {
                 default -> text;
             };
         }
-        byte[] bytes = text.getBytes(StandardCharsets.UTF_8);
+        byte[] bytes = text.getBytes(UTF_8);
         if (bytes.length > 0 && random.nextInt(5) == 0) {
             bytes[random.nextInt(bytes.length)] = (byte) random.nextInt(256);
         }

@@ -1,6 +1,5 @@
 package io.furrow.model.ngsi;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.HexFormat;
 import java.util.stream.Collectors;
@@ -12,6 +11,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.catchThrowableOfType;
@@ -21,23 +21,12 @@ import static org.junit.jupiter.api.Assertions.assertTimeout;
 class NgsiJsonTest {
     @ParameterizedTest
     @CsvSource({
-        "'', nothing",
-        "20, only a space",
-        "EFBBBF7B7D, a byte order mark",
-        "FEFF007B007D, UTF-16",
-        "0000007B0000007D, UTF-32",
-        "22FF22, a byte that UTF-8 has not",
-        "22C3, half a character",
-        "22EDA08022, a surrogate as UTF-8",
-        "7B7D7B7D, two documents",
-        "7B7D78, trailing garbage",
-        "7B22, an end too soon",
-        "4E614E, NaN",
-        "496E66696E697479, Infinity",
-        "3031, a leading zero",
-        "7B2761273A317D, single quotes",
-        "7B2261223A312C2261223A317D, a name twice",
-        "2209220A, a tab inside a text"
+        "'', nothing", "20, only a space", "EFBBBF7B7D, a byte order mark",
+        "FEFF007B007D, UTF-16", "0000007B0000007D, UTF-32", "22FF22, a byte that UTF-8 has not",
+        "22C3, half a character", "22EDA08022, a surrogate as UTF-8", "7B7D7B7D, two documents",
+        "7B7D78, trailing garbage", "7B22, an end too soon", "4E614E, NaN",
+        "496E66696E697479, Infinity", "3031, a leading zero", "7B2761273A317D, single quotes",
+        "7B2261223A312C2261223A317D, a name twice", "2209220A, a tab inside a text"
     })
     void refusesWhatIsNotJson(String hex, String what) {
         byte[] bytes = HexFormat.of().parseHex(hex);
@@ -49,11 +38,8 @@ class NgsiJsonTest {
     void takesNestingUpToTheLimitAndNoDeeper() throws Exception {
         assertThat(NgsiJson.read(nested(NgsiJson.MAX_NESTING)).isArray()).isTrue();
         assertThat(unreadable(nested(NgsiJson.MAX_NESTING + 1)).reason()).isEqualTo(Reason.TOO_DEEP);
-        assertThat(unreadable("[".repeat(100_000).getBytes(StandardCharsets.UTF_8))
-                        .reason())
-                .isEqualTo(Reason.TOO_DEEP);
-        assertThat(unreadable("{\"a\":".repeat(100_000).getBytes(StandardCharsets.UTF_8))
-                        .reason())
+        assertThat(unreadable("[".repeat(100_000).getBytes(UTF_8)).reason()).isEqualTo(Reason.TOO_DEEP);
+        assertThat(unreadable("{\"a\":".repeat(100_000).getBytes(UTF_8)).reason())
                 .isEqualTo(Reason.TOO_DEEP);
     }
 
@@ -68,7 +54,7 @@ class NgsiJsonTest {
     @ParameterizedTest
     @ValueSource(strings = {"1e9999999999", "1e-9999999999", "1e99999999999999999999", "LONG", "0.LONG"})
     void refusesNumbersThatNoNumberTypeHolds(String number) {
-        byte[] json = number.replace("LONG", "9".repeat(1001)).getBytes(StandardCharsets.UTF_8);
+        byte[] json = number.replace("LONG", "9".repeat(1001)).getBytes(UTF_8);
 
         assertThat(unreadable(json).reason()).isEqualTo(Reason.TOO_DEEP);
     }
@@ -77,7 +63,7 @@ class NgsiJsonTest {
     @ValueSource(
             strings = {"1.50", "100000000000000000000000000000000001", "0.1", "-7", "21.50000000000000000000000001"})
     void writesNumbersDigitForDigit(String number) throws Exception {
-        assertThat(NgsiJson.write(NgsiJson.read(number.getBytes(StandardCharsets.UTF_8))))
+        assertThat(NgsiJson.write(NgsiJson.read(number.getBytes(UTF_8))))
                 .asString()
                 .isEqualTo(number);
     }
@@ -85,12 +71,8 @@ class NgsiJsonTest {
     @ParameterizedTest
     @ValueSource(
             strings = {
-                "1e999999999",
-                "-1e999999999",
-                "1e-999999999",
-                "1000e2147483647",
-                "1e2147483647",
-                "1e1001",
+                "1e999999999", "-1e999999999", "1e-999999999",
+                "1000e2147483647", "1e2147483647", "1e1001",
                 "1e-1002"
             })
     void refusesAnEntityWithANumberThatWouldFillTheMemory(String number) {
@@ -98,7 +80,7 @@ class NgsiJsonTest {
 
         assertTimeout(
                 Duration.ofSeconds(5),
-                () -> assertThatThrownBy(() -> Entity.parse(entity.getBytes(StandardCharsets.UTF_8)))
+                () -> assertThatThrownBy(() -> Entity.parse(entity.getBytes(UTF_8)))
                         .isInstanceOfSatisfying(
                                 UnreadableException.class,
                                 e -> assertThat(e.reason()).isEqualTo(Reason.TOO_DEEP))
@@ -114,12 +96,12 @@ class NgsiJsonTest {
                 "{\"id\":\"a\",\"type\":\"b\\ud83d\"}"
             })
     void refusesAnEntityWithHalfACharacter(String entity) throws Exception {
-        assertThatThrownBy(() -> Entity.parse(entity.getBytes(StandardCharsets.UTF_8)))
+        assertThatThrownBy(() -> Entity.parse(entity.getBytes(UTF_8)))
                 .isInstanceOf(UnreadableException.class)
                 .hasMessageContaining("surrogate");
 
         String whole = "{\"id\":\"\\ud83d\\ude9c\"}";
-        assertThat(Entity.parse(whole.getBytes(StandardCharsets.UTF_8)).id()).isEqualTo("🚜");
+        assertThat(Entity.parse(whole.getBytes(UTF_8)).id()).isEqualTo("🚜");
     }
 
     /** The normalized form of a bare entity is one deeper than its key-value form. */
@@ -141,25 +123,23 @@ class NgsiJsonTest {
 
         Entity entity = assertTimeout(
                 Duration.ofSeconds(15),
-                () -> Notification.read(body.getBytes(StandardCharsets.UTF_8), null)
-                        .entities()
-                        .get(0));
+                () -> Notification.read(body.getBytes(UTF_8), null).entities().get(0));
 
         assertThat(entity.number("attribute49999")).contains(49_999.0);
     }
 
     private static Entity bare(int depthOfValue) throws UnreadableException {
-        String value = new String(nested(depthOfValue), StandardCharsets.UTF_8);
-        byte[] body = ("{\"id\":\"a\",\"x\":" + value + "}").getBytes(StandardCharsets.UTF_8);
+        String value = new String(nested(depthOfValue), UTF_8);
+        byte[] body = ("{\"id\":\"a\",\"x\":" + value + "}").getBytes(UTF_8);
         return Notification.read(body, "simplifiedKeyValues").entities().get(0);
     }
 
     private static byte[] nested(int depth) {
-        return ("[".repeat(depth) + "]".repeat(depth)).getBytes(StandardCharsets.UTF_8);
+        return ("[".repeat(depth) + "]".repeat(depth)).getBytes(UTF_8);
     }
 
     private static byte[] quoted(String text) {
-        return ("\"" + text + "\"").getBytes(StandardCharsets.UTF_8);
+        return ("\"" + text + "\"").getBytes(UTF_8);
     }
 
     private static UnreadableException unreadable(byte[] bytes) {

@@ -2,7 +2,6 @@ package io.furrow.model.ngsi;
 
 import java.io.IOException;
 import java.io.InputStream;
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.stream.Stream;
 
@@ -13,6 +12,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.MethodSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class NgsiLdTest {
@@ -26,7 +26,7 @@ class NgsiLdTest {
 
     static Stream<Case> cases() throws Exception {
         try (InputStream lines = NgsiLdTest.class.getResourceAsStream("ngsi-ld.jsonl")) {
-            return new String(lines.readAllBytes(), StandardCharsets.UTF_8)
+            return new String(lines.readAllBytes(), UTF_8)
                             .lines()
                             .map(NgsiLdTest::json)
                             .map(line ->
@@ -143,12 +143,12 @@ class NgsiLdTest {
     }
 
     private static Notification read(String body) throws UnreadableException {
-        return Notification.read(body.getBytes(StandardCharsets.UTF_8), null);
+        return Notification.read(body.getBytes(UTF_8), null);
     }
 
     private static JsonNode json(String line) {
         try {
-            return NgsiJson.read(line.getBytes(StandardCharsets.UTF_8));
+            return NgsiJson.read(line.getBytes(UTF_8));
         } catch (UnreadableException e) {
             throw new java.io.UncheckedIOException(new IOException(line, e));
         }

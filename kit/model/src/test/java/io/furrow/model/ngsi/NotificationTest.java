@@ -1,7 +1,6 @@
 package io.furrow.model.ngsi;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
@@ -14,6 +13,7 @@ import org.junit.jupiter.params.provider.MethodSource;
 import org.junit.jupiter.params.provider.NullSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.catchThrowableOfType;
@@ -58,7 +58,7 @@ class NotificationTest {
     @MethodSource("nameless")
     void refusesTheFormThatNamesNoAttributes(RecordedNotification recorded) {
         for (String header : new String[] {"values", null}) {
-            UnreadableException refused = unreadable(new String(recorded.body(), StandardCharsets.UTF_8), header);
+            UnreadableException refused = unreadable(new String(recorded.body(), UTF_8), header);
 
             assertThat(refused.reason()).isEqualTo(Reason.UNSUPPORTED_FORM);
             assertThat(refused).hasMessageContaining("attrsFormat").hasMessageContaining("normalized");
@@ -144,12 +144,8 @@ class NotificationTest {
 
     @ParameterizedTest
     @CsvSource({
-        "21.5, Number",
-        "'\"a\"', Text",
-        "true, Boolean",
-        "null, None",
-        "[1], StructuredValue",
-        "{}, StructuredValue",
+        "21.5, Number", "'\"a\"', Text", "true, Boolean",
+        "null, None", "[1], StructuredValue", "{}, StructuredValue",
         "'{\"type\":\"Point\",\"coordinates\":[1,2]}', geo:json"
     })
     void givesAnAttributeWithoutATypeTheOneThatTheContextBrokerWould(String value, String type) throws Exception {
@@ -200,6 +196,6 @@ class NotificationTest {
     }
 
     private static byte[] bytes(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

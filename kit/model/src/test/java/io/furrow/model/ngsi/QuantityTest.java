@@ -1,6 +1,5 @@
 package io.furrow.model.ngsi;
 
-import java.nio.charset.StandardCharsets;
 import java.util.Set;
 
 import org.junit.jupiter.params.ParameterizedTest;
@@ -8,6 +7,7 @@ import org.junit.jupiter.params.provider.CsvFileSource;
 
 import io.furrow.model.position.EntityReader;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
@@ -16,7 +16,7 @@ class QuantityTest {
     @ParameterizedTest
     @CsvFileSource(resources = "quantities.csv", delimiter = '|', quoteCharacter = '\u0001')
     void followsTheCaseTable(Quantity quantity, String attribute, String outcome) throws Exception {
-        byte[] entity = ("{\"id\":\"a\",\"x\":" + attribute + "}").getBytes(StandardCharsets.UTF_8);
+        byte[] entity = ("{\"id\":\"a\",\"x\":" + attribute + "}").getBytes(UTF_8);
         double expected = outcome.equals("none") ? Double.NaN : Double.parseDouble(outcome);
         EntityReader reader = new EntityReader(Set.of("x"));
 

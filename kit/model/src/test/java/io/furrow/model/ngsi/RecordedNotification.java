@@ -2,11 +2,12 @@ package io.furrow.model.ngsi;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.stream.Stream;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * A request that a context broker (Orion 4.7) sent, as it came over the wire; the files under {@code orion/}.
@@ -49,7 +50,7 @@ public record RecordedNotification(String name, String attrsFormat, byte[] body)
             String form = file.getFileName().toString().replaceFirst("-\\d+\\.http$", "");
             String cause = file.getParent().getFileName().toString();
             return new RecordedNotification(
-                    cause + "/" + form, format, headAndBody[1].strip().getBytes(StandardCharsets.UTF_8));
+                    cause + "/" + form, format, headAndBody[1].strip().getBytes(UTF_8));
         } catch (IOException e) {
             throw new UncheckedIOException(e);
         }

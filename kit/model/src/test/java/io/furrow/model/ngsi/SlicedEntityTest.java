@@ -78,10 +78,10 @@ class SlicedEntityTest {
     private static void assertAlike(SlicedEntity.Slice slice, JsonNode attribute, String round)
             throws UnreadableException {
         JsonNode value = attribute.get("value");
-        JsonNode code = attribute.path("metadata").path("unitCode").path("value");
+        JsonNode code = attribute.at("/metadata/unitCode/value");
         String unit = code.isTextual()
                 ? code.textValue()
-                : attribute.path("metadata").path("unit").path("value").asText("");
+                : attribute.at("/metadata/unit/value").asText("");
         assertThat(NgsiJson.read(bytes(slice.json()))).as(round).isEqualTo(attribute);
         assertThat(slice.type()).as(round).isEqualTo(attribute.get("type").textValue());
         assertThat(slice.unit()).as(round).isEqualTo(unit);

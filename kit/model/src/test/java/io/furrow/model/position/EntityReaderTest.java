@@ -1,6 +1,5 @@
 package io.furrow.model.position;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -24,6 +23,8 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.RecordedNotification;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatIllegalArgumentException;
 import static org.assertj.core.api.Assertions.fail;
@@ -73,7 +74,7 @@ class EntityReaderTest {
     @MethodSource("io.furrow.model.ngsi.JsonTestSuiteTest#cases")
     void answersTheSameForTheTestSuiteOfJson(JsonTestSuiteTest.Case each) {
         compare(each.document());
-        String document = new String(each.document(), StandardCharsets.ISO_8859_1);
+        String document = new String(each.document(), ISO_8859_1);
         for (String attribute : List.of("temperature", "location", "Latitude", "nobodyWantsThis", "gnss")) {
             compare(within("{\"id\":\"a\",\"" + attribute + "\":{\"value\":", document, "}}"));
             compare(within("{\"id\":\"a\",\"" + attribute + "\":", document, "}"));
@@ -210,15 +211,15 @@ class EntityReaderTest {
     }
 
     private static byte[] within(String before, String document, String after) {
-        return (before + document + after).getBytes(StandardCharsets.ISO_8859_1);
+        return (before + document + after).getBytes(ISO_8859_1);
     }
 
     private static byte[] bytes(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 
     private static String text(byte[] entity) {
-        String text = new String(entity, StandardCharsets.UTF_8);
+        String text = new String(entity, UTF_8);
         return text.substring(0, Math.min(text.length(), 2000));
     }
 }

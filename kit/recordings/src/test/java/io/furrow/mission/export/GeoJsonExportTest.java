@@ -2,7 +2,6 @@ package io.furrow.mission.export;
 
 import java.io.ByteArrayOutputStream;
 import java.io.StringWriter;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
@@ -19,12 +18,10 @@ import io.furrow.mission.marker.Marker;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.position.Position;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class GeoJsonExportTest {
-    @TempDir
-    Path folder;
-
     @Test
     void drawsATrackOfWhatMovedAndAPointForWhatStoodStill() throws Exception {
         ByteArrayOutputStream out = new ByteArrayOutputStream();
@@ -37,7 +34,7 @@ class GeoJsonExportTest {
                             9, 1, Optional.of("event e06: 0,0 is what a receiver without a fix reports")));
         }
 
-        assertThat(out.toString(StandardCharsets.UTF_8)).isEqualTo("""
+        assertThat(out.toString(UTF_8)).isEqualTo("""
                 {"type":"FeatureCollection","features":[\
                 {"type":"Feature","geometry":{"type":"LineString",\
                 "coordinates":[[-3.4832,40.3138],[-3.4832,40.3138],[-3.4831,40.3139]]},\
@@ -74,7 +71,7 @@ class GeoJsonExportTest {
     }
 
     @Test
-    void writesMarkersAsFeaturesWithoutAPlace() throws Exception {
+    void writesMarkersAsFeaturesWithoutAPlace(@TempDir Path folder) throws Exception {
         ByteArrayOutputStream out = new ByteArrayOutputStream();
         Path events = folder.resolve("hoeing.ndjson");
         Files.write(events, List.of());
@@ -85,7 +82,7 @@ class GeoJsonExportTest {
                     .write(new MissionExport.Source("hoeing", recording, List.of(marker)), out, ignored -> {});
         }
 
-        assertThat(out.toString(StandardCharsets.UTF_8)).isEqualTo("""
+        assertThat(out.toString(UTF_8)).isEqualTo("""
                 {"type":"FeatureCollection","features":[{"type":"Feature","geometry":null,\
                 "properties":{"kind":"marker","id":"a","mission":"hoeing","time":"2023-11-14T22:13:20Z",\
                 "note":"turns","author":"Ada","created":"2023-11-14T22:13:20.001Z"}}]}""");

@@ -2,7 +2,6 @@ package io.furrow.mission.export;
 
 import java.nio.ByteBuffer;
 import java.nio.ByteOrder;
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
@@ -10,6 +9,7 @@ import java.util.Map;
 import java.util.TreeMap;
 import java.util.zip.CRC32;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Reads an MCAP file by its specification, and checks every length, offset, count and checksum in it. */
@@ -82,7 +82,7 @@ final class McapFile {
                     assertThat(unsigned(in.getInt())).isEqualTo(counts.merge(channel, 1L, Long::sum) - 1);
                     long nanos = in.getLong();
                     assertThat(in.getLong()).isEqualTo(nanos);
-                    String data = StandardCharsets.UTF_8.decode(in).toString();
+                    String data = UTF_8.decode(in).toString();
                     messages.add(new Message(channels.get(channel).topic, nanos, data));
                 }
                 default -> throw new AssertionError("opcode " + block.opcode + " in a chunk");
@@ -217,7 +217,7 @@ final class McapFile {
     private static String text(ByteBuffer in) {
         byte[] bytes = new byte[in.getInt()];
         in.get(bytes);
-        return new String(bytes, StandardCharsets.UTF_8);
+        return new String(bytes, UTF_8);
     }
 
     private long crc(long from, long to) {

@@ -3,7 +3,6 @@ package io.furrow.mission.file;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.io.InputStream;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Instant;
@@ -30,6 +29,7 @@ import io.furrow.mission.RecordingExtent;
 import io.furrow.mission.RecordingInterruptedException;
 import io.furrow.mission.StoredEvent;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -140,7 +140,7 @@ class FileRecordingTest extends RecordingContract {
     @Test
     void namesTheLinesThatHoldNoEvent() throws Exception {
         Path file = folder.resolve("hoeing.ndjson");
-        String good = new String(lines(List.of(RandomEvents.event("a", 1, 0))), StandardCharsets.UTF_8);
+        String good = new String(lines(List.of(RandomEvents.event("a", 1, 0))), UTF_8);
         String noEntity = "{\"id\":\"b\",\"time\":2,\"headers\":{}}\n";
         String cut = "{\"id\":\"c\",\"time\":3,\"hea";
         Files.writeString(file, "nonsense\n" + good + good + noEntity + "\n[]\n" + cut);

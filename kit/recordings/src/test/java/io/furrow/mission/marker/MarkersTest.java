@@ -1,7 +1,6 @@
 package io.furrow.mission.marker;
 
 import java.io.ByteArrayOutputStream;
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
 
@@ -9,7 +8,7 @@ import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoClients;
 import com.mongodb.client.MongoCollection;
 import org.bson.Document;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 
@@ -19,25 +18,23 @@ import io.furrow.mission.RandomEvents;
 import io.furrow.mission.RecordingException;
 import io.furrow.mission.mongo.MongoRecordings;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class MarkersTest {
     private static final long TIME = RandomEvents.TIME;
 
+    @AutoClose
     private static EmbeddedMongo mongo;
+
+    @AutoClose
     private static MongoClient client;
 
     @BeforeAll
     static void connect() {
         mongo = EmbeddedMongo.inMemory();
         client = MongoClients.create(mongo.uri());
-    }
-
-    @AfterAll
-    static void leaveNothingBehind() {
-        client.close();
-        mongo.close();
     }
 
     @Test
@@ -180,7 +177,7 @@ class MarkersTest {
 
         MarkerFile.write(List.of(new Marker("a", "hoeing", TIME, "turns", "Ada", TIME + 1)), out);
 
-        assertThat(out.toString(StandardCharsets.UTF_8)).isEqualTo("""
+        assertThat(out.toString(UTF_8)).isEqualTo("""
                 {"id":"a","mission":"hoeing","time":1700000000000,"note":"turns","author":"Ada",\
                 "created":1700000000001}
                 """);

@@ -10,7 +10,7 @@ import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoClients;
 import com.mongodb.client.MongoCollection;
 import org.bson.Document;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 
@@ -25,19 +25,16 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class EventDensityTest {
     private static final long TIME = RandomEvents.TIME;
 
+    @AutoClose
     private static EmbeddedMongo mongo;
+
+    @AutoClose
     private static MongoClient client;
 
     @BeforeAll
     static void connect() {
         mongo = EmbeddedMongo.inMemory();
         client = MongoClients.create(mongo.uri());
-    }
-
-    @AfterAll
-    static void leaveNothingBehind() {
-        client.close();
-        mongo.close();
     }
 
     private static MongoCollection<Document> collection(String database, String mission) {
@@ -100,8 +97,7 @@ class EventDensityTest {
 
     @Test
     void saysThatMongoIsAway() {
-        MongoRecordings nobody =
-                new MongoRecordings("mongodb://127.0.0.1:" + FreePort.orFree(0), "away", Duration.ofMillis(100));
+        var nobody = new MongoRecordings("mongodb://127.0.0.1:" + FreePort.orFree(0), "away", Duration.ofMillis(100));
         try (EventDensity density = EventDensity.of(nobody)) {
             assertThatThrownBy(() -> density.count("hoeing", TIME, 10, 2))
                     .isInstanceOf(RecordingException.class)

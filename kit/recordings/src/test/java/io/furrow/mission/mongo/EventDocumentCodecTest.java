@@ -1,6 +1,5 @@
 package io.furrow.mission.mongo;
 
-import java.nio.charset.StandardCharsets;
 import java.util.Map;
 import java.util.TreeMap;
 
@@ -16,6 +15,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.ngsi.NgsiJson;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class EventDocumentCodecTest {
@@ -70,8 +70,7 @@ class EventDocumentCodecTest {
 
         StoredEvent read = EventDocumentCodec.read(written(json));
 
-        assertThat(json(read))
-                .isEqualTo(NgsiJson.read(json.getBytes(StandardCharsets.UTF_8)).toString());
+        assertThat(json(read)).isEqualTo(NgsiJson.read(json.getBytes(UTF_8)).toString());
         assertThat(read).isEqualTo(event(json));
     }
 
@@ -88,11 +87,11 @@ class EventDocumentCodecTest {
     }
 
     private static StoredEvent event(String json) throws Exception {
-        JsonNode entity = NgsiJson.read(json.getBytes(StandardCharsets.UTF_8));
+        JsonNode entity = NgsiJson.read(json.getBytes(UTF_8));
         return new StoredEvent("e1", TIME, "t1", HEADERS, (ObjectNode) entity);
     }
 
     private static String json(StoredEvent event) {
-        return new String(NgsiJson.write(event.entity()), StandardCharsets.UTF_8);
+        return new String(NgsiJson.write(event.entity()), UTF_8);
     }
 }

@@ -16,7 +16,7 @@ import org.bson.BsonDateTime;
 import org.bson.BsonDocument;
 import org.bson.BsonString;
 import org.bson.RawBsonDocument;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
@@ -32,8 +32,12 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class MissionCatalogTest {
     private static final String LONG = "Fräse und Striegel auf dem nördlichen Feld hinter dem großen Hügel";
 
+    @AutoClose
     private EmbeddedMongo mongo;
+
+    @AutoClose
     private MongoClient client;
+
     private MongoDatabase database;
 
     @BeforeEach
@@ -43,12 +47,6 @@ class MissionCatalogTest {
         database = client.getDatabase(MongoAccess.DATABASE);
     }
 
-    @AfterEach
-    void disconnect() {
-        client.close();
-        mongo.close();
-    }
-
     @Test
     void listsMissionsByTheirNamesWithTheirSpans() throws Exception {
         store("mission_weeding", 30, 10, 20);
@@ -56,10 +54,8 @@ class MissionCatalogTest {
         database.createCollection("mission_sowing");
         database.createCollection("markers");
         try (MissionCatalog catalog = MissionCatalog.open(mongo.uri(), MongoAccess.DATABASE)) {
-            StoredMission encoded =
-                    new StoredMission("a.b", "mission__x-a-2Eb", Optional.of(new RecordingExtent(5, 5)));
-            StoredMission weeding =
-                    new StoredMission("weeding", "mission_weeding", Optional.of(new RecordingExtent(10, 30)));
+            var encoded = new StoredMission("a.b", "mission__x-a-2Eb", Optional.of(new RecordingExtent(5, 5)));
+            var weeding = new StoredMission("weeding", "mission_weeding", Optional.of(new RecordingExtent(10, 30)));
             assertThat(catalog.list())
                     .containsExactly(encoded, new StoredMission("sowing", "mission_sowing", Optional.empty()), weeding);
             assertThat(catalog.topicNames()).containsExactly("_x-a-2Eb", "sowing", "weeding");

@@ -40,11 +40,8 @@ import static org.awaitility.Awaitility.await;
 class MongoAwayTest {
     private static final PageLimits TWO = new PageLimits(2, 10_000);
 
-    @TempDir
-    Path directory;
-
     @Test
-    void saysThatMongoIsAwayAndGoesOnWhenItIsBack() throws Exception {
+    void saysThatMongoIsAwayAndGoesOnWhenItIsBack(@TempDir Path directory) throws Exception {
         int port = FreePort.orFree(0);
         MongoRecordings recordings = new MongoRecordings(
                 "mongodb://u:secret@127.0.0.1:" + port, MongoAccess.DATABASE, Duration.ofMillis(300));
@@ -134,8 +131,7 @@ class MongoAwayTest {
         try (EmbeddedMongo mongo = EmbeddedMongo.inMemory();
                 MongoClient client = listening(mongo.uri(), commands)) {
             InstantSource clock = now::get;
-            MissionCollections made =
-                    new MissionCollections(client, Retention.FOR_EVER, clock.withZone(ZoneOffset.UTC));
+            var made = new MissionCollections(client, Retention.FOR_EVER, clock.withZone(ZoneOffset.UTC));
             made.prepared("mission_hoeing");
             made.prepared("mission_hoeing").drop();
             assertThat(indexesMade(commands)).isEqualTo(2);

@@ -1,6 +1,5 @@
 package io.furrow.mission.topic;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -16,17 +15,15 @@ import io.furrow.mission.Cursor;
 import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.RecordingInterruptedException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class EventSorterTest {
     private static final String[] SIGNS = {"a", "b", "Z", "é", "\uFFFD", "\uD83D\uDE9C"};
 
-    @TempDir
-    Path folder;
-
     @Test
-    void ordersMoreEventsThanItHoldsAndKeepsTheFirstOfDuplicates() throws Exception {
+    void ordersMoreEventsThanItHoldsAndKeepsTheFirstOfDuplicates(@TempDir Path folder) throws Exception {
         long seed = System.nanoTime();
         Random random = new Random(seed);
         for (int events : new int[] {0, 1, 30, 3_000}) {
@@ -39,7 +36,7 @@ class EventSorterTest {
                         new Cursor(random.nextInt(50), id),
                         random.nextInt(3),
                         random.nextInt(10_000),
-                        line.getBytes(StandardCharsets.UTF_8));
+                        line.getBytes(UTF_8));
                 sorter.add(event);
                 expected.merge(event.at(), event, EventSorterTest::first);
             }
@@ -48,7 +45,7 @@ class EventSorterTest {
             sorter.writeLines(lines);
 
             List<String> texts = new ArrayList<>();
-            expected.values().forEach(event -> texts.add(new String(event.line(), StandardCharsets.UTF_8)));
+            expected.values().forEach(event -> texts.add(new String(event.line(), UTF_8)));
             assertThat(Files.readAllLines(lines)).as("seed %d", seed).isEqualTo(texts);
             assertThat(folder).isDirectoryContaining(lines::equals);
             Files.delete(lines);
@@ -57,7 +54,7 @@ class EventSorterTest {
     }
 
     @Test
-    void stopsMergingWhenItsThreadIsInterrupted() throws Exception {
+    void stopsMergingWhenItsThreadIsInterrupted(@TempDir Path folder) throws Exception {
         EventSorter sorter = new EventSorter(new DiskSpace(folder, 0, () -> Long.MAX_VALUE), 2_000);
         sorter.add(new SortedEvent(new Cursor(1, "a"), 0, 0, new byte[0]));
         Thread.currentThread().interrupt();
@@ -67,7 +64,7 @@ class EventSorterTest {
     }
 
     @Test
-    void leavesRoomOnTheDiskAlsoWhileItMerges() throws Exception {
+    void leavesRoomOnTheDiskAlsoWhileItMerges(@TempDir Path folder) throws Exception {
         AtomicLong free = new AtomicLong(30_000_000);
         EventSorter sorter = new EventSorter(new DiskSpace(folder, 20_000_000, free::get), 2_000);
         sorter.add(new SortedEvent(new Cursor(1, "a"), 0, 0, new byte[3_000]));

@@ -4,7 +4,6 @@ import java.io.ByteArrayInputStream;
 import java.io.ByteArrayOutputStream;
 import java.io.ObjectInputStream;
 import java.io.ObjectOutputStream;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.HashMap;
@@ -18,7 +17,7 @@ import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.StringSerializer;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -37,6 +36,7 @@ import io.furrow.mission.RecordingInterruptedException;
 import io.furrow.mission.SkippedRecords;
 import io.furrow.mission.StoredEvent;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -51,19 +51,16 @@ class TopicRecordingsIT {
     @TempDir
     Path temporary;
 
+    @AutoClose
     private static EmbeddedKafka kafka;
+
+    @AutoClose
     private static Admin admin;
 
     @BeforeAll
     static void start() {
         kafka = EmbeddedKafka.start(log);
-        admin = Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()));
-    }
-
-    @AfterAll
-    static void stop() {
-        admin.close();
-        kafka.close();
+        admin = Admin.create(kafka.client());
     }
 
     @Test
@@ -248,9 +245,9 @@ class TopicRecordingsIT {
     private static ProducerRecord<String, String> event(
             String topic, int partition, long time, String id, String entity) {
         ProducerRecord<String, String> event = new ProducerRecord<>(topic, partition, time, "key", entity);
-        event.headers().add("fiware-service", "farm".getBytes(StandardCharsets.UTF_8));
+        event.headers().add("fiware-service", "farm".getBytes(UTF_8));
         if (id != null) {
-            event.headers().add("ce_id", id.getBytes(StandardCharsets.UTF_8));
+            event.headers().add("ce_id", id.getBytes(UTF_8));
         }
         return event;
     }

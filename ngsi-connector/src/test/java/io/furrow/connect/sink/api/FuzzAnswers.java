@@ -1,6 +1,5 @@
 package io.furrow.connect.sink.api;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Arrays;
@@ -21,6 +20,8 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
+
 /**
  * What a fuzzer throws at the sink: the first byte picks the API and when batches are taken apart, the others are the answers of
  * a {@link Script}. Whatever they are, each change of a delivery has one fate, or all of it is put off or fails as declared; what
@@ -37,8 +38,8 @@ public final class FuzzAnswers {
 
     /** Called by the fuzzer first: loading classes takes long on a busy machine, and no input hangs because of it. */
     public static void fuzzerInitialize() {
-        fuzzerTestOneInput("0".getBytes(StandardCharsets.UTF_8));
-        fuzzerTestOneInput("1".getBytes(StandardCharsets.UTF_8));
+        fuzzerTestOneInput("0".getBytes(UTF_8));
+        fuzzerTestOneInput("1".getBytes(UTF_8));
     }
 
     /** The answers to one delivery; throws whatever is wrong. */
@@ -124,8 +125,7 @@ public final class FuzzAnswers {
     private static List<String> ids(Exchange exchange) {
         List<String> ids = new ArrayList<>();
         if (exchange.method().equals("DELETE")) {
-            ids.add(java.net.URLDecoder.decode(
-                    exchange.path().replaceAll(".*/entities/([^/?]*).*", "$1"), StandardCharsets.UTF_8));
+            ids.add(java.net.URLDecoder.decode(exchange.path().replaceAll(".*/entities/([^/?]*).*", "$1"), UTF_8));
         } else {
             JsonNode body = json(exchange.body()).orElseThrow();
             (body.isArray() ? body : body.path("entities"))

@@ -8,7 +8,7 @@ import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutionException;
 
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.ledger.Ledger;
@@ -22,14 +22,12 @@ class AdmissionQueueTest {
     private static final CompletableFuture<Void> DURABLE = CompletableFuture.completedFuture(null);
 
     private final Ledger ledger = new Ledger();
+
+    @AutoClose
     private final AdmissionQueue admissionQueue = new AdmissionQueue(this::take, ledger);
+
     private volatile boolean room;
     private volatile boolean broken;
-
-    @AfterEach
-    void close() {
-        admissionQueue.close();
-    }
 
     @Test
     void goesOnAfterAnErrorWhileSomeWait() {

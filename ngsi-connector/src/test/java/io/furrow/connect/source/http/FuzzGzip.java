@@ -3,7 +3,6 @@ package io.furrow.connect.source.http;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.nio.ByteBuffer;
-import java.nio.charset.StandardCharsets;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Map;
@@ -23,6 +22,9 @@ import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.source.NgsiSourceConfig;
 import io.furrow.connect.source.journal.RecordLog;
 import io.furrow.connect.source.notification.NotificationTranslator;
+
+import static java.nio.charset.StandardCharsets.US_ASCII;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * What a fuzzer throws at bodies with {@code Content-Encoding: gzip}: the first byte picks how the others become one, as they
@@ -90,8 +92,8 @@ public final class FuzzGzip {
 
     /** Called by the fuzzer first: loading classes takes long on a busy machine, and no input hangs because of it. */
     public static void fuzzerInitialize() throws Exception {
-        fuzzerTestOneInput("1{\"id\": \"a\"}".getBytes(StandardCharsets.UTF_8));
-        fuzzerTestOneInput("0no gzip".getBytes(StandardCharsets.UTF_8));
+        fuzzerTestOneInput("1{\"id\": \"a\"}".getBytes(UTF_8));
+        fuzzerTestOneInput("0no gzip".getBytes(UTF_8));
     }
 
     /** One body; throws whatever is wrong. */
@@ -161,23 +163,22 @@ public final class FuzzGzip {
         ByteArrayOutputStream request = new ByteArrayOutputStream();
         String head = "POST /v2/notify HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + header;
         if (inChunks) {
-            request.writeBytes((head + "Transfer-Encoding: chunked\r\n\r\n").getBytes(StandardCharsets.US_ASCII));
+            request.writeBytes((head + "Transfer-Encoding: chunked\r\n\r\n").getBytes(US_ASCII));
             for (int from = 0; from < body.length; from += CHUNK) {
                 int length = Math.min(CHUNK, body.length - from);
-                request.writeBytes((Integer.toHexString(length) + "\r\n").getBytes(StandardCharsets.US_ASCII));
+                request.writeBytes((Integer.toHexString(length) + "\r\n").getBytes(US_ASCII));
                 request.write(body, from, length);
-                request.writeBytes("\r\n".getBytes(StandardCharsets.US_ASCII));
+                request.writeBytes("\r\n".getBytes(US_ASCII));
             }
-            request.writeBytes("0\r\n\r\n".getBytes(StandardCharsets.US_ASCII));
+            request.writeBytes("0\r\n\r\n".getBytes(US_ASCII));
         } else {
-            request.writeBytes(
-                    (head + "Content-Length: " + body.length + "\r\n\r\n").getBytes(StandardCharsets.US_ASCII));
+            request.writeBytes((head + "Content-Length: " + body.length + "\r\n\r\n").getBytes(US_ASCII));
             request.writeBytes(body);
         }
         ByteBuffer answer =
                 connector.getResponse(ByteBuffer.wrap(request.toByteArray()), false, TIMEOUT_SECONDS, TimeUnit.SECONDS);
         require(answer != null && answer.remaining() > "HTTP/1.1 200".length(), "there is no answer");
-        String text = StandardCharsets.US_ASCII.decode(answer).toString();
+        String text = US_ASCII.decode(answer).toString();
         return new Outcome(Integer.parseInt(text.substring(9, 12)), List.copyOf(taken));
     }
 

@@ -1,9 +1,8 @@
 package io.furrow.connect.source.http;
 
-import java.nio.charset.StandardCharsets;
-
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class HeapEstimateTest {
@@ -45,6 +44,6 @@ class HeapEstimateTest {
     }
 
     private static long of(String json) {
-        return HeapEstimate.of(json.getBytes(StandardCharsets.UTF_8));
+        return HeapEstimate.of(json.getBytes(UTF_8));
     }
 }

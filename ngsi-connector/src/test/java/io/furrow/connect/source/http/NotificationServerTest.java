@@ -7,7 +7,7 @@ import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 
 import org.apache.kafka.connect.errors.ConnectException;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.record.KafkaRecord;
@@ -21,12 +21,8 @@ import static org.awaitility.Awaitility.await;
 class NotificationServerTest {
     private static final int MAX_BODY = 100_000;
 
+    @AutoClose
     private final NotificationRig rig = new NotificationRig("max.body.bytes", Integer.toString(MAX_BODY));
-
-    @AfterEach
-    void stop() {
-        rig.close();
-    }
 
     @Test
     void answersOnlyWhenTheRecordsAreDurable() {

@@ -13,11 +13,8 @@ import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.source.SourceOnConnect;
 
 class JournalMaintenanceTest {
-    @TempDir
-    private Path directory;
-
     @Test
-    void asksOnAfterAnyError() {
+    void asksOnAfterAnyError(@TempDir Path directory) {
         AtomicInteger asked = new AtomicInteger();
         TaskJournals.Committed committed = journal -> {
             if (asked.incrementAndGet() == 2) {

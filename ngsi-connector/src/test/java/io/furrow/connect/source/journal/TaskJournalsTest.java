@@ -60,13 +60,8 @@ class TaskJournalsTest {
 
     @Test
     void drainsTheJournalOfAnotherTaskAndDeletesItWhenKafkaHasIt() throws Exception {
-        Path left;
-        String id;
-        try (TaskJournals gone = open(1)) {
-            take(gone, 3);
-            left = gone.own().folder();
-            id = gone.own().id();
-        }
+        Path left = left(3);
+        String id = left.getFileName().toString();
         try (TaskJournals journals = open(0)) {
             journals.adopt();
             assertThat(ledger.recovered.sum()).isEqualTo(3);
@@ -102,9 +97,7 @@ class TaskJournalsTest {
 
     @Test
     void takesOverNothingAfterItWasClosed() {
-        try (TaskJournals gone = open(1)) {
-            take(gone, 1);
-        }
+        left(1);
         TaskJournals journals = open(0);
         whenAsked = journals::close;
         journals.adopt();
@@ -117,37 +110,29 @@ class TaskJournalsTest {
 
     @Test
     void deletesNothingAfterItWasClosed() {
-        String id;
-        try (TaskJournals gone = open(1)) {
-            take(gone, 1);
-            id = gone.own().id();
-        }
+        Path left = left(1);
         TaskJournals journals = open(0);
         journals.adopt();
-        offsets.put(id, 1L);
+        offsets.put(left.getFileName().toString(), 1L);
         whenAsked = journals::close;
 
         journals.release();
 
-        assertThat(root.resolve("farm").resolve(id))
-                .as("it may be another task's by now")
-                .exists();
+        assertThat(left).as("it may be another task's by now").exists();
     }
 
     @Test
     void freesWhatWasSkippedBehindWhatKafkaHas() throws Exception {
-        try (TaskJournals gone = open(1)) {
-            take(gone, 3);
-            offsets.put(gone.own().id(), 1L);
-        }
+        Path left = left(3);
+        String id = left.getFileName().toString();
+        offsets.put(id, 1L);
         try (TaskJournals journals = open(0)) {
             journals.adopt();
-            Path left = root.resolve("farm").resolve(offsets.keySet().iterator().next());
             numbers(journals);
-            journals.skipped(left.getFileName().toString(), 2);
+            journals.skipped(id, 2);
             journals.release();
             assertThat(left).exists();
-            journals.skipped(left.getFileName().toString(), 1);
+            journals.skipped(id, 1);
             journals.release();
             assertThat(left).doesNotExist();
         }
@@ -190,13 +175,8 @@ class TaskJournalsTest {
 
     @Test
     void handsOnAgainWhatKafkaLostAndKeepsItUntilKafkaHasItOnceMore() throws Exception {
-        Path left;
-        String id;
-        try (TaskJournals gone = open(1)) {
-            take(gone, 4);
-            left = gone.own().folder();
-            id = gone.own().id();
-        }
+        Path left = left(4);
+        String id = left.getFileName().toString();
         offsets.put(id, 4L);
         safety = new TaskJournals.Safety(Duration.ZERO, (journal, committed) -> Math.min(committed, 2));
         try (TaskJournals journals = open(0)) {
@@ -216,18 +196,12 @@ class TaskJournalsTest {
 
     @Test
     void keepsForAWhileWhatKafkaHas() throws Exception {
-        String id;
-        Path left;
-        try (TaskJournals gone = open(1)) {
-            take(gone, 1);
-            left = gone.own().folder();
-            id = gone.own().id();
-        }
+        Path left = left(1);
         safety = new TaskJournals.Safety(Duration.ofHours(1), TaskJournals.Verification.NONE);
         try (TaskJournals journals = open(0)) {
             journals.adopt();
             numbers(journals);
-            offsets.put(id, 1L);
+            offsets.put(left.getFileName().toString(), 1L);
             journals.release();
             assertThat(left).exists();
         }
@@ -256,6 +230,14 @@ class TaskJournalsTest {
     private TaskJournals open(int slot) {
         JournalSettings settings = JournalSettings.of(64 * 1024 * 1024, 1024 * 1024, 0);
         return new TaskJournals(new JournalFolders(root, "farm", settings), slot, this::committed, safety, ledger);
+    }
+
+    /** The folder of a journal with so many records, whose name is its id, of a task that is no more. */
+    private Path left(int records) {
+        try (TaskJournals gone = open(1)) {
+            take(gone, records);
+            return gone.own().folder();
+        }
     }
 
     private OptionalLong committed(String journal) {

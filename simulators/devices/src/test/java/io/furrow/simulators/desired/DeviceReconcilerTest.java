@@ -98,8 +98,7 @@ class DeviceReconcilerTest {
 
     @Test
     void leavesDevicesAloneThatReportByThemselves() {
-        DesiredDevice alone =
-                DesiredDevice.simulated(version(1), null, null, true, null, JsonNodeFactory.instance.objectNode());
+        var alone = DesiredDevice.simulated(version(1), null, null, true, null, JsonNodeFactory.instance.objectNode());
 
         assertThat(reconciler.take(KEY, alone)).isEmpty();
         assertThat(reconciler.running()).isZero();
@@ -163,8 +162,7 @@ class DeviceReconcilerTest {
     }
 
     private static DesiredDevice desired(String id, long sequence, boolean running, int celsius) {
-        DeviceVersion version =
-                new DeviceVersion(id, "farm", "/", "farm", "weeding", 1000 + sequence, null, sequence, null);
+        var version = new DeviceVersion(id, "farm", "/", "farm", "weeding", 1000 + sequence, null, sequence, null);
         return DesiredDevice.simulated(
                 version,
                 "Thermometer",

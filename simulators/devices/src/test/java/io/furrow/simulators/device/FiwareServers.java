@@ -1,8 +1,6 @@
 package io.furrow.simulators.device;
 
 import java.io.IOException;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.URI;
 import java.util.List;
 import java.util.Map;
@@ -10,12 +8,13 @@ import java.util.concurrent.CopyOnWriteArrayList;
 import java.util.function.ToIntFunction;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.sun.net.httpserver.HttpServer;
+import com.sun.net.httpserver.HttpExchange;
 import org.awaitility.Awaitility;
 
 import io.furrow.embedded.EmbeddedMqtt;
 import io.furrow.model.file.AccessToken;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.stub.StubServer;
 
 /** A real MQTT broker, and one HTTP server in the place of IoT Agent and context broker that records what it is asked. */
 public final class FiwareServers implements AutoCloseable {
@@ -25,27 +24,25 @@ public final class FiwareServers implements AutoCloseable {
     public record ReceivedRequest(String path, String service, String servicePath, String token, JsonNode body) {}
 
     private final List<ReceivedRequest> requested = new CopyOnWriteArrayList<>();
-    private final HttpServer http;
+    private final StubServer http = new StubServer(this::answer);
     private final EmbeddedMqtt mqtt = EmbeddedMqtt.start(Map.of(USER, PASSWORD));
     private volatile ToIntFunction<ReceivedRequest> status = request -> 201;
 
-    public FiwareServers() throws IOException {
-        http = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        http.createContext("/", exchange -> {
-            ReceivedRequest request = new ReceivedRequest(
-                    exchange.getRequestURI().getPath(),
-                    exchange.getRequestHeaders().getFirst("fiware-service"),
-                    exchange.getRequestHeaders().getFirst("fiware-servicepath"),
-                    exchange.getRequestHeaders().getFirst(AccessToken.DEFAULT_HEADER),
-                    NgsiJson.mapper().readTree(exchange.getRequestBody()));
-            int answer = status.applyAsInt(request);
-            requested.add(request);
-            exchange.sendResponseHeaders(answer, -1);
-            exchange.close();
-        });
-        http.start();
+    public FiwareServers() {
         // The broker learns its port shortly after it is bound.
         Awaitility.await().until(() -> mqtt.uri().getPort() > 0);
+    }
+
+    private void answer(HttpExchange exchange) throws IOException {
+        ReceivedRequest request = new ReceivedRequest(
+                exchange.getRequestURI().getPath(),
+                exchange.getRequestHeaders().getFirst("fiware-service"),
+                exchange.getRequestHeaders().getFirst("fiware-servicepath"),
+                exchange.getRequestHeaders().getFirst(AccessToken.DEFAULT_HEADER),
+                NgsiJson.mapper().readTree(exchange.getRequestBody()));
+        int answer = status.applyAsInt(request);
+        requested.add(request);
+        StubServer.answer(exchange, answer, "");
     }
 
     public void answer(ToIntFunction<ReceivedRequest> decision) {
@@ -67,7 +64,7 @@ public final class FiwareServers implements AutoCloseable {
     }
 
     public FleetSettings settings(String password) {
-        URI base = URI.create("http://127.0.0.1:" + http.getAddress().getPort());
+        URI base = http.uri("");
         return new FleetSettings(base, base, mqtt.uri(), USER, password, "farm", "/fields");
     }
 
@@ -78,6 +75,6 @@ public final class FiwareServers implements AutoCloseable {
     @Override
     public void close() {
         mqtt.close();
-        http.stop(0);
+        http.close();
     }
 }

@@ -1,14 +1,11 @@
 package io.furrow.simulators.device;
 
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.UUID;
 import java.util.concurrent.CopyOnWriteArrayList;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import org.eclipse.paho.client.mqttv3.IMqttDeliveryToken;
 import org.eclipse.paho.client.mqttv3.MqttAsyncClient;
-import org.eclipse.paho.client.mqttv3.MqttCallback;
 import org.eclipse.paho.client.mqttv3.MqttConnectOptions;
 import org.eclipse.paho.client.mqttv3.MqttException;
 import org.eclipse.paho.client.mqttv3.MqttMessage;
@@ -17,8 +14,10 @@ import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
+
 /** Another client of the MQTT broker: hears what devices say, and can say something. */
-public final class MqttTestClient implements MqttCallback, AutoCloseable {
+public final class MqttTestClient implements AutoCloseable {
     public record Heard(String topic, JsonNode json) {}
 
     private static final int ATTEMPTS = 5;
@@ -36,15 +35,15 @@ public final class MqttTestClient implements MqttCallback, AutoCloseable {
         for (int attempt = 1; ; attempt++) {
             String id = "listener-" + attempt + "-" + UUID.randomUUID();
             MqttAsyncClient opened = new MqttAsyncClient(settings.mqtt().toString(), id, new MemoryPersistence());
-            opened.setCallback(this);
             try {
                 MqttConnectOptions options = new MqttConnectOptions();
                 options.setUserName(settings.mqttUser());
                 options.setPassword(settings.mqttPassword().toCharArray());
                 options.setMaxInflight(1000);
                 opened.connect(options).waitForCompletion(TIMEOUT_MS);
-                opened.subscribe(new String[] {"/+/+/attrs", "/+/+/cmdexe"}, new int[] {1, 1})
-                        .waitForCompletion();
+                for (String topics : List.of("/+/+/attrs", "/+/+/cmdexe")) {
+                    opened.subscribe(topics, 1, this::receive).waitForCompletion();
+                }
                 return opened;
             } catch (MqttException e) {
                 close(opened);
@@ -55,19 +54,8 @@ public final class MqttTestClient implements MqttCallback, AutoCloseable {
         }
     }
 
-    @Override
-    public void messageArrived(String topic, MqttMessage message) throws UnreadableException {
+    private void receive(String topic, MqttMessage message) throws UnreadableException {
         received.add(new Heard(topic, NgsiJson.read(message.getPayload())));
-    }
-
-    @Override
-    public void connectionLost(Throwable cause) {
-        // The tests that break a connection listen elsewhere.
-    }
-
-    @Override
-    public void deliveryComplete(IMqttDeliveryToken token) {
-        // What devices answer shows whether it arrived.
     }
 
     public List<JsonNode> received(String topic) {
@@ -82,7 +70,7 @@ public final class MqttTestClient implements MqttCallback, AutoCloseable {
     }
 
     public void publish(String topic, String json) throws MqttException {
-        client.publish(topic, json.getBytes(StandardCharsets.UTF_8), 1, false);
+        client.publish(topic, json.getBytes(UTF_8), 1, false);
     }
 
     @Override
@@ -91,7 +79,6 @@ public final class MqttTestClient implements MqttCallback, AutoCloseable {
     }
 
     private static void close(MqttAsyncClient client) {
-        client.setCallback(null);
         try {
             client.disconnectForcibly(0, 100, client.isConnected());
             client.close(true);

@@ -1,7 +1,6 @@
 package io.furrow.simulators.fleet;
 
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
@@ -29,12 +28,13 @@ import io.furrow.simulators.device.MqttTestClient;
 import io.furrow.simulators.mqtt.MqttAccess;
 import io.furrow.simulators.scenario.DesiredDeviceReader;
 
+import static java.nio.charset.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 @Tag("full")
 class DeviceLifecycleTest {
-    private static final FarmSecret SECRET = new FarmSecret("0123456789abcdef".getBytes(StandardCharsets.UTF_8));
+    private static final FarmSecret SECRET = new FarmSecret("0123456789abcdef".getBytes(UTF_8));
     private static final int MAX_OWN = 3;
 
     private final Map<String, String> passwords = new ConcurrentHashMap<>();
@@ -190,8 +190,7 @@ class DeviceLifecycleTest {
                     new DeviceVersion("urn:" + id, "farm", "/", "farm", mission, now.toEpochMilli(), null, 1, null);
             ObjectNode settings = JsonNodeFactory.instance.objectNode();
             settings.putArray("path").addArray().add(-3.5).add(40.3);
-            DesiredDevice desired =
-                    DesiredDevice.simulated(version, "Thermometer", id, true, Duration.ofMillis(50), settings);
+            var desired = DesiredDevice.simulated(version, "Thermometer", id, true, Duration.ofMillis(50), settings);
             members.add(new FarmFleet.Member(
                     new DesiredDeviceReader(Map.of(), 0).read(desired), FiwareScope.of("farm", "/"), now));
         }
@@ -199,7 +198,7 @@ class DeviceLifecycleTest {
     }
 
     private boolean authenticates(String user, byte[] password) {
-        boolean known = new String(password, StandardCharsets.UTF_8).equals(passwords.get(user));
+        boolean known = new String(password, UTF_8).equals(passwords.get(user));
         if (known) {
             connectedAs.add(user);
         }

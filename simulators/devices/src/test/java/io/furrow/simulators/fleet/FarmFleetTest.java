@@ -6,7 +6,6 @@ import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
 import java.time.Clock;
 import java.time.Instant;
 import java.util.List;
@@ -14,8 +13,8 @@ import java.util.Map;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.TextNode;
-import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -30,6 +29,7 @@ import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.device.MqttTestClient;
 import io.furrow.simulators.scenario.Farm;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -47,8 +47,12 @@ class FarmFleetTest {
                 {"type": "WeatherStation", "id": "w", "at": {"latitude": 40.3, "longitude": -3.4}, "period": "PT0.05S"}]}]}
             """;
 
+    @AutoClose
     private static EmbeddedMqtt mqtt;
+
+    @AutoClose
     private static FiwareStandIn fiware;
+
     private FarmFleet fleet;
     private MqttTestClient listener;
 
@@ -56,12 +60,6 @@ class FarmFleetTest {
     static void startEnds() throws Exception {
         mqtt = EmbeddedMqtt.start(Map.of("farmer", "plough"));
         fiware = FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), "farmer", "plough"));
-    }
-
-    @AfterAll
-    static void stopEnds() {
-        fiware.close();
-        mqtt.close();
     }
 
     @AfterEach
@@ -220,7 +218,7 @@ class FarmFleetTest {
     }
 
     private static Farm farm() throws IOException {
-        return Farm.read(new ByteArrayInputStream(FARM.getBytes(StandardCharsets.UTF_8)), Instant.now());
+        return Farm.read(new ByteArrayInputStream(FARM.getBytes(UTF_8)), Instant.now());
     }
 
     private static FleetAccess access(String password) {

@@ -2,7 +2,6 @@ package io.furrow.simulators.fleet;
 
 import java.io.ByteArrayInputStream;
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
@@ -19,6 +18,7 @@ import io.furrow.simulators.scenario.Farm;
 import io.furrow.simulators.scenario.SimulatedDevice;
 import io.furrow.simulators.scenario.SimulatedDevice.Robot;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
@@ -39,7 +39,7 @@ class FarmSimulationTest {
 
     @BeforeEach
     void read() throws IOException {
-        farm = Farm.read(new ByteArrayInputStream(FARM.getBytes(StandardCharsets.UTF_8)), START);
+        farm = Farm.read(new ByteArrayInputStream(FARM.getBytes(UTF_8)), START);
         simulation = simulation();
     }
 

@@ -3,7 +3,6 @@ package io.furrow.simulators.fleet;
 import java.io.ByteArrayInputStream;
 import java.io.IOException;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Clock;
@@ -11,7 +10,7 @@ import java.time.Instant;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
@@ -22,6 +21,7 @@ import io.furrow.simulators.device.FiwareServers;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.scenario.Farm;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -36,16 +36,12 @@ class FleetFiwareTest {
             {"type": "Robot", "id": "r1", "period": "PT0.05S", "route": [{"latitude": 40.31, "longitude": -3.48}]}
             """;
 
+    @AutoClose
     private static FiwareServers ends;
 
     @BeforeAll
     static void start() throws IOException {
         ends = new FiwareServers();
-    }
-
-    @AfterAll
-    static void stop() {
-        ends.close();
     }
 
     @BeforeEach
@@ -174,6 +170,6 @@ class FleetFiwareTest {
         String json = """
                 {"seed": 1, "apiKey": "key", "missions": [{"domain": "farm", "mission": "weeding", "devices": [%s]}]}
                 """.formatted(device);
-        return Farm.read(new ByteArrayInputStream(json.getBytes(StandardCharsets.UTF_8)), Instant.now());
+        return Farm.read(new ByteArrayInputStream(json.getBytes(UTF_8)), Instant.now());
     }
 }

@@ -4,7 +4,6 @@ import java.io.IOException;
 import java.net.InetAddress;
 import java.net.Socket;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.security.KeyStore;
@@ -14,6 +13,7 @@ import java.util.concurrent.TimeUnit;
 import org.awaitility.Awaitility;
 
 import io.furrow.embedded.FreePort;
+import io.furrow.process.TestProcess;
 
 /** Eclipse Mosquitto as Debian packs it, on loopback, with a password file and TLS. */
 final class FleetMosquitto {
@@ -101,23 +101,9 @@ final class FleetMosquitto {
     /** A key and its certificate, which nobody has signed but itself. */
     private void makeCertificate() throws Exception {
         Path store = directory.resolve("store.p12");
-        run(
-                Path.of(System.getProperty("java.home"), "bin", "keytool").toString(),
-                "-genkeypair",
-                "-keystore",
-                store.toString(),
-                "-storetype",
-                "PKCS12",
-                "-storepass",
-                KEY_PASSWORD,
-                "-alias",
-                "broker",
-                "-keyalg",
-                "RSA",
-                "-dname",
-                "CN=localhost",
-                "-ext",
-                "san=ip:127.0.0.1,dns:localhost");
+        TestProcess.keytool("""
+                -genkeypair -keystore %s -storetype PKCS12 -storepass %s -alias broker -keyalg RSA -dname CN=localhost \
+                -ext san=ip:127.0.0.1,dns:localhost""".formatted(store, KEY_PASSWORD));
         KeyStore keys = KeyStore.getInstance(store.toFile(), KEY_PASSWORD.toCharArray());
         pem("certificate.pem", "CERTIFICATE", keys.getCertificate("broker").getEncoded());
         pem(
@@ -137,15 +123,10 @@ final class FleetMosquitto {
     }
 
     private static void run(String... command) throws Exception {
-        Process process;
-        try {
-            process = new ProcessBuilder(command).redirectErrorStream(true).start();
-        } catch (IOException e) {
-            throw new IOException(command[0] + " is missing; install the Debian package mosquitto", e);
-        }
-        String output = new String(process.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
-        if (process.waitFor() != 0) {
-            throw new IOException(command[0] + " failed: " + output);
+        TestProcess.Ended ended = TestProcess.run(new ProcessBuilder(command));
+        if (ended.status() != 0) {
+            throw new IOException(
+                    command[0] + ", of the Debian package mosquitto, failed: " + ended.output());
         }
     }
 

@@ -2,7 +2,6 @@ package io.furrow.simulators.fleet;
 
 import java.io.ByteArrayInputStream;
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
@@ -21,6 +20,7 @@ import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.mqtt.MqttAccess;
 import io.furrow.simulators.scenario.Farm;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -28,7 +28,6 @@ import static org.awaitility.Awaitility.await;
 /** A fleet and a real Mosquitto with password file and TLS. */
 @Tag("full")
 class FleetMosquittoIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final String FARM = """
             {"seed": 1, "apiKey": "k", "missions": [{"domain": "farm", "mission": "weeding", "devices": [
                 {"type": "Thermometer", "id": "t", "count": 20, "at": {"latitude": 40.31, "longitude": -3.48}, "period": "PT0.02S"}]}]}
@@ -72,16 +71,15 @@ class FleetMosquittoIT {
             assertThat(fleet.connections()).isEqualTo(connections);
             for (int i = 0; i < 5; i++) {
                 long before = fleet.tally().acknowledged();
-                await().atMost(TIMEOUT).until(() -> fleet.tally().acknowledged() > before + 500);
+                await().until(() -> fleet.tally().acknowledged() > before + 500);
                 broker.restart();
             }
             long before = fleet.tally().acknowledged();
-            await().atMost(Duration.ofSeconds(60)).until(() -> fleet.tally().acknowledged() > before + 500);
+            await().until(() -> fleet.tally().acknowledged() > before + 500);
 
             assertThat(fleet.drain(Duration.ofSeconds(60))).isTrue();
             assertThat(fleet.tally()).isEqualTo(new FarmFleet.Tally(fleet.reports(), 0, 0));
-            await().atMost(Duration.ofSeconds(60))
-                    .untilAsserted(() -> assertThat(subscriber.measures()).hasSize((int) fleet.reports()));
+            await().untilAsserted(() -> assertThat(subscriber.measures()).hasSize((int) fleet.reports()));
         }
     }
 
@@ -98,11 +96,10 @@ class FleetMosquittoIT {
                 FleetAccess.Logins.of(() -> secret));
 
         // Mosquitto reads its files a moment after it is told to.
-        try (FarmFleet fleet = await().atMost(TIMEOUT)
-                        .ignoreExceptions()
+        try (FarmFleet fleet = await().ignoreExceptions()
                         .until(() -> fleet(farm, access, 5), started -> started.connections() == 1);
                 Subscriber subscriber = Subscriber.to(broker, "subscriber-farmer")) {
-            await().atMost(TIMEOUT).until(() -> subscriber.measures().size() > 20);
+            await().until(() -> subscriber.measures().size() > 20);
             assertThat(fleet.tally().dropped()).isZero();
         }
     }
@@ -117,7 +114,7 @@ class FleetMosquittoIT {
     }
 
     private static FarmFleet fleet(String scenario, FleetAccess access, int maxOwn) throws IOException {
-        Farm farm = Farm.read(new ByteArrayInputStream(scenario.getBytes(StandardCharsets.UTF_8)), Instant.now());
+        Farm farm = Farm.read(new ByteArrayInputStream(scenario.getBytes(UTF_8)), Instant.now());
         return FarmFleet.start(farm, access, maxOwn, Clock.systemUTC());
     }
 }

@@ -3,16 +3,12 @@ package io.furrow.simulators.fleet;
 import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
 
-import org.eclipse.paho.client.mqttv3.IMqttDeliveryToken;
 import org.eclipse.paho.client.mqttv3.MqttAsyncClient;
-import org.eclipse.paho.client.mqttv3.MqttCallback;
 import org.eclipse.paho.client.mqttv3.MqttConnectOptions;
 import org.eclipse.paho.client.mqttv3.MqttException;
-import org.eclipse.paho.client.mqttv3.MqttMessage;
 import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
 
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.mqtt.MqttAccess;
 
@@ -21,22 +17,6 @@ record Subscriber(MqttAsyncClient client, Set<String> received) implements AutoC
     static Subscriber to(FleetMosquitto broker, String name) throws Exception {
         MqttAsyncClient client = new MqttAsyncClient(broker.uri().toString(), name, new MemoryPersistence());
         Set<String> measures = ConcurrentHashMap.newKeySet();
-        client.setCallback(new MqttCallback() {
-            @Override
-            public void messageArrived(String topic, MqttMessage message) throws UnreadableException {
-                measures.add(topic + " " + NgsiJson.read(message.getPayload()).path("time"));
-            }
-
-            @Override
-            public void connectionLost(Throwable cause) {
-                // The client connects again.
-            }
-
-            @Override
-            public void deliveryComplete(IMqttDeliveryToken token) {
-                // It sends nothing.
-            }
-        });
         MqttConnectOptions options = new MqttConnectOptions();
         options.setUserName("farmer");
         options.setPassword("plough".toCharArray());
@@ -46,7 +26,12 @@ record Subscriber(MqttAsyncClient client, Set<String> received) implements AutoC
         options.setConnectionTimeout(10);
         options.setSocketFactory(new MqttAccess(broker.uri(), broker.certificate(), 1).encryptedSockets());
         client.connect(options).waitForCompletion();
-        client.subscribe("/+/+/attrs", 1).waitForCompletion();
+        client.subscribe(
+                        "/+/+/attrs",
+                        1,
+                        (topic, message) -> measures.add(
+                                topic + " " + NgsiJson.read(message.getPayload()).path("time")))
+                .waitForCompletion();
         return new Subscriber(client, measures);
     }
 

@@ -89,7 +89,7 @@ class DemoMissionsTest {
     /** The map draws the rows from the field's properties: they have to be those that the robots work. */
     @Test
     void letsTheRobotsWorkAlongTheRowsOfTheUpperField() throws IOException {
-        JsonNode field = resource("fields.geojson").path("features").path(0);
+        JsonNode field = resource("fields.geojson").at("/features/0");
         double rows = field.at("/properties/rowDirection").doubleValue();
         assertThat(field.at("/properties/rowSpacing").doubleValue()).isEqualTo(3);
         for (Robot robot : robots()) {

@@ -1,12 +1,11 @@
 package io.furrow.simulators.host;
 
 import java.nio.file.Path;
-import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
 
-import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
@@ -19,6 +18,7 @@ import io.furrow.model.device.FarmSecret;
 import io.furrow.model.topic.Topics;
 import io.furrow.simulators.device.MqttTestClient;
 
+import static io.furrow.simulators.host.HostFixture.SECRET;
 import static io.furrow.simulators.host.HostFixture.entity;
 import static io.furrow.simulators.host.HostFixture.topic;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -27,24 +27,20 @@ import static org.awaitility.Awaitility.await;
 /** A host against a real Kafka and MQTT broker; each test has a mission of its own. */
 @Tag("full")
 class DeviceHostIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final String YARD = "{\"path\": [[-3.48, 40.31]]}";
 
     @TempDir
     private static Path directory;
 
+    @AutoClose
     private static HostFixture bench;
+
     private DeviceHost host;
     private MqttTestClient listener;
 
     @BeforeAll
     static void startBench() throws Exception {
         bench = new HostFixture(directory);
-    }
-
-    @AfterAll
-    static void stopBench() {
-        bench.close();
     }
 
     @BeforeEach
@@ -63,21 +59,18 @@ class DeviceHostIT {
     void runsWhatIsDesiredFromWhenTheBrokerAcceptsIt() throws Exception {
         String device = entity("Thermometer", "late", 1);
         long sequence = bench.addDesired("late", device, true, YARD);
-        await().atMost(TIMEOUT)
-                .untilAsserted(() -> assertThat(bench.status(device)).hasValueSatisfying(status -> {
-                    assertThat(status.state()).isEqualTo(State.FAILED);
-                    assertThat(status.reason())
-                            .contains("refuses user 'furrow.d.late.urn%3Angsi-ld%3AThermometer%3Alate-1.1.0'");
-                }));
+        await().untilAsserted(() -> assertThat(bench.status(device)).hasValueSatisfying(status -> {
+            assertThat(status.state()).isEqualTo(State.FAILED);
+            assertThat(status.reason())
+                    .contains("refuses user 'furrow.d.late.urn%3Angsi-ld%3AThermometer%3Alate-1.1.0'");
+        }));
 
         bench.admit("late", device);
 
-        await().atMost(TIMEOUT)
-                .untilAsserted(() ->
-                        assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
-        await().atMost(TIMEOUT)
-                .untilAsserted(() -> assertThat(listener.received(topic("late", device, "attrs")))
-                        .hasSizeGreaterThan(3));
+        await().untilAsserted(() ->
+                assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
+        await().untilAsserted(() ->
+                assertThat(listener.received(topic("late", device, "attrs"))).hasSizeGreaterThan(3));
     }
 
     @Test
@@ -85,14 +78,13 @@ class DeviceHostIT {
         String device = run("anew", 1);
         FarmSecret before = bench.secret;
         bench.secret = null;
-        await().atMost(TIMEOUT)
-                .untilAsserted(() -> assertThat(host.lastFailure()).contains("null"));
+        await().untilAsserted(() -> assertThat(host.lastFailure()).contains("null"));
         bench.secret = before;
 
-        await().atMost(TIMEOUT).until(host::isCaughtUp);
-        await().atMost(TIMEOUT).until(() -> host.fleet().connections() == 1);
+        await().until(host::isCaughtUp);
+        await().until(() -> host.fleet().connections() == 1);
         int received = received("anew", device);
-        await().atMost(TIMEOUT).until(() -> received("anew", device) > received);
+        await().until(() -> received("anew", device) > received);
         assertThat(host.isAlive()).isTrue();
         bench.delete(device);
     }
@@ -106,15 +98,13 @@ class DeviceHostIT {
         long sequence = bench.addDesired("end", stopped, false, YARD);
         bench.delete(deleted);
 
-        await().atMost(TIMEOUT)
-                .untilAsserted(() ->
-                        assertThat(bench.status(stopped)).contains(new DeviceStatus(sequence, State.STOPPED, null)));
-        await().atMost(TIMEOUT)
-                .untilAsserted(() -> assertThat(bench.status(deleted)).isEmpty());
-        await().atMost(TIMEOUT).until(() -> host.fleet().connections() == 1);
+        await().untilAsserted(() ->
+                assertThat(bench.status(stopped)).contains(new DeviceStatus(sequence, State.STOPPED, null)));
+        await().untilAsserted(() -> assertThat(bench.status(deleted)).isEmpty());
+        await().until(() -> host.fleet().connections() == 1);
         int before = received("end", stopped) + received("end", deleted);
         int other = received("end", goesOn);
-        await().atMost(TIMEOUT).until(() -> received("end", goesOn) > other + 10);
+        await().until(() -> received("end", goesOn) > other + 10);
         assertThat(received("end", stopped) + received("end", deleted)).isEqualTo(before);
         bench.delete(goesOn);
     }
@@ -129,14 +119,11 @@ class DeviceHostIT {
 
         host = DeviceHost.start(bench.settings());
 
-        await().atMost(TIMEOUT)
-                .untilAsserted(() ->
-                        assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
-        await().atMost(TIMEOUT)
-                .untilAsserted(() -> assertThat(bench.status(gone)).isEmpty());
-        await().atMost(TIMEOUT)
-                .until(() -> listener.received(topic("again", device, "attrs")).stream()
-                        .anyMatch(json -> json.path("lon").doubleValue() == -3.5));
+        await().untilAsserted(() ->
+                assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
+        await().untilAsserted(() -> assertThat(bench.status(gone)).isEmpty());
+        await().until(() -> listener.received(topic("again", device, "attrs")).stream()
+                .anyMatch(json -> json.path("lon").doubleValue() == -3.5));
         bench.delete(device);
     }
 
@@ -145,19 +132,17 @@ class DeviceHostIT {
         String device = entity("Thermometer", "field", 1);
         bench.admit("field", device);
         bench.addDesired("field", device, true, "{\"area\": \"orchard\"}");
-        await().atMost(TIMEOUT)
-                .untilAsserted(() -> assertThat(bench.status(device))
-                        .hasValueSatisfying(
-                                status -> assertThat(status.reason()).startsWith("area: there is no field 'orchard'")));
+        await().untilAsserted(() -> assertThat(bench.status(device))
+                .hasValueSatisfying(
+                        status -> assertThat(status.reason()).startsWith("area: there is no field 'orchard'")));
 
         bench.put(Topics.FIELDS, "orchard@2020-01-01T00:00:00.000Z", """
                 {"type": "Feature", "id": "orchard", "properties": {"validFrom": "2020-01-01T00:00:00Z"}, "geometry": {"type": "Polygon",
                  "coordinates": [[[-3.5, 40.3], [-3.49, 40.3], [-3.49, 40.31], [-3.5, 40.3]]]}}
                 """);
 
-        await().atMost(TIMEOUT)
-                .untilAsserted(() -> assertThat(bench.status(device).map(DeviceStatus::state))
-                        .contains(State.RUNNING));
+        await().untilAsserted(() ->
+                assertThat(bench.status(device).map(DeviceStatus::state)).contains(State.RUNNING));
         bench.delete(device);
     }
 
@@ -171,13 +156,12 @@ class DeviceHostIT {
                 camera,
                 true,
                 "{\"carriedBy\": \"%s\", \"parameters\": {\"battery\": \"P3D\"}}".formatted(robot));
-        await().atMost(TIMEOUT)
-                .untilAsserted(() -> assertThat(bench.status(camera).map(DeviceStatus::reason))
-                        .contains("carriedBy: '" + robot + "' is not a robot that runs here"));
+        await().untilAsserted(() -> assertThat(bench.status(camera).map(DeviceStatus::reason))
+                .contains("carriedBy: '" + robot + "' is not a robot that runs here"));
 
         bench.addDesired("carry", robot, true, "{\"path\": [[-3.48, 40.31], [-3.48, 40.32]], \"speed\": 2}");
 
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             assertThat(bench.status(robot).map(DeviceStatus::state)).contains(State.RUNNING);
             assertThat(bench.status(camera).map(DeviceStatus::state)).contains(State.RUNNING);
             assertThat(listener.received(topic("carry", camera, "attrs")))
@@ -196,10 +180,9 @@ class DeviceHostIT {
         String device = run("restart", 1);
         listener.publish(topic("restart", device, "cmd"), "{\"restart\": \"\"}");
 
-        await().atMost(TIMEOUT)
-                .untilAsserted(() -> assertThat(listener.received(topic("restart", device, "cmdexe")))
-                        .singleElement()
-                        .hasToString("{\"restart\":\"ok\"}"));
+        await().untilAsserted(() -> assertThat(listener.received(topic("restart", device, "cmdexe")))
+                .singleElement()
+                .hasToString("{\"restart\":\"ok\"}"));
         List<Long> times = listener.received(topic("restart", device, "attrs")).stream()
                 .map(json -> json.path("time").longValue())
                 .toList();
@@ -214,26 +197,25 @@ class DeviceHostIT {
     @Test
     void connectsAgainWithTheNewCredentialsOfADevice() throws Exception {
         String device = run("stolen", 1);
-        bench.passwords.remove(HostFixture.SECRET.device("stolen", device).user());
-        FarmSecret.Login login = HostFixture.SECRET.device("stolen", device, 1);
+        bench.passwords.remove(SECRET.device("stolen", device).user());
+        FarmSecret.Login login = SECRET.device("stolen", device, 1);
         bench.passwords.put(login.user(), login.password());
 
         long sequence = bench.addRotated("stolen", device, YARD, 1);
 
-        await().atMost(TIMEOUT)
-                .untilAsserted(() ->
-                        assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
+        await().untilAsserted(() ->
+                assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
         int before = received("stolen", device);
-        await().atMost(TIMEOUT).until(() -> received("stolen", device) > before + 3);
+        await().until(() -> received("stolen", device) > before + 3);
         bench.delete(device);
     }
 
     @Test
     void takesUpASecretThatIsRotatedWhileItsDevicesGoOn() throws Exception {
         String device = run("rotated", 1);
-        bench.putFingerprints(HostFixture.SECRET);
+        bench.putFingerprints(SECRET);
         Instant now = Instant.now();
-        FarmSecret rotated = HostFixture.SECRET.rotated(now, now.plusSeconds(60), false);
+        FarmSecret rotated = SECRET.rotated(now, now.plusSeconds(60), false);
         FarmSecret.Login login = rotated.device("rotated", device);
         bench.passwords.put(login.user(), login.password());
 
@@ -244,13 +226,12 @@ class DeviceHostIT {
         bench.passwords.put(other.user(), other.password());
         long sequence = bench.addDesired("rotated", second, true, YARD);
 
-        await().atMost(TIMEOUT)
-                .untilAsserted(() ->
-                        assertThat(bench.status(second)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
-        bench.passwords.remove(HostFixture.SECRET.device("rotated", device).user());
+        await().untilAsserted(() ->
+                assertThat(bench.status(second)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
+        bench.passwords.remove(SECRET.device("rotated", device).user());
         int before = received("rotated", device);
-        await().atMost(TIMEOUT).until(() -> received("rotated", device) > before + 10);
-        bench.secret = HostFixture.SECRET;
+        await().until(() -> received("rotated", device) > before + 10);
+        bench.secret = SECRET;
         bench.delete(device);
         bench.delete(second);
     }
@@ -259,7 +240,7 @@ class DeviceHostIT {
         String device = entity("Thermometer", mission, number);
         bench.admit(mission, device);
         long sequence = bench.addDesired(mission, device, true, YARD);
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null));
             assertThat(received(mission, device)).isPositive();
         });

@@ -1,6 +1,5 @@
 package io.furrow.simulators.host;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.Map;
 
@@ -10,6 +9,7 @@ import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.SecretFingerprints;
 import io.furrow.simulators.host.FarmSecretCheck.AnotherSecretException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -55,7 +55,7 @@ class FarmSecretCheckTest {
 
     @Test
     void passesOverWhatItCannotRead() throws Exception {
-        check.take(Map.of(SecretFingerprints.KEY, "no".getBytes(StandardCharsets.UTF_8)));
+        check.take(Map.of(SecretFingerprints.KEY, "no".getBytes(UTF_8)));
         check.take(Map.of());
 
         assertThat(check.get()).isEqualTo(first);

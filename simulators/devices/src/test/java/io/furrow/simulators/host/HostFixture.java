@@ -1,34 +1,28 @@
 package io.furrow.simulators.host;
 
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
-import java.util.Properties;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.atomic.AtomicLong;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.clients.admin.NewTopic;
-import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.EmbeddedMqtt;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
+import io.furrow.kafka.CommittedReader;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
@@ -40,17 +34,19 @@ import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.device.MqttTestClient;
 import io.furrow.simulators.mqtt.MqttAccess;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
+
 /** All that a host of devices speaks to, and who asks it for devices in the place of the control plane. */
 final class HostFixture implements AutoCloseable {
     static final String SECRET_TEXT = "0123456789abcdef";
-    static final FarmSecret SECRET = new FarmSecret(SECRET_TEXT.getBytes(StandardCharsets.UTF_8));
+    static final FarmSecret SECRET = new FarmSecret(SECRET_TEXT.getBytes(UTF_8));
 
     /** What hosts are given. */
     volatile FarmSecret secret = SECRET;
 
     final Map<String, String> passwords = new ConcurrentHashMap<>(Map.of("farmer", "plough"));
     final FiwareStandIn fiware;
-    private final EmbeddedKafka kafka;
+    final EmbeddedKafka kafka;
     private final EmbeddedMqtt mqtt;
     private final KafkaProducer<String, byte[]> producer;
     private final AtomicLong sequence = new AtomicLong();
@@ -59,21 +55,15 @@ final class HostFixture implements AutoCloseable {
         kafka = EmbeddedKafka.start(directory);
         mqtt = EmbeddedMqtt.start(passwords);
         fiware = FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), "farmer", "plough"));
-        producer = new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
+        producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
         kafka.createTopics(List.of(Topics.DEVICES, Topics.DEVICES_STATUS, Topics.FIELDS, Topics.SECRETS).stream()
                 .map(topic -> new NewTopic(topic, 1, (short) 1).configs(Map.of("cleanup.policy", "compact")))
                 .toList());
     }
 
-    Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
-    }
-
     HostSettings settings() {
         return HostSettings.of(
-                client(),
+                kafka.client(),
                 new MqttAccess(mqtt.uri(), null, 1),
                 URI.create(fiware.contextBroker().toString()),
                 () -> secret);
@@ -118,7 +108,7 @@ final class HostFixture implements AutoCloseable {
         long now = System.currentTimeMillis();
         DeviceVersion version = new DeviceVersion(
                 entity, "farm", "/", "farm", mission, now, running ? null : Long.valueOf(now), number, null);
-        ObjectNode json = (ObjectNode) NgsiJson.read(settings.getBytes(StandardCharsets.UTF_8));
+        ObjectNode json = (ObjectNode) NgsiJson.read(settings.getBytes(UTF_8));
         JsonNode carrier = json.remove("carriedBy");
         if (carrier != null) {
             version = new DeviceVersion(entity, "farm", "/", "farm", mission, now, null, number, carrier.textValue());
@@ -134,7 +124,7 @@ final class HostFixture implements AutoCloseable {
     /** Says which secret the farm has, as the control plane does. */
     void putFingerprints(FarmSecret farms) throws Exception {
         byte[] value = SecretFingerprints.of(farms).toBytes();
-        put(Topics.SECRETS, SecretFingerprints.KEY, new String(value, StandardCharsets.UTF_8));
+        put(Topics.SECRETS, SecretFingerprints.KEY, new String(value, UTF_8));
     }
 
     void delete(String entity) throws Exception {
@@ -142,8 +132,7 @@ final class HostFixture implements AutoCloseable {
     }
 
     void put(String topic, String key, String value) throws Exception {
-        producer.send(new ProducerRecord<>(topic, key, value.getBytes(StandardCharsets.UTF_8)))
-                .get();
+        producer.send(new ProducerRecord<>(topic, key, value.getBytes(UTF_8))).get();
     }
 
     Optional<DeviceStatus> status(String entity) throws Exception {
@@ -153,17 +142,9 @@ final class HostFixture implements AutoCloseable {
     /** As the topic has them at its end. */
     Map<String, DeviceStatus> statuses() throws Exception {
         Map<String, DeviceStatus> newest = new HashMap<>();
-        TopicPartition partition = new TopicPartition(Topics.DEVICES_STATUS, 0);
-        try (KafkaConsumer<String, byte[]> consumer =
-                new KafkaConsumer<>(client(), new StringDeserializer(), new ByteArrayDeserializer())) {
-            consumer.assign(List.of(partition));
-            consumer.seekToBeginning(List.of(partition));
-            long end = consumer.endOffsets(List.of(partition)).get(partition);
-            while (consumer.position(partition) < end) {
-                for (ConsumerRecord<String, byte[]> each : consumer.poll(Duration.ofMillis(100))) {
-                    newest.put(each.key(), each.value() == null ? null : DeviceStatus.read(each.value()));
-                }
-            }
+        try (CommittedReader<String> reader = CommittedReader.openExisting(kafka.client(), Topics.DEVICES_STATUS)) {
+            reader.readToEnd(
+                    each -> newest.put(each.key(), each.value() == null ? null : DeviceStatus.read(each.value())));
         }
         return newest;
     }

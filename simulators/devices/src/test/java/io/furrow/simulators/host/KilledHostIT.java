@@ -1,8 +1,8 @@
 package io.furrow.simulators.host;
 
+import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 
@@ -15,6 +15,7 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.FarmSecret;
+import io.furrow.process.TestProcess;
 import io.furrow.simulators.device.MqttTestClient;
 
 import static io.furrow.simulators.host.HostFixture.entity;
@@ -25,7 +26,6 @@ import static org.awaitility.Awaitility.await;
 /** The host as a process of its own. */
 @Tag("full")
 class KilledHostIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final String YARD = "{\"path\": [[-3.48, 40.31]]}";
 
     @TempDir
@@ -58,7 +58,7 @@ class KilledHostIT {
         long first = bench.addDesired("killed", remaining, true, YARD);
         long second = bench.addDesired("killed", stopped, true, YARD);
         Process host = host();
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             assertThat(bench.status(remaining)).contains(new DeviceStatus(first, State.RUNNING, null));
             assertThat(bench.status(stopped)).contains(new DeviceStatus(second, State.RUNNING, null));
         });
@@ -68,13 +68,13 @@ class KilledHostIT {
         long begin = bench.addDesired("killed", comes, true, YARD);
         host();
 
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             assertThat(bench.status(remaining)).contains(new DeviceStatus(first, State.RUNNING, null));
             assertThat(bench.status(stopped)).contains(new DeviceStatus(end, State.STOPPED, null));
             assertThat(bench.status(comes)).contains(new DeviceStatus(begin, State.RUNNING, null));
         });
         try (MqttTestClient listener = bench.listener()) {
-            await().atMost(TIMEOUT).untilAsserted(() -> {
+            await().untilAsserted(() -> {
                 assertThat(listener.received(topic("killed", remaining, "attrs")))
                         .isNotEmpty();
                 assertThat(listener.received(topic("killed", comes, "attrs"))).isNotEmpty();
@@ -124,17 +124,10 @@ class KilledHostIT {
     }
 
     private Process run(Path secret, String name) throws Exception {
-        ProcessBuilder builder = new ProcessBuilder(
-                Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                "-Xmx256m",
-                "-cp",
-                System.getProperty("java.class.path"),
-                DeviceHostCommand.class.getName(),
-                "--mqtt",
-                bench.settings().mqtt().broker().toString(),
-                "--farm-secret",
-                secret.toString());
-        builder.environment().put("FURROW_KAFKA", bench.client().getProperty("bootstrap.servers"));
+        URI mqtt = bench.settings().mqtt().broker();
+        ProcessBuilder builder =
+                TestProcess.java("-Xmx256m", DeviceHostCommand.class, "--mqtt", mqtt, "--farm-secret", secret);
+        builder.environment().put("FURROW_KAFKA", bench.kafka.bootstrapServers());
         builder.environment()
                 .put("FURROW_CONTEXT_BROKER", bench.fiware.contextBroker().toString());
         Process process = builder.redirectErrorStream(true)

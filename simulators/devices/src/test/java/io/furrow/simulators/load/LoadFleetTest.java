@@ -7,8 +7,8 @@ import java.util.Map;
 import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -23,16 +23,12 @@ import static org.awaitility.Awaitility.await;
 
 @Tag("full")
 class LoadFleetTest {
+    @AutoClose
     private static FiwareServers ends;
 
     @BeforeAll
     static void start() throws IOException {
         ends = new FiwareServers();
-    }
-
-    @AfterAll
-    static void stop() {
-        ends.close();
     }
 
     @AfterEach
@@ -136,8 +132,7 @@ class LoadFleetTest {
     @Test
     void leavesNoThreadBehindWhenItsBrokerHangs() throws Exception {
         try (SlowBroker slow = new SlowBroker()) {
-            LoadFleet load =
-                    LoadFleet.start(with(slow), plan(1, Duration.ofMillis(1), 1_000_000, Duration.ofMillis(40)));
+            var load = LoadFleet.start(with(slow), plan(1, Duration.ofMillis(1), 1_000_000, Duration.ofMillis(40)));
             await().until(() -> load.held() == 1);
             assertThat(ofLoad()).isNotEmpty();
 

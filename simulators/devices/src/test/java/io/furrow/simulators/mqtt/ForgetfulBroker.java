@@ -7,9 +7,10 @@ import java.net.InetAddress;
 import java.net.ServerSocket;
 import java.net.Socket;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.concurrent.CopyOnWriteArrayList;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * As much of an MQTT broker as one publisher needs; the first message of all it drops without a word, as a busy one does, or, where
@@ -69,7 +70,7 @@ final class ForgetfulBroker implements AutoCloseable {
             forgot = true;
         } else if (kind == PUBLISH) {
             int id = 2 + ((packet[0] & 0xff) << 8 | packet[1] & 0xff);
-            taken.add(new String(packet, id + 2, packet.length - id - 2, StandardCharsets.UTF_8));
+            taken.add(new String(packet, id + 2, packet.length - id - 2, UTF_8));
             out.write(new byte[] {0x40, 2, packet[id], packet[id + 1]});
         }
     }

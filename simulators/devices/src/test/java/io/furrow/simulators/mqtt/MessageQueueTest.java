@@ -1,6 +1,5 @@
 package io.furrow.simulators.mqtt;
 
-import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.LinkedHashSet;
 import java.util.List;
@@ -10,6 +9,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MessageQueueTest {
@@ -101,10 +101,10 @@ class MessageQueueTest {
     }
 
     private static MessageQueue.Message message(int number) {
-        return new MessageQueue.Message("t", Integer.toString(number).getBytes(StandardCharsets.UTF_8));
+        return new MessageQueue.Message("t", Integer.toString(number).getBytes(UTF_8));
     }
 
     private static int number(MessageQueue.Message message) {
-        return Integer.parseInt(new String(message.payload(), StandardCharsets.UTF_8));
+        return Integer.parseInt(new String(message.payload(), UTF_8));
     }
 }

@@ -5,7 +5,6 @@ import java.io.UncheckedIOException;
 import java.net.InetAddress;
 import java.net.ServerSocket;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
 import java.util.concurrent.CompletableFuture;
@@ -13,6 +12,7 @@ import java.util.concurrent.TimeUnit;
 
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -25,10 +25,10 @@ class MqttConnectionTest {
                     new MqttAccess.Login("farmer", "plough"), "line", List.of("/k/d/cmd"), 10, 1000);
             try (MqttConnection connection =
                     MqttConnection.open(new MqttAccess(broker.uri(), null, 1), plan, (topic, payload) -> {})) {
-                connection.send("/k/d/attrs", "1".getBytes(StandardCharsets.UTF_8));
-                connection.send("/k/d/attrs", "2".getBytes(StandardCharsets.UTF_8));
+                connection.send("/k/d/attrs", "1".getBytes(UTF_8));
+                connection.send("/k/d/attrs", "2".getBytes(UTF_8));
 
-                await().atMost(Duration.ofSeconds(60)).until(() -> {
+                await().until(() -> {
                     connection.push();
                     return connection.open() == 0;
                 });
@@ -44,8 +44,7 @@ class MqttConnectionTest {
     void givesUpABrokerThatAcceptsAndReportsNothing() throws Exception {
         try (ServerSocket silent = new ServerSocket(0, 10, InetAddress.getLoopbackAddress())) {
             URI uri = URI.create("tcp://127.0.0.1:" + silent.getLocalPort());
-            MqttConnection.Plan plan =
-                    new MqttConnection.Plan(new MqttAccess.Login("farmer", "plough"), "line", List.of(), 10, 1000);
+            var plan = new MqttConnection.Plan(new MqttAccess.Login("farmer", "plough"), "line", List.of(), 10, 1000);
             CompletableFuture<MqttConnection> opening = CompletableFuture.supplyAsync(() -> {
                 try {
                     return MqttConnection.open(
@@ -69,7 +68,7 @@ class MqttConnectionTest {
                     new MqttAccess.Login("farmer", "plough"), "line", List.of("/k/d/cmd"), 10, 1000);
             try (MqttConnection connection =
                     MqttConnection.open(new MqttAccess(broker.uri(), null, 1), plan, (topic, payload) -> {})) {
-                connection.send("/k/d/attrs", "1".getBytes(StandardCharsets.UTF_8));
+                connection.send("/k/d/attrs", "1".getBytes(UTF_8));
 
                 await().until(() -> {
                     connection.push();

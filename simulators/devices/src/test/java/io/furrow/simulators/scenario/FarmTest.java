@@ -2,7 +2,6 @@ package io.furrow.simulators.scenario;
 
 import java.io.ByteArrayInputStream;
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -17,6 +16,7 @@ import io.furrow.simulators.scenario.SimulatedDevice.Camera;
 import io.furrow.simulators.scenario.SimulatedDevice.Robot;
 import io.furrow.simulators.scenario.SimulatedDevice.Sensor;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
@@ -175,7 +175,7 @@ class FarmTest {
     }
 
     static Farm read(String json) throws IOException {
-        return Farm.read(new ByteArrayInputStream(json.getBytes(StandardCharsets.UTF_8)), START);
+        return Farm.read(new ByteArrayInputStream(json.getBytes(UTF_8)), START);
     }
 
     static <T> T device(Farm farm, String id, Class<T> type) {

@@ -1,6 +1,6 @@
 package io.furrow.fiware.agent;
 
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -16,13 +16,10 @@ class IotAgentApiTest {
             "{\"services\": [{\"apikey\": \"k1\", \"resource\": \"/iot/json\", \"type\": \"Probe\"}]}";
     private static final String DEVICE = "{\"devices\": [{\"device_id\": \"d1\", \"commands\": [{\"name\": \"on\"}]}]}";
 
+    @AutoClose
     private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
-    private final Client client = Client.of(standIn.iotAgent());
 
-    @AfterEach
-    void stop() {
-        standIn.close();
-    }
+    private final Client client = Client.of(standIn.iotAgent());
 
     @Test
     void retainsServicesAndDevicesOfEachTenant() {

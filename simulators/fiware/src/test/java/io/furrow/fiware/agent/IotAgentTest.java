@@ -1,6 +1,5 @@
 package io.furrow.fiware.agent;
 
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.CopyOnWriteArrayList;
@@ -8,8 +7,8 @@ import java.util.concurrent.CopyOnWriteArrayList;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.eclipse.paho.client.mqttv3.MqttClient;
 import org.eclipse.paho.client.mqttv3.MqttException;
-import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
@@ -23,6 +22,7 @@ import io.furrow.fiware.MqttDevice;
 import io.furrow.fiware.NotificationReceiver;
 import io.furrow.fiware.broker.NgsiTime;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -33,6 +33,7 @@ class IotAgentTest {
     private static final Map<String, String> PASSWORDS = Map.of("agent", "secret", "device", "hidden");
 
     /** One for all tests: its stop takes 2 s. */
+    @AutoClose
     private static EmbeddedMqtt mqtt;
 
     private final FiwareStandIn standIn = FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), "agent", "secret"));
@@ -44,11 +45,6 @@ class IotAgentTest {
     @BeforeAll
     static void startBroker() {
         mqtt = EmbeddedMqtt.start(PASSWORDS);
-    }
-
-    @AfterAll
-    static void stopBroker() {
-        mqtt.close();
     }
 
     @BeforeEach
@@ -65,9 +61,7 @@ class IotAgentTest {
                     "commands": [{"name": "on", "type": "command"}]}]}""");
         assertThat(provisioned.status()).as(provisioned.body()).isEqualTo(201);
         device = MqttDevice.connect(
-                mqtt,
-                "/k1/t1/cmd",
-                (topic, message) -> commands.add(new String(message.getPayload(), StandardCharsets.UTF_8)));
+                mqtt, "/k1/t1/cmd", (topic, message) -> commands.add(new String(message.getPayload(), UTF_8)));
     }
 
     @AfterEach
@@ -89,18 +83,14 @@ class IotAgentTest {
             await().until(() -> !receiver.received().isEmpty());
             JsonNode notified = receiver.received().get(0).json().path("data").get(0);
             assertThat(notified.path("id").asText()).isEqualTo("urn:ngsi-ld:Thermometer:1");
-            assertThat(notified.path("Temperature").path("type").asText()).isEqualTo("Float");
-            assertThat(notified.path("Temperature").path("value").asDouble()).isEqualTo(21.5);
-            assertThat(notified.path("Time").path("value").asLong()).isEqualTo(1795222800000L);
-            assertThat(notified.path("Domain").path("value").asText()).isEqualTo("canary");
-            assertThat(notified.path("extra").path("value").asText()).isEqualTo("x");
-            JsonNode instant = notified.path("TimeInstant").path("value");
+            assertThat(notified.at("/Temperature/type").asText()).isEqualTo("Float");
+            assertThat(notified.at("/Temperature/value").asDouble()).isEqualTo(21.5);
+            assertThat(notified.at("/Time/value").asLong()).isEqualTo(1795222800000L);
+            assertThat(notified.at("/Domain/value").asText()).isEqualTo("canary");
+            assertThat(notified.at("/extra/value").asText()).isEqualTo("x");
+            JsonNode instant = notified.at("/TimeInstant/value");
             assertThat(NgsiTime.parse(instant.asText())).isPresent();
-            assertThat(notified.path("Temperature")
-                            .path("metadata")
-                            .path("TimeInstant")
-                            .path("value"))
-                    .isEqualTo(instant);
+            assertThat(notified.at("/Temperature/metadata/TimeInstant/value")).isEqualTo(instant);
         }
     }
 
@@ -200,8 +190,7 @@ class IotAgentTest {
 
         report();
 
-        assertThat(broker.get(THERMOMETER).json().path("Domain").path("value").asText())
-                .isEqualTo("canary");
+        assertThat(broker.get(THERMOMETER).json().at("/Domain/value").asText()).isEqualTo("canary");
         assertThat(broker.patch(THERMOMETER + "/attrs", command).status()).isEqualTo(204);
         await().until(() -> commands.size() == 1);
     }
@@ -282,7 +271,7 @@ class IotAgentTest {
     }
 
     private void publish(String topic, String payload) throws MqttException {
-        device.publish(topic, payload.getBytes(StandardCharsets.UTF_8), 1, false);
+        device.publish(topic, payload.getBytes(UTF_8), 1, false);
     }
 
     private void awaitValue(String entity, String attribute, String value) {

@@ -1,6 +1,5 @@
 package io.furrow.fiware.agent;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Clock;
 import java.time.Instant;
 import java.time.ZoneOffset;
@@ -10,6 +9,7 @@ import org.junit.jupiter.api.Test;
 import io.furrow.fiware.agent.MeasureHistory.Ignored;
 import io.furrow.fiware.agent.MeasureHistory.Received;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MeasureHistoryTest {
@@ -18,8 +18,8 @@ class MeasureHistoryTest {
     @Test
     void remembersTheLastMeasureAndTheBeginningOfWhatCouldNotBeRead() {
         history.measured("key", "d");
-        history.unreadable("key", "d", "{".getBytes(StandardCharsets.UTF_8), "no JSON");
-        history.unreadable("key", "d", "x".repeat(5000).getBytes(StandardCharsets.UTF_8), "no JSON either");
+        history.unreadable("key", "d", "{".getBytes(UTF_8), "no JSON");
+        history.unreadable("key", "d", "x".repeat(5000).getBytes(UTF_8), "no JSON either");
 
         assertThat(history.of("key", "d"))
                 .contains(new Received(1000L, new Ignored(2, 1000, "no JSON either", "x".repeat(200))));

@@ -1,6 +1,5 @@
 package io.furrow.fiware.agent;
 
-import java.nio.charset.StandardCharsets;
 import java.util.Map;
 
 import org.eclipse.paho.client.mqttv3.MqttClient;
@@ -14,6 +13,7 @@ import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
 import io.furrow.fiware.MqttDevice;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
@@ -43,7 +43,7 @@ class MqttBridgeTest {
             MqttClient thing = MqttDevice.connect(second, "/k2/x/cmd", (topic, message) -> {});
 
             await().until(() -> {
-                thing.publish("/k2/x/attrs", "{\"a\": 1}".getBytes(StandardCharsets.UTF_8), 1, false);
+                thing.publish("/k2/x/attrs", "{\"a\": 1}".getBytes(UTF_8), 1, false);
                 return other.counters().measures() > 0;
             });
 

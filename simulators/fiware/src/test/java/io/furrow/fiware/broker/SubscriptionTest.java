@@ -6,7 +6,7 @@ import java.net.ServerSocket;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
@@ -20,15 +20,13 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 class SubscriptionTest {
+    @AutoClose
     private final NotificationReceiver receiver = new NotificationReceiver();
-    private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
-    private final Client client = Client.of(standIn.contextBroker());
 
-    @AfterEach
-    void stop() {
-        standIn.close();
-        receiver.close();
-    }
+    @AutoClose
+    private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
+
+    private final Client client = Client.of(standIn.contextBroker());
 
     @Test
     void notifiesEachEntityOfABatchByItself() {
@@ -106,8 +104,7 @@ class SubscriptionTest {
         await().until(() -> standIn.counters().notificationsFailed() == 2);
 
         JsonNode subscription = client.get(location).json();
-        assertThat(subscription.path("notification").path("failsCounter").asInt())
-                .isEqualTo(2);
+        assertThat(subscription.at("/notification/failsCounter").asInt()).isEqualTo(2);
         assertThat(subscription.path("notification").has("lastFailure")).isTrue();
         assertThat(subscription.path("notification").has("lastSuccess")).isFalse();
         assertThat(subscription.path("status").asText()).isEqualTo("inactive");
@@ -192,8 +189,8 @@ class SubscriptionTest {
         JsonNode patched = client.get(location).json();
         assertThat(patched.path("status").asText()).isEqualTo("inactive");
         assertThat(patched.path("description").asText()).isEqualTo("rests");
-        assertThat(patched.path("notification").path("attrsFormat").asText()).isEqualTo("normalized");
-        assertThat(patched.path("subject").path("condition").path("attrs")).isEmpty();
+        assertThat(patched.at("/notification/attrsFormat").asText()).isEqualTo("normalized");
+        assertThat(patched.at("/subject/condition/attrs")).isEmpty();
 
         assertThat(client.delete(location).status()).isEqualTo(204);
         assertThat(client.get(location).status()).isEqualTo(404);

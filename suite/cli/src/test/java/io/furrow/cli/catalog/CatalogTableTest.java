@@ -1,6 +1,5 @@
 package io.furrow.cli.catalog;
 
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 
 import org.junit.jupiter.api.Test;
@@ -9,6 +8,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.model.ngsi.NgsiJson;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class CatalogTableTest {
@@ -22,7 +22,7 @@ class CatalogTableTest {
                  "first": "2023-11-14T22:13:20Z", "last": "2023-11-14T23:13:20Z", "rate": 0.333}}}
                 """;
 
-        List<String> lines = CatalogTable.lines(List.of(NgsiJson.read(entry.getBytes(StandardCharsets.UTF_8))));
+        List<String> lines = CatalogTable.lines(List.of(NgsiJson.read(entry.getBytes(UTF_8))));
 
         assertThat(lines).hasSize(4);
         assertThat(lines.get(2).split(" {2,}"))

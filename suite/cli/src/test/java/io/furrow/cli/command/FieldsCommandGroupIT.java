@@ -2,7 +2,6 @@ package io.furrow.cli.command;
 
 import java.io.PrintWriter;
 import java.io.StringWriter;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -11,8 +10,8 @@ import java.util.Properties;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -28,6 +27,7 @@ import io.furrow.kafka.field.FieldsTopic;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 @Tag("full")
@@ -39,6 +39,7 @@ class FieldsCommandGroupIT {
     @TempDir
     static Path folder;
 
+    @AutoClose
     private static EmbeddedKafka kafka;
 
     private final StringWriter err = new StringWriter();
@@ -46,11 +47,6 @@ class FieldsCommandGroupIT {
     @BeforeAll
     static void start() throws Exception {
         kafka = EmbeddedKafka.start(folder.resolve("kafka"), 0);
-    }
-
-    @AfterAll
-    static void stop() throws Exception {
-        kafka.close();
     }
 
     @AfterEach
@@ -61,8 +57,7 @@ class FieldsCommandGroupIT {
     }
 
     private static FieldsTopic topic() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        Properties client = kafka.client();
         return new FieldsTopic(client);
     }
 
@@ -89,7 +84,7 @@ class FieldsCommandGroupIT {
                         "--replace",
                         "--output",
                         "json")
-                .getBytes(StandardCharsets.UTF_8));
+                .getBytes(UTF_8));
         assertThat(report.path("validFrom").asText()).isEqualTo("2026-03-31T22:00:00Z");
         assertThat(report.path("fields"))
                 .extracting(field ->
@@ -144,7 +139,7 @@ class FieldsCommandGroupIT {
         FieldVersion bow = new FieldVersion(
                 "bow",
                 0,
-                (ObjectNode) NgsiJson.read(crossing.getBytes(StandardCharsets.UTF_8)),
+                (ObjectNode) NgsiJson.read(crossing.getBytes(UTF_8)),
                 NgsiJson.mapper().createObjectNode());
         topic.write(List.of(bow));
 
@@ -176,7 +171,7 @@ class FieldsCommandGroupIT {
         List<String> all = new ArrayList<>(List.of(args));
         all.addAll(List.of("--output", "json"));
         List<String> ids = new ArrayList<>();
-        NgsiJson.read(output(0, all.toArray(String[]::new)).getBytes(StandardCharsets.UTF_8))
+        NgsiJson.read(output(0, all.toArray(String[]::new)).getBytes(UTF_8))
                 .path("features")
                 .forEach(feature -> ids.add(feature.path("id").asText()));
         return ids;

@@ -2,11 +2,10 @@ package io.furrow.cli.command;
 
 import java.io.PrintWriter;
 import java.io.StringWriter;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -16,6 +15,7 @@ import picocli.CommandLine.Model.CommandSpec;
 import io.furrow.cli.Commands;
 import io.furrow.embedded.EmbeddedMongo;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MissionCommandGroupTest {
@@ -29,16 +29,12 @@ class MissionCommandGroupTest {
     @TempDir
     private Path directory;
 
+    @AutoClose
     private EmbeddedMongo mongo;
 
     @BeforeEach
     void start() {
         mongo = EmbeddedMongo.start(directory.resolve("mongo"));
-    }
-
-    @AfterEach
-    void stop() {
-        mongo.close();
     }
 
     @Test
@@ -52,8 +48,7 @@ class MissionCommandGroupTest {
                 .isZero();
         assertThat(run("stored")).isZero();
 
-        assertThat(Files.readString(directory.resolve("out.ndjson"), StandardCharsets.UTF_8))
-                .isEqualTo(lines);
+        assertThat(Files.readString(directory.resolve("out.ndjson"), UTF_8)).isEqualTo(lines);
         assertThat(out.toString()).contains("2 events of weeding in").containsPattern("weeding +2 events");
     }
 

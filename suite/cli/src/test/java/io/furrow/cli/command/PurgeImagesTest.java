@@ -16,6 +16,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine;
 
+import io.furrow.files.Folders;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.mission.image.ImageName;
 import io.furrow.model.event.FiwareScope;
@@ -99,10 +100,8 @@ class PurgeImagesTest {
     }
 
     private List<String> everything() throws IOException {
-        try (Stream<Path> all = Files.walk(folder)) {
-            return all.filter(Files::isRegularFile)
-                    .map(file -> folder.relativize(file).toString())
-                    .toList();
-        }
+        return Folders.walk(folder).stream().filter(Files::isRegularFile)
+                .map(file -> folder.relativize(file).toString())
+                .toList();
     }
 }

@@ -12,7 +12,7 @@ import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -38,6 +38,7 @@ class CompareCommandIT {
     @TempDir
     static Path folder;
 
+    @AutoClose
     private static EmbeddedKafka kafka;
 
     @BeforeAll
@@ -67,11 +68,6 @@ class CompareCommandIT {
             producer.flush();
             producer.abortTransaction();
         }
-    }
-
-    @AfterAll
-    static void stops() throws Exception {
-        kafka.close();
     }
 
     private static void send(KafkaProducer<byte[], byte[]> producer, String topic, Integer epoch, Entity entity) {

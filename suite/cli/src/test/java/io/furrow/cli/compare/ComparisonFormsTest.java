@@ -1,7 +1,5 @@
 package io.furrow.cli.compare;
 
-import java.nio.charset.StandardCharsets;
-
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.Test;
 
@@ -13,6 +11,7 @@ import static io.furrow.cli.compare.ResultRecords.encounter;
 import static io.furrow.cli.compare.ResultRecords.entered;
 import static io.furrow.cli.compare.ResultRecords.left;
 import static io.furrow.cli.compare.ResultRecords.side;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ComparisonFormsTest {
@@ -105,6 +104,6 @@ class ComparisonFormsTest {
         String before = "<script id=\"data\" type=\"application/json\">";
         int begin = html.indexOf(before) + before.length();
         return NgsiJson.read(
-                html.substring(begin, html.indexOf("</script>", begin)).getBytes(StandardCharsets.UTF_8));
+                html.substring(begin, html.indexOf("</script>", begin)).getBytes(UTF_8));
     }
 }

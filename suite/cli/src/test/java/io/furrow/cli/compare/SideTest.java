@@ -12,11 +12,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class SideTest {
-    private static final List<String> TOPICS = List.of(
-            "data.collision",
-            "data.weeding.replay.0a1b2c3d",
-            "data.other.replay.00000001",
-            "data.gone.replay.00000002.collision");
+    private static final List<String> TOPICS = List.of("""
+                    data.collision data.weeding.replay.0a1b2c3d data.other.replay.00000001
+                    data.gone.replay.00000002.collision""".split("\\s+"));
 
     @ParameterizedTest
     @CsvSource({

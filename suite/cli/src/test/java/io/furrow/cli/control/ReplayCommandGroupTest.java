@@ -1,16 +1,11 @@
 package io.furrow.cli.control;
 
-import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.util.ArrayList;
 import java.util.List;
 
-import com.sun.net.httpserver.HttpServer;
-import org.junit.jupiter.api.AfterEach;
-import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.condition.EnabledOnOs;
 import org.junit.jupiter.api.condition.OS;
@@ -20,6 +15,7 @@ import picocli.CommandLine;
 import picocli.CommandLine.Model.CommandSpec;
 
 import io.furrow.cli.Commands;
+import io.furrow.stub.StubServer;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -28,27 +24,14 @@ import static org.assertj.core.api.Assertions.assertThat;
 class ReplayCommandGroupTest {
     private final StringWriter output = new StringWriter();
     private final List<String> requested = new ArrayList<>();
-    private HttpServer control;
     private String answer = "{\"status\":\"created\",\"replay\":\"m.0a1b2c3d\",\"topic\":\"data.m.replay.0a1b2c3d\"}";
 
-    @BeforeEach
-    void start() throws IOException {
-        control = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        control.createContext("/", exchange -> {
-            String body = new String(exchange.getRequestBody().readAllBytes(), UTF_8);
-            requested.add((exchange.getRequestMethod() + " " + exchange.getRequestURI() + " " + body).trim());
-            byte[] json = answer.getBytes(UTF_8);
-            exchange.sendResponseHeaders(200, json.length);
-            exchange.getResponseBody().write(json);
-            exchange.close();
-        });
-        control.start();
-    }
-
-    @AfterEach
-    void stop() {
-        control.stop(0);
-    }
+    @AutoClose
+    private final StubServer control = new StubServer(exchange -> {
+        String body = new String(exchange.getRequestBody().readAllBytes(), UTF_8);
+        requested.add((exchange.getRequestMethod() + " " + exchange.getRequestURI() + " " + body).trim());
+        StubServer.answer(exchange, 200, answer);
+    });
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
@@ -200,7 +183,7 @@ class ReplayCommandGroupTest {
         CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
         line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
         List<String> all = new ArrayList<>(List.of(arguments));
-        all.add("--api=http://127.0.0.1:" + control.getAddress().getPort());
+        all.add("--api=" + control.uri(""));
         return line.execute(all.toArray(String[]::new));
     }
 }

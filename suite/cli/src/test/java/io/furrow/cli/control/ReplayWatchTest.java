@@ -1,30 +1,29 @@
 package io.furrow.cli.control;
 
 import java.io.ByteArrayOutputStream;
+import java.io.IOException;
 import java.io.PipedInputStream;
 import java.io.PipedOutputStream;
 import java.io.PrintWriter;
 import java.io.StringWriter;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
-import java.net.URI;
+import java.io.UncheckedIOException;
 import java.time.Duration;
 import java.util.ArrayDeque;
 import java.util.Deque;
 import java.util.List;
+import java.util.Optional;
 import java.util.concurrent.BlockingQueue;
-import java.util.concurrent.Executors;
+import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.LinkedBlockingQueue;
 import java.util.concurrent.atomic.AtomicInteger;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.sun.net.httpserver.HttpExchange;
-import com.sun.net.httpserver.HttpServer;
+import org.assertj.core.api.ThrowingConsumer;
 import org.jline.terminal.Size;
 import org.jline.terminal.Terminal.Signal;
 import org.jline.terminal.impl.ExternalTerminal;
-import org.junit.jupiter.api.AfterEach;
-import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 import picocli.CommandLine;
 import picocli.CommandLine.Model.CommandSpec;
@@ -32,6 +31,7 @@ import picocli.CommandLine.Model.CommandSpec;
 import io.furrow.cli.Commands;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.stub.StubServer;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -48,23 +48,14 @@ class ReplayWatchTest {
     private final BlockingQueue<String> requests = new LinkedBlockingQueue<>();
     private final AtomicInteger connections = new AtomicInteger();
     private final AtomicInteger left = new AtomicInteger(1_000_000);
+    private final PipedOutputStream keyboard = new PipedOutputStream();
+    private final ByteArrayOutputStream screen = new ByteArrayOutputStream();
     private volatile boolean eventless;
-    private HttpServer control;
 
-    @BeforeEach
-    void start() throws Exception {
-        control = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        control.setExecutor(Executors.newCachedThreadPool());
-        control.createContext("/", this::answer);
-        control.start();
-    }
+    @AutoClose
+    private final StubServer control = new StubServer(this::answer);
 
-    @AfterEach
-    void stop() {
-        control.stop(0);
-    }
-
-    private void answer(HttpExchange exchange) throws java.io.IOException {
+    private void answer(HttpExchange exchange) throws IOException {
         String path = exchange.getRequestURI().getPath();
         if (left.get() == 0 || eventless && path.endsWith("/events")) {
             exchange.sendResponseHeaders(404, -1);
@@ -87,9 +78,7 @@ class ReplayWatchTest {
             if (exchange.getRequestMethod().equals("POST")) {
                 requests.add(path + " " + new String(exchange.getRequestBody().readAllBytes(), UTF_8));
             }
-            byte[] json = replay("running").getBytes(UTF_8);
-            exchange.sendResponseHeaders(200, json.length);
-            exchange.getResponseBody().write(json);
+            StubServer.answer(exchange, 200, replay("running"));
         }
         exchange.close();
     }
@@ -102,10 +91,6 @@ class ReplayWatchTest {
         return ": a comment\nevent: %s\ndata: %s\n\n".formatted(name, data);
     }
 
-    private URI api() {
-        return URI.create("http://127.0.0.1:" + control.getAddress().getPort());
-    }
-
     @Test
     void printsLinesWhereThereIsNoTerminalAndFollowsAfterALostConnection() {
         events.add(event("status", replay("running")));
@@ -114,15 +99,10 @@ class ReplayWatchTest {
         events.add(event("status", replay("ended")));
         events.add(event("over", replay("ended").replace("\"speed\":2.0,", "")));
         events.add("lost");
-        StringWriter output = new StringWriter();
-        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
-        line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
-
-        assertThat(line.execute("replay", "watch", "m.0a1b2c3d", "--api", api().toString()))
-                .isZero();
+        String output = watch();
 
         assertThat(connections).hasValue(2);
-        assertThat(output.toString().lines().toList())
+        assertThat(output.lines().toList())
                 .doesNotHaveDuplicates()
                 .last()
                 .isEqualTo(
@@ -133,104 +113,93 @@ class ReplayWatchTest {
     void pollsAControlPlaneThatHasNoEventsUntilTheReplayIsForgotten() {
         eventless = true;
         left.set(2);
+        String output = watch();
+
+        assertThat(left).hasValue(0);
+        assertThat(output).contains("m.0a1b2c3d  running").doesNotContain("connection lost");
+    }
+
+    /** What the command prints where there is no terminal. */
+    private String watch() {
         StringWriter output = new StringWriter();
         CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
         line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
-
-        assertThat(line.execute("replay", "watch", "m.0a1b2c3d", "--api", api().toString()))
+        assertThat(line.execute(
+                        "replay",
+                        "watch",
+                        "m.0a1b2c3d",
+                        "--api",
+                        control.uri("").toString()))
                 .isZero();
-
-        assertThat(left).hasValue(0);
-        assertThat(output.toString()).contains("m.0a1b2c3d  running").doesNotContain("connection lost");
+        return output.toString();
     }
 
     @Test
     void isSteeredByKeysAndDrawnInATerminal() throws Exception {
-        PipedInputStream typed = new PipedInputStream();
-        PipedOutputStream keyboard = new PipedOutputStream(typed);
-        ByteArrayOutputStream screen = new ByteArrayOutputStream();
-        ControlApi api = new ControlApi(api(), null);
-        try (ExternalTerminal terminal = new ExternalTerminal("test", "ansi", typed, screen, UTF_8);
-                ReplayEvents status = new ReplayEvents(
-                        api, PATH, NgsiJson.read(replay("running").getBytes(UTF_8)))) {
-            terminal.setSize(new Size(60, 20));
-            status.start();
-            Thread watch = new Thread(() -> steer(terminal, status, api));
-            watch.start();
-
-            type(keyboard, " ");
+        inATerminal(replay("running"), terminal -> {
+            type(" ");
             assertThat(requests.take()).isEqualTo(PATH + "/pause {}");
-            type(keyboard, "\033[C");
+            type("\033[C");
             assertThat(requests.take()).isEqualTo(PATH + "/seek {\"to\":1777600040000}");
-            type(keyboard, "m");
-            type(keyboard, "hq\n");
+            type("m");
+            type("hq\n");
             assertThat(requests.take())
                     .startsWith("/api/missions/m/markers ")
                     .contains("\"note\":\"hq\"", "1777600030000");
             await().until(() -> screen.toString(UTF_8).contains("0:00:30 / 0:01:00"));
-
             screen.reset();
             terminal.setSize(new Size(40, 20));
             terminal.raise(Signal.WINCH);
             await().until(() -> screen.toString(UTF_8).contains("0:00:30 / 0:01:00"));
             assertThat(screen.toString(UTF_8)).as("drawn on a cleared screen").contains("\033[H\033[J");
-            type(keyboard, "q");
-            watch.join(60_000);
-            assertThat(watch.isAlive()).isFalse();
-        }
+        });
     }
 
     @Test
     void steersTheGroupOfAReplayThatHasOne() throws Exception {
-        PipedInputStream typed = new PipedInputStream();
-        PipedOutputStream keyboard = new PipedOutputStream(typed);
-        ControlApi api = new ControlApi(api(), null);
-        String member = replay("running").replace("\"mission\"", "\"group\":\"0a1b2c3d\",\"mission\"");
-        try (ExternalTerminal terminal =
-                        new ExternalTerminal("test", "ansi", typed, new ByteArrayOutputStream(), UTF_8);
-                ReplayEvents status = new ReplayEvents(api, PATH, NgsiJson.read(member.getBytes(UTF_8)))) {
+        inATerminal(replay("running").replace("\"mission\"", "\"group\":\"0a1b2c3d\",\"mission\""), terminal -> {
+            type(" ");
+            assertThat(requests.take()).isEqualTo("/api/replays/groups/0a1b2c3d/pause {}");
+            type("\033[C");
+            assertThat(requests.take()).isEqualTo("/api/replays/groups/0a1b2c3d/seek {\"to\":1777600040000}");
+            type("mh\n");
+            assertThat(requests.take()).as("of its own mission").startsWith("/api/missions/m/markers ");
+        });
+    }
+
+    /** What happens while a replay is watched there, until q ends it. */
+    private void inATerminal(String replay, ThrowingConsumer<ExternalTerminal> typing) throws Exception {
+        ControlApi api = new ControlApi(control.uri(""), null);
+        try (var terminal = new ExternalTerminal("test", "ansi", new PipedInputStream(keyboard), screen, UTF_8);
+                ReplayEvents status = new ReplayEvents(api, PATH, read(replay))) {
             terminal.setSize(new Size(60, 20));
             status.start();
-            Thread watch = new Thread(() -> steer(terminal, status, api));
-            watch.start();
-
-            type(keyboard, " ");
-            assertThat(requests.take()).isEqualTo("/api/replays/groups/0a1b2c3d/pause {}");
-            type(keyboard, "\033[C");
-            assertThat(requests.take()).isEqualTo("/api/replays/groups/0a1b2c3d/seek {\"to\":1777600040000}");
-            type(keyboard, "mh\n");
-            assertThat(requests.take()).as("of its own mission").startsWith("/api/missions/m/markers ");
-            type(keyboard, "q");
-            watch.join(60_000);
-            assertThat(watch.isAlive()).isFalse();
+            CompletableFuture<Void> watch = CompletableFuture.runAsync(() -> {
+                try {
+                    new ReplayWatch(null, PATH).steer(terminal, status, api);
+                } catch (IOException e) {
+                    throw new UncheckedIOException(e);
+                }
+            });
+            typing.accept(terminal);
+            type("q");
+            assertThat(watch).succeedsWithin(Duration.ofMinutes(1));
         }
+    }
+
+    private void type(String keys) throws IOException {
+        keyboard.write(keys.getBytes(UTF_8));
+        keyboard.flush();
     }
 
     @Test
     void printsNoMoreOfAReplayThatRestsAtItsEnd() {
         events.add(event("status", replay("running")));
         events.add(event("status", replay("ended").replace("\"ended\"", "\"ended\",\"settled\":true")));
-        StringWriter output = new StringWriter();
-        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
-        line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
-
-        assertTimeoutPreemptively(
-                Duration.ofMinutes(1), () -> line.execute("replay", "watch", "m.0a1b2c3d", "--api", api().toString()));
-
-        assertThat(output.toString().lines()).last().asString().startsWith("m.0a1b2c3d  ended");
-    }
-
-    private static void steer(ExternalTerminal terminal, ReplayEvents status, ControlApi api) {
-        try {
-            new ReplayWatch(null, PATH).steer(terminal, status, api);
-        } catch (java.io.IOException e) {
-            throw new java.io.UncheckedIOException(e);
-        }
-    }
-
-    private static void type(PipedOutputStream keyboard, String keys) throws java.io.IOException {
-        keyboard.write(keys.getBytes(UTF_8));
-        keyboard.flush();
+        assertThat(assertTimeoutPreemptively(Duration.ofMinutes(1), this::watch).lines())
+                .last()
+                .asString()
+                .startsWith("m.0a1b2c3d  ended");
     }
 
     @Test
@@ -248,8 +217,7 @@ class ReplayWatchTest {
     @Test
     void requestsNoPlaceBeforeAReplayHasReportedWhereItIs() throws Exception {
         ReplayKeys keys = new ReplayKeys();
-        JsonNode requested =
-                NgsiJson.read("{\"replay\":\"m.0a1b2c3d\",\"speed\":1,\"wanted\":\"running\"}".getBytes(UTF_8));
+        JsonNode requested = read("{\"replay\":\"m.0a1b2c3d\",\"speed\":1,\"wanted\":\"running\"}");
 
         for (String key : List.of("left", "]", "l", "m")) {
             assertThat(keys.press(key, requested)).as(key).isEmpty();
@@ -264,15 +232,15 @@ class ReplayWatchTest {
 
         assertThat(keys.press(",", json("running"))).isEmpty();
         assertThat(keys.message()).contains("Pause it first");
-        assertThat(keys.press(",", json("paused"))).get().hasToString("Request[path=step, body={count=-1}]");
-        assertThat(keys.press(" ", json("paused"))).get().hasToString("Request[path=resume, body={}]");
+        assertRequest(keys.press(",", json("paused")), "step, body={count=-1}");
+        assertRequest(keys.press(" ", json("paused")), "resume, body={}");
     }
 
     @Test
     void stepsBackFromTheEnd() throws Exception {
         ReplayKeys keys = new ReplayKeys();
 
-        assertThat(keys.press(",", json("ended"))).get().hasToString("Request[path=step, body={count=-1}]");
+        assertRequest(keys.press(",", json("ended")), "step, body={count=-1}");
         assertThat(keys.press(".", json("ended"))).isEmpty();
         assertThat(keys.message()).contains("has ended");
     }
@@ -281,8 +249,8 @@ class ReplayWatchTest {
     void seeksWithinWhatIsPlayed() throws Exception {
         JsonNode part = part("running");
 
-        assertThat(new ReplayKeys().press("[", part)).get().hasToString("Request[path=seek, body={to=1777600020000}]");
-        assertThat(new ReplayKeys().press("]", part)).get().hasToString("Request[path=seek, body={to=1777600039999}]");
+        assertRequest(new ReplayKeys().press("[", part), "seek, body={to=1777600020000}");
+        assertRequest(new ReplayKeys().press("]", part), "seek, body={to=1777600039999}");
     }
 
     @Test
@@ -290,9 +258,8 @@ class ReplayWatchTest {
         assertThat(ReplayScreen.block(part("running"), "", false, 80))
                 .contains("[" + "#".repeat(30) + "·".repeat(30) + "]  50 %", "2026-05-01T01:47:10Z  0:00:10 / 0:00:20");
         assertThat(ReplayScreen.block(part("ended"), "", false, 80)).contains("[" + "#".repeat(60) + "] 100 %");
-        JsonNode range = NgsiJson.read(replay("running")
-                .replace("\"mission\"", "\"range\":{\"from\":1777600030000,\"to\":1777600050000},\"mission\"")
-                .getBytes(UTF_8));
+        JsonNode range = read(replay("running")
+                .replace("\"mission\"", "\"range\":{\"from\":1777600030000,\"to\":1777600050000},\"mission\""));
         assertThat(ReplayScreen.block(range, "", false, 80)).contains("[" + "·".repeat(60) + "]   0 %");
     }
 
@@ -306,43 +273,36 @@ class ReplayWatchTest {
     @Test
     void setsARangeByItsTwoEndsAndTakesItAway() throws Exception {
         ReplayKeys keys = new ReplayKeys();
-        JsonNode later = NgsiJson.read(
-                replay("running").replace("1777600030000", "1777600045000").getBytes(UTF_8));
+        JsonNode later = read(replay("running").replace("1777600030000", "1777600045000"));
 
         assertThat(keys.press("l", later)).isEmpty();
         assertThat(keys.press("l", json("running")).orElseThrow().body())
                 .containsEntry("from", 1_777_600_030_000L)
                 .containsEntry("to", 1_777_600_045_000L);
-        JsonNode looping = NgsiJson.read(replay("running")
-                .replace("\"mission\"", "\"range\":{\"from\":1,\"to\":2},\"mission\"")
-                .getBytes(UTF_8));
-        assertThat(keys.press("l", looping)).get().hasToString("Request[path=loop, body={}]");
+        JsonNode looping =
+                read(replay("running").replace("\"mission\"", "\"range\":{\"from\":1,\"to\":2},\"mission\""));
+        assertRequest(keys.press("l", looping), "loop, body={}");
     }
 
     @Test
     void limitsSpeedsAndJumpsToTheirBounds() throws Exception {
         ReplayKeys keys = new ReplayKeys();
-        JsonNode fast = NgsiJson.read(replay("running").replace("2.0", "800").getBytes(UTF_8));
+        JsonNode fast = read(replay("running").replace("2.0", "800"));
 
-        assertThat(keys.press("+", fast)).get().hasToString("Request[path=speed, body={speed=1000.0}]");
-        assertThat(keys.press("-", json("running"))).get().hasToString("Request[path=speed, body={speed=1.0}]");
-        assertThat(keys.press("]", json("running"))).get().hasToString("Request[path=seek, body={to=1777600060000}]");
-        assertThat(new ReplayKeys().press("shift-left", json("running")))
-                .get()
-                .hasToString("Request[path=seek, body={to=1777600000000}]");
+        assertRequest(keys.press("+", fast), "speed, body={speed=1000.0}");
+        assertRequest(keys.press("-", json("running")), "speed, body={speed=1.0}");
+        assertRequest(keys.press("]", json("running")), "seek, body={to=1777600060000}");
+        assertRequest(new ReplayKeys().press("shift-left", json("running")), "seek, body={to=1777600000000}");
     }
 
     @Test
     void jumpsOnFromWhereTheLastJumpLeads() throws Exception {
         ReplayKeys keys = new ReplayKeys();
         keys.press("right", json("running"));
-        assertThat(keys.press("right", json("running")))
-                .get()
-                .hasToString("Request[path=seek, body={to=1777600050000}]");
+        assertRequest(keys.press("right", json("running")), "seek, body={to=1777600050000}");
 
-        JsonNode told = NgsiJson.read(
-                replay("running").replace("1777600030000", "1777600031000").getBytes(UTF_8));
-        assertThat(keys.press("right", told)).get().hasToString("Request[path=seek, body={to=1777600041000}]");
+        JsonNode told = read(replay("running").replace("1777600030000", "1777600031000"));
+        assertRequest(keys.press("right", told), "seek, body={to=1777600041000}");
     }
 
     @Test
@@ -358,11 +318,19 @@ class ReplayWatchTest {
         assertThat(ReplayScreen.block(json("running"), "a notice that is long", false, 20))
                 .hasSize(6)
                 .allMatch(line -> line.length() <= 20);
-        assertThat(ReplayScreen.block(NgsiJson.read("{\"replay\":\"m.0a1b2c3d\"}".getBytes(UTF_8)), "", false, 79))
+        assertThat(ReplayScreen.block(read("{\"replay\":\"m.0a1b2c3d\"}"), "", false, 79))
                 .contains("not begun", "? help");
     }
 
     private static JsonNode json(String state) throws Exception {
-        return NgsiJson.read(replay(state).getBytes(UTF_8));
+        return read(replay(state));
+    }
+
+    private static JsonNode read(String json) throws Exception {
+        return NgsiJson.read(json.getBytes(UTF_8));
+    }
+
+    private static void assertRequest(Optional<?> request, String path) {
+        assertThat(request).get().hasToString("Request[path=" + path + "]");
     }
 }

@@ -27,6 +27,7 @@ import io.furrow.launcher.process.RestClient;
 import io.furrow.launcher.suite.FarmSecretFile;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.process.TestProcess;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -153,24 +154,12 @@ class ControlPlaneCommandIT {
     }
 
     private Process run(Path output, String... further) throws IOException {
-        List<String> arguments = new ArrayList<>(List.of(
-                Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                "-Xmx256m",
-                "-cp",
-                System.getProperty("java.class.path"),
-                Furrow.class.getName(),
-                "control-plane",
-                "--kafka",
-                kafka.bootstrapServers(),
-                "--control-port",
-                "0",
-                "--health-port",
-                "0",
-                "--log",
-                output + ".log"));
-        arguments.addAll(List.of(further));
-        Process process = new ProcessBuilder(arguments)
-                .redirectErrorStream(true)
+        Object[] arguments = "control-plane --kafka %s --control-port 0 --health-port 0 --log %s.log"
+                .formatted(kafka.bootstrapServers(), output)
+                .split(" ");
+        ProcessBuilder builder = TestProcess.java("-Xmx256m", Furrow.class, arguments);
+        builder.command().addAll(List.of(further));
+        Process process = builder.redirectErrorStream(true)
                 .redirectOutput(new File(output.toString()))
                 .start();
         processes.add(process);

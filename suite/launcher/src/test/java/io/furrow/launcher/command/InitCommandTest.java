@@ -21,11 +21,8 @@ class InitCommandTest {
     private final CommandLine furrow =
             Furrow.commandLine().setOut(new PrintWriter(out)).setErr(new PrintWriter(err));
 
-    @TempDir
-    Path directory;
-
     @Test
-    void makesSecretsThatOnlyTheirOwnerMayRead() throws Exception {
+    void makesSecretsThatOnlyTheirOwnerMayRead(@TempDir Path directory) throws Exception {
         Path file = directory.resolve(".env");
 
         assertThat(furrow.execute("init", file.toString())).as(err.toString()).isZero();
@@ -43,7 +40,7 @@ class InitCommandTest {
     }
 
     @Test
-    void makesASecretOfAFarm() throws Exception {
+    void makesASecretOfAFarm(@TempDir Path directory) throws Exception {
         furrow.execute("init", directory.resolve(".env").toString());
         String secret = Files.readAllLines(directory.resolve(".env")).get(0).replaceFirst("FARM_SECRET=", "");
 
@@ -53,7 +50,7 @@ class InitCommandTest {
     }
 
     @Test
-    void leavesAFileThatIsThereAsItIs() throws Exception {
+    void leavesAFileThatIsThereAsItIs(@TempDir Path directory) throws Exception {
         Path file = Files.writeString(directory.resolve(".env"), "FARM_SECRET=of running containers\n");
 
         assertThat(furrow.execute("init", file.toString())).isNotZero();

@@ -7,7 +7,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Map;
 
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -30,12 +30,13 @@ class ScenarioCommandIT {
                "where": "yard", "period": "PT0.2S", "meanCelsius": 18}]}]}
             """;
 
-    @TempDir
-    Path directory;
-
     private final StringWriter out = new StringWriter();
     private final StringWriter err = new StringWriter();
+
+    @AutoClose
     private EmbeddedMqtt mqtt;
+
+    @AutoClose
     private FiwareStandIn fiware;
 
     @BeforeEach
@@ -44,14 +45,8 @@ class ScenarioCommandIT {
         fiware = FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), Suite.MQTT_USER, Suite.MQTT_PASSWORD));
     }
 
-    @AfterEach
-    void stop() {
-        fiware.close();
-        mqtt.close();
-    }
-
     @Test
-    void runsTheDevicesOfAFileUntilTheTimeIsOver() throws Exception {
+    void runsTheDevicesOfAFileUntilTheTimeIsOver(@TempDir Path directory) throws Exception {
         assertThat(run(Files.writeString(directory.resolve("farm.json"), SCENARIO), "--for", "2s"))
                 .as("%s", err)
                 .isZero();
@@ -67,7 +62,7 @@ class ScenarioCommandIT {
     }
 
     @Test
-    void reportsWhatIsWrongWithAFile() throws Exception {
+    void reportsWhatIsWrongWithAFile(@TempDir Path directory) throws Exception {
         String wrong = SCENARIO.replace("PT0.2S", "often");
 
         assertThat(run(Files.writeString(directory.resolve("farm.json"), wrong)))

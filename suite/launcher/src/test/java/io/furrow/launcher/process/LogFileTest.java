@@ -6,7 +6,6 @@ import java.io.InputStreamReader;
 import java.net.InetAddress;
 import java.net.ServerSocket;
 import java.net.Socket;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.attribute.PosixFilePermissions;
@@ -20,16 +19,15 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.launcher.Furrow;
+import io.furrow.process.TestProcess;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class LogFileTest {
     private static final Logger LOG = LoggerFactory.getLogger(LogFileTest.class);
     private static final int LINES = 200;
     private static final int TIMEOUT_MS = 60_000;
-
-    @TempDir
-    Path directory;
 
     @AfterEach
     void leaveTheFile() {
@@ -38,7 +36,7 @@ class LogFileTest {
     }
 
     @Test
-    void beginsAnewWhenItIsFullAndRetainsFiveFormerOnes() throws IOException {
+    void beginsAnewWhenItIsFullAndRetainsFiveFormerOnes(@TempDir Path directory) throws IOException {
         System.setProperty("furrow.log.size", "1KB");
         Path log = directory.resolve("furrow.log");
 
@@ -52,7 +50,7 @@ class LogFileTest {
     }
 
     @Test
-    void neverRenamesWhatIsNoFile() throws IOException {
+    void neverRenamesWhatIsNoFile(@TempDir Path directory) throws IOException {
         System.setProperty("furrow.log.size", "1KB");
         Path device = Files.createSymbolicLink(directory.resolve("device"), Path.of("/dev/null"));
 
@@ -69,7 +67,7 @@ class LogFileTest {
     }
 
     @Test
-    void isTheErrorStreamOfAHostOfDevices() throws Exception {
+    void isTheErrorStreamOfAHostOfDevices(@TempDir Path directory) throws Exception {
         Path secret = Files.writeString(directory.resolve("secret"), "0123456789abcdef");
         Files.setPosixFilePermissions(secret, PosixFilePermissions.fromString("rw-r--r--"));
 
@@ -89,22 +87,14 @@ class LogFileTest {
         try (ServerSocket journal = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
             journal.setSoTimeout(TIMEOUT_MS);
             List<String> command = new ArrayList<>(List.of(
-                    "bash",
-                    "-c",
-                    "exec 2>/dev/tcp/127.0.0.1/%d \"$@\"".formatted(journal.getLocalPort()),
-                    "bash",
-                    Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                    "-Xmx128m",
-                    "-cp",
-                    System.getProperty("java.class.path"),
-                    program.getName()));
-            command.addAll(List.of(arguments));
+                    "bash", "-c", "exec 2>/dev/tcp/127.0.0.1/%d \"$@\"".formatted(journal.getLocalPort()), "bash"));
+            command.addAll(
+                    TestProcess.java("-Xmx128m", program, (Object[]) arguments).command());
             Process process = new ProcessBuilder(command)
                     .redirectOutput(ProcessBuilder.Redirect.DISCARD)
                     .start();
             try (Socket errors = journal.accept();
-                    BufferedReader lines = new BufferedReader(
-                            new InputStreamReader(errors.getInputStream(), StandardCharsets.UTF_8))) {
+                    BufferedReader lines = new BufferedReader(new InputStreamReader(errors.getInputStream(), UTF_8))) {
                 errors.setSoTimeout(TIMEOUT_MS);
                 StringBuilder others = new StringBuilder();
                 String line = lines.readLine();

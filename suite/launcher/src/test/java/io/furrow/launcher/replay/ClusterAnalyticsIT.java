@@ -4,7 +4,6 @@ import java.io.OutputStream;
 import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.List;
 import java.util.Optional;
 import java.util.jar.JarOutputStream;
@@ -17,13 +16,14 @@ import org.apache.flink.configuration.WebOptions;
 import org.apache.flink.runtime.minicluster.MiniCluster;
 import org.apache.flink.runtime.minicluster.MiniClusterConfiguration;
 import org.apache.kafka.clients.admin.NewTopic;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.cli.control.ReplayAnalyticsJob;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.files.Folders;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -32,17 +32,12 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class ClusterAnalyticsIT {
     private static final ReplayAnalyticsJob JOB = new ReplayAnalyticsJob("collision", "data.weeding.replay.0a1b2c3d");
-    private static final Duration TIMEOUT = Duration.ofMinutes(1);
 
     @TempDir
     Path folder;
 
+    @AutoClose
     private MiniCluster cluster;
-
-    @AfterEach
-    void stop() throws Exception {
-        cluster.close();
-    }
 
     /** The jar is empty: the cluster is in this JVM, and has the job's classes. */
     @Test
@@ -55,22 +50,20 @@ class ClusterAnalyticsIT {
             FlinkRest rest = new FlinkRest(url);
             List<String> options = List.of("--bootstrap-servers", kafka.bootstrapServers(), "--parallelism", "1");
             ClusterAnalytics analytics = new ClusterAnalytics(rest, emptyJar(), options, false);
-            await().atMost(TIMEOUT).until(() -> analytics.free() == 2);
+            await().until(() -> analytics.free() == 2);
 
             analytics.start(JOB);
             analytics.start(new ReplayAnalyticsJob("presence", JOB.topic()));
 
             assertThat(analytics.running())
                     .containsExactlyInAnyOrder("collision-of-weeding.0a1b2c3d", "presence-of-weeding.0a1b2c3d");
-            await().atMost(TIMEOUT).until(() -> analytics.free() == 0);
+            await().until(() -> analytics.free() == 0);
             assertThat(cluster.listJobs().get()).hasSize(2);
-            try (var jars = Files.list(uploads())) {
-                assertThat(jars).hasSize(1);
-            }
+            assertThat(Folders.list(uploads()).stream()).hasSize(1);
 
             analytics.cancel(JOB.name());
             analytics.cancel("nothing");
-            await().atMost(TIMEOUT).until(() -> analytics.running().size() == 1);
+            await().until(() -> analytics.running().size() == 1);
             assertThatThrownBy(() -> analytics.start(new ReplayAnalyticsJob("sowing", JOB.topic())))
                     .isInstanceOf(AnalyticsException.class)
                     .hasMessageContaining("/run");

@@ -1,45 +1,26 @@
 package io.furrow.launcher.status;
 
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 import java.util.HashMap;
 import java.util.Map;
 import java.util.Optional;
 
-import com.sun.net.httpserver.HttpServer;
-import org.junit.jupiter.api.AfterEach;
-import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.launcher.status.JobLag.Lag;
+import io.furrow.stub.StubServer;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 class JobLagTest {
     private final Map<String, String> answers = new HashMap<>();
-    private HttpServer flink;
-    private URI uri;
 
-    @BeforeEach
-    void start() throws Exception {
-        flink = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        flink.createContext("/", exchange -> {
-            byte[] body = answers.getOrDefault(exchange.getRequestURI().toString(), "[]")
-                    .getBytes(StandardCharsets.UTF_8);
-            exchange.sendResponseHeaders(200, body.length);
-            exchange.getResponseBody().write(body);
-            exchange.close();
-        });
-        flink.start();
-        uri = URI.create("http://127.0.0.1:" + flink.getAddress().getPort());
-    }
+    @AutoClose
+    private final StubServer flink = new StubServer(exchange -> StubServer.answer(
+            exchange, 200, answers.getOrDefault(exchange.getRequestURI().toString(), "[]")));
 
-    @AfterEach
-    void stop() {
-        flink.stop(0);
-    }
+    private final URI uri = flink.uri("");
 
     @Test
     void reportsForAJobHowFarItsWorstSourceIsBehind() throws Exception {
@@ -48,10 +29,8 @@ class JobLagTest {
         job(
                 "2",
                 Map.of(
-                        "c",
-                        "Source: Read reported events -> Recognize events",
-                        "d",
-                        "Source: Read devices -> Recognize devices"));
+                        "c", "Source: Read reported events -> Recognize events",
+                        "d", "Source: Read devices -> Recognize devices"));
         metric("2", "c", "Source__Read_reported_events.pendingRecords", 5);
         metric("2", "d", "Source__Read_devices.pendingRecords", 0);
         JobLag lag = new JobLag(uri, Map.of("collision", "1", "ingest", "2"));

@@ -71,10 +71,8 @@ class CommandLineTest {
         try (ServerSocket taken = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
             String port = Integer.toString(taken.getLocalPort());
 
-            assertThat(furrow.execute("up", "--kafka-port", "0", "--connect-port", "0", "--flink-port", port))
-                    .isNotZero();
-
-            assertThat(err.toString().trim())
+            assertThat(refusal("up", "--kafka-port", "0", "--connect-port", "0", "--flink-port", port)
+                            .trim())
                     .isEqualTo("Port " + port
                             + " of 127.0.0.1, meant for Flink's web UI, is in use. Stop what listens there, "
                             + "or choose another with --flink-port.");
@@ -88,9 +86,7 @@ class CommandLineTest {
             String first = Integer.toString(one.getLocalPort());
             String second = Integer.toString(two.getLocalPort());
 
-            assertThat(furrow.execute(upOnPorts(first, second))).isNotZero();
-
-            assertThat(err.toString().trim())
+            assertThat(refusal(upOnPorts(first, second)).trim())
                     .isEqualTo(
                             "These ports are in use: %s of 127.0.0.1 for Flink's web UI (--flink-port), %s of 127.0.0.1 for the MQTT broker (--mqtt-port). Stop what listens there, or choose others with the options in brackets."
                                     .formatted(first, second));
@@ -101,30 +97,27 @@ class CommandLineTest {
     void rejectsOnePortForTwoParts() {
         String port = Integer.toString(FreePort.orFree(0));
 
-        assertThat(furrow.execute(upOnPorts(port, port))).isNotZero();
-
-        assertThat(err.toString()).startsWith("Port " + port + " of 127.0.0.1, meant for the MQTT broker");
+        assertThat(refusal(upOnPorts(port, port)))
+                .startsWith("Port " + port + " of 127.0.0.1, meant for the MQTT broker");
     }
 
     @Test
     void namesAllServersThatDoNotAnswerBeforeAnythingStarts() {
         String silent = "127.0.0.1:" + FreePort.orFree(0);
 
-        assertThat(furrow.execute(with(
-                        upOnFreePorts(directory.resolve("data")),
-                        "--orion",
-                        "http://" + silent,
-                        "--iot-agent",
-                        "http://no-such-host.invalid:4041",
-                        "--mqtt",
-                        "tcp://" + silent,
-                        "--mongo",
-                        "mongodb://me:s3cret@" + silent,
-                        "--kafka",
-                        silent)))
-                .isNotZero();
-
-        assertThat(err.toString().lines())
+        assertThat(refusal(with(
+                                upOnFreePorts(directory.resolve("data")),
+                                "--orion",
+                                "http://" + silent,
+                                "--iot-agent",
+                                "http://no-such-host.invalid:4041",
+                                "--mqtt",
+                                "tcp://" + silent,
+                                "--mongo",
+                                "mongodb://me:s3cret@" + silent,
+                                "--kafka",
+                                silent))
+                        .lines())
                 .containsExactly(
                         "--orion http://%s: the context broker does not answer there (Connection refused). Start it, or name another address."
                                 .formatted(silent),
@@ -156,19 +149,14 @@ class CommandLineTest {
                 "--mongo x|--mongo: ",
             })
     void rejectsWhatCannotWorkOrIsOpenToAnybody(String options, String sentence) {
-        List<String> arguments = new ArrayList<>(List.of(upOnFreePorts(directory)));
-        arguments.addAll(List.of(options.split(" ")));
-
-        assertThat(furrow.execute(arguments.toArray(String[]::new))).isNotZero();
-
-        assertThat(err.toString()).startsWith(sentence).hasLineCount(1);
+        assertThat(refusal(with(upOnFreePorts(directory), options.split(" "))))
+                .startsWith(sentence)
+                .hasLineCount(1);
     }
 
     @Test
     void rejectsADirectoryThatKafkaWouldDivide() {
-        assertThat(furrow.execute(upOnFreePorts(directory.resolve("a,b")))).isNotZero();
-
-        assertThat(err.toString())
+        assertThat(refusal(upOnFreePorts(directory.resolve("a,b"))))
                 .startsWith("--data " + directory + "/a,b has a comma")
                 .hasLineCount(1);
     }
@@ -205,12 +193,13 @@ class CommandLineTest {
     })
     void namesItOfAPartThatRunsAloneToo(String command, String option) throws Exception {
         try (ServerSocket taken = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
-            List<String> arguments = new ArrayList<>(List.of(command.split(" ")));
-            arguments.addAll(List.of("--kafka", "127.0.0.1:1", option, Integer.toString(taken.getLocalPort())));
-
-            assertThat(furrow.execute(arguments.toArray(String[]::new))).isNotZero();
-
-            assertThat(err.toString().trim())
+            assertThat(refusal(with(
+                                    command.split(" "),
+                                    "--kafka",
+                                    "127.0.0.1:1",
+                                    option,
+                                    Integer.toString(taken.getLocalPort())))
+                            .trim())
                     .startsWith("Port %d of 127.0.0.1, meant for ".formatted(taken.getLocalPort()))
                     .endsWith("or choose another with %s.".formatted(option))
                     .hasLineCount(1);
@@ -231,21 +220,17 @@ class CommandLineTest {
     void rejectsSettingsOfAnIotAgentThatCannotBeRight(String first, String second, String sentence) {
         for (String command :
                 List.of("up", "control-plane --kafka 127.0.0.1:1 --farm-secret x --log " + directory.resolve("log"))) {
-            List<String> arguments = new ArrayList<>(List.of(command.split(" ")));
-            arguments.addAll(List.of(first, second));
-
-            assertThat(furrow.execute(arguments.toArray(String[]::new))).isNotZero();
-
-            assertThat(err.toString()).contains(sentence).hasLineCount(1);
-            err.getBuffer().setLength(0);
+            assertThat(refusal(with(command.split(" "), first, second)))
+                    .contains(sentence)
+                    .hasLineCount(1);
         }
     }
 
     @Test
     void rejectsAnIotAgentWithoutItsContextBroker() {
-        assertThat(furrow.execute("up", "--iot-agent=http://127.0.0.1:4041")).isNotZero();
-
-        assertThat(err.toString()).startsWith("--iot-agent needs --orion").hasLineCount(1);
+        assertThat(refusal("up", "--iot-agent=http://127.0.0.1:4041"))
+                .startsWith("--iot-agent needs --orion")
+                .hasLineCount(1);
     }
 
     @ParameterizedTest
@@ -255,18 +240,14 @@ class CommandLineTest {
         "control-plane --allowed-hosts http://farm, --allowed-hosts, http://farm' is not a host"
     })
     void rejectsNamesOfItsServersThatAreNone(String arguments, String option, String why) {
-        assertThat(furrow.execute(arguments.split(" "))).isNotZero();
-
-        assertThat(err.toString()).contains(option, why);
+        assertThat(refusal(arguments.split(" "))).contains(option, why);
     }
 
     @Test
     void reportsThatADirectoryCannotBeWritten() throws Exception {
         Path file = Files.createFile(directory.resolve("file"));
 
-        assertThat(furrow.execute(upOnFreePorts(file.resolve("below")))).isNotZero();
-
-        assertThat(err.toString().trim())
+        assertThat(refusal(upOnFreePorts(file.resolve("below"))).trim())
                 .startsWith("Cannot write in %s (%s is not a directory)".formatted(file.resolve("below"), file))
                 .endsWith("Name a directory that you may write with --data.")
                 .hasLineCount(1);
@@ -297,9 +278,7 @@ class CommandLineTest {
     void doesNotStartOnTheDataOfAFarmWithoutItsSecret() throws Exception {
         Path data = Files.createDirectories(directory.resolve("data/kafka")).getParent();
 
-        assertThat(furrow.execute(upOnFreePorts(data))).isNotZero();
-
-        assertThat(err.toString().trim())
+        assertThat(refusal(upOnFreePorts(data)).trim())
                 .startsWith(data + " has the data of a farm but not its secret")
                 .hasLineCount(1);
         assertThat(data.resolve("kafka")).isEmptyDirectory();
@@ -314,9 +293,7 @@ class CommandLineTest {
         up.remove(data);
         up.addAll(List.of(arguments.split(" ")));
 
-        assertThat(furrow.execute(up.toArray(String[]::new))).isNotZero();
-
-        assertThat(err.toString().trim())
+        assertThat(refusal(up.toArray(String[]::new)).trim())
                 .startsWith("Without --data the farm's secret would be deleted at the end")
                 .endsWith("./furrow secret new FILE makes one.")
                 .hasLineCount(1);
@@ -324,18 +301,15 @@ class CommandLineTest {
 
     @Test
     void rejectsAnUnknownOptionInOneSentence() {
-        assertThat(furrow.execute("demo", "--orin", "x")).isNotZero();
-        assertThat(err.toString()).contains("Unknown options: '--orin', 'x'").contains("furrow demo --help");
+        assertThat(refusal("demo", "--orin", "x"))
+                .contains("Unknown options: '--orin', 'x'")
+                .contains("furrow demo --help");
     }
 
     @ParameterizedTest
     @CsvSource({
-        "hooks.example.com/x, no scheme",
-        "localhost:8080/x, http",
-        "ftp://hooks.example.com/x, http",
-        "http:///x, host",
-        "https://, not a URI",
-        "http://a b/x, not a URI"
+        "hooks.example.com/x, no scheme", "localhost:8080/x, http", "ftp://hooks.example.com/x, http",
+        "http:///x, host", "https://, not a URI", "http://a b/x, not a URI"
     })
     void refusesToStartWithAWebhookThatCannotBeReached(String webhook, String reason) {
         for (String command : new String[] {"up", "control-plane"}) {
@@ -350,21 +324,23 @@ class CommandLineTest {
     void refusesToStartWithAWebhookSecretThatIsNone() throws Exception {
         Path tooShort = Files.writeString(directory.resolve("short"), "short\n");
         String[] common = {"control-plane", "--kafka", "127.0.0.1:1"};
-        assertThat(furrow.execute(with(common, "--webhook-secret", tooShort.toString())))
-                .isNotZero();
-        assertThat(err.toString()).contains("name that too");
-        err.getBuffer().setLength(0);
-        assertThat(furrow.execute(
-                        with(common, "--webhook", "https://example.com/x", "--webhook-secret", tooShort.toString())))
-                .isNotZero();
-        assertThat(err.toString()).contains("--webhook-secret: " + tooShort, "holds no secret", "openssl rand");
+        assertThat(refusal(with(common, "--webhook-secret", tooShort.toString())))
+                .contains("name that too");
+        assertThat(refusal(with(common, "--webhook", "https://example.com/x", "--webhook-secret", tooShort.toString())))
+                .contains("--webhook-secret: " + tooShort, "holds no secret", "openssl rand");
     }
 
     @Test
     void rejectsShareOfSilentDevicesThatIsNone() {
-        assertThat(furrow.execute("control-plane", "--kafka", "127.0.0.1:1", "--silent-share", "0"))
-                .isNotZero();
-        assertThat(err.toString()).contains("--silent-share", "0.0");
+        assertThat(refusal("control-plane", "--kafka", "127.0.0.1:1", "--silent-share", "0"))
+                .contains("--silent-share", "0.0");
+    }
+
+    /** What it says of a command line that it does not carry out. */
+    private String refusal(String... arguments) {
+        err.getBuffer().setLength(0);
+        assertThat(furrow.execute(arguments)).isNotZero();
+        return err.toString();
     }
 
     private static String[] with(String[] some, String... more) {

@@ -1,30 +1,20 @@
 package io.furrow.launcher.suite;
 
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
 
-import com.sun.net.httpserver.HttpServer;
 import org.junit.jupiter.api.Test;
+
+import io.furrow.stub.StubServer;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ConnectorsTest {
     @Test
     void reportsWhereTheContextBrokerCannotNotify() throws Exception {
-        HttpServer source = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        StringBuilder health =
-                new StringBuilder("{\"subscriptions\":[{\"url\":\"http://x/v2/notify\",\"failsInARow\":0}]}");
-        source.createContext("/health", exchange -> {
-            byte[] body = health.toString().getBytes(StandardCharsets.UTF_8);
-            exchange.sendResponseHeaders(200, body.length);
-            exchange.getResponseBody().write(body);
-            exchange.close();
-        });
-        source.start();
-        URI page = URI.create("http://127.0.0.1:" + source.getAddress().getPort() + "/health");
-        try {
+        var health = new StringBuilder("{\"subscriptions\":[{\"url\":\"http://x/v2/notify\",\"failsInARow\":0}]}");
+        URI page;
+        try (StubServer source = new StubServer(exchange -> StubServer.answer(exchange, 200, health.toString()))) {
+            page = source.uri("/health");
             Connectors connectors = new Connectors(page, page, null);
             assertThat(connectors.undelivered()).isEmpty();
 
@@ -34,8 +24,6 @@ class ConnectorsTest {
                     .get()
                     .asString()
                     .startsWith("The context broker could not deliver its last 3 notifications to http://x/v2/notify.");
-        } finally {
-            source.stop(0);
         }
         assertThat(new Connectors(page, page, null).undelivered())
                 .as("of a source that starts again")

@@ -14,11 +14,8 @@ import io.furrow.embedded.EmbeddedFlink;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class JobsIT {
-    @TempDir
-    Path directory;
-
     @Test
-    void reportsWhichJobCannotContinueFromItsState() throws Exception {
+    void reportsWhichJobCannotContinueFromItsState(@TempDir Path directory) throws Exception {
         Path state = Files.createDirectories(directory.resolve("ingest/0a1b/chk-3"));
         Files.writeString(state.resolve("_metadata"), "damaged");
         StreamExecutionEnvironment env = StreamExecutionEnvironment.createLocalEnvironment();

@@ -41,13 +41,10 @@ class ReplayAnalyticsIT {
     private static final long T0 = 1_777_600_000_000L;
     private static final List<String> IDS = List.of("0000000a", "0000000b", "0000000c", "0000000d");
 
-    @TempDir
-    Path folder;
-
     private KafkaProducer<String, byte[]> producer;
 
     @Test
-    void runsTheJobsThatReplaysRequestAndEndsThemWithTheReplays() throws Exception {
+    void runsTheJobsThatReplaysRequestAndEndsThemWithTheReplays(@TempDir Path folder) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(folder.resolve("kafka"), 0);
                 RunDirectory directory = RunDirectory.open(folder.resolve("data"));
                 KafkaAccess access = KafkaAccess.to(kafka.bootstrapServers(), null);
@@ -61,8 +58,7 @@ class ReplayAnalyticsIT {
             SuiteSettings settings = SuiteSettings.onFreePorts("10s");
             new SuiteFields(new FieldsTopic(access.clientProperties())).write(settings, directory);
             Jobs jobs = new Jobs(flink, directory.resolve("jobs"));
-            EmbeddedAnalytics analytics =
-                    new EmbeddedAnalytics(flink, jobs, new SuiteJobs(settings, access, null, directory));
+            var analytics = new EmbeddedAnalytics(flink, jobs, new SuiteJobs(settings, access, null, directory));
             for (String id : IDS) {
                 addDesired(id, null);
                 play(id);

@@ -10,9 +10,6 @@ import org.junit.jupiter.api.io.TempDir;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class RunDirectoryTest {
-    @TempDir
-    Path parent;
-
     @Test
     void deletesATemporaryOneWithAllThatIsInIt() throws Exception {
         Path path;
@@ -25,7 +22,7 @@ class RunDirectoryTest {
     }
 
     @Test
-    void retainsTheOneThatWasNamedAndLetsItBeUsedAgain() throws Exception {
+    void retainsTheOneThatWasNamedAndLetsItBeUsedAgain(@TempDir Path parent) throws Exception {
         try (RunDirectory retained = RunDirectory.open(parent.resolve("kept"))) {
             Files.writeString(retained.resolve("file"), "x");
         }
@@ -36,7 +33,7 @@ class RunDirectoryTest {
     }
 
     @Test
-    void detectsWhetherASuiteHasStoredSomethingInIt() throws Exception {
+    void detectsWhetherASuiteHasStoredSomethingInIt(@TempDir Path parent) throws Exception {
         try (RunDirectory temporary = RunDirectory.open(null)) {
             assertThat(temporary.isFresh()).isTrue();
         }
@@ -54,7 +51,7 @@ class RunDirectoryTest {
     }
 
     @Test
-    void letsNobodyElseReadADirectoryThatItMakes() throws Exception {
+    void letsNobodyElseReadADirectoryThatItMakes(@TempDir Path parent) throws Exception {
         Path retained = parent.resolve("var/kept");
         RunDirectory.open(retained).close();
         assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(retained)))

@@ -34,8 +34,7 @@ class SuiteFieldsIT {
     void leavesToImportsWhatHasBeenImported() throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(folder.resolve("kafka"), 0);
                 RunDirectory directory = RunDirectory.open(folder.resolve("data"))) {
-            Properties client = new Properties();
-            client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+            Properties client = kafka.client();
             FieldsTopic topic = new FieldsTopic(client);
             SuiteFields fields = new SuiteFields(topic);
 
@@ -66,8 +65,7 @@ class SuiteFieldsIT {
     void givesTheJobCollisionTheExclusionZonesThatHold() throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(folder.resolve("kafka"), 0);
                 RunDirectory directory = RunDirectory.open(folder.resolve("data"))) {
-            Properties client = new Properties();
-            client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+            Properties client = kafka.client();
             FieldsTopic topic = new FieldsTopic(client);
             SuiteFields fields = new SuiteFields(topic);
             fields.write(ownBroker(null), directory);
@@ -79,7 +77,7 @@ class SuiteFieldsIT {
                     .orElseThrow();
             JsonNode features = NgsiJson.read(Files.readAllBytes(zones)).path("features");
             assertThat(features).hasSize(1);
-            assertThat(features.path(0).path("geometry")).isEqualTo(yard.geometry());
+            assertThat(features.at("/0/geometry")).isEqualTo(yard.geometry());
 
             topic.write(List.of(new FieldVersion(yard.id(), 1_000, null, yard.properties())));
             assertThat(fields.zones(directory)).isEmpty();
@@ -110,8 +108,7 @@ class SuiteFieldsIT {
     void rejectsAFileThatCannotBeUsedWholly() throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(folder.resolve("kafka"), 0);
                 RunDirectory directory = RunDirectory.open(folder.resolve("data"))) {
-            Properties client = new Properties();
-            client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+            Properties client = kafka.client();
             SuiteFields fields = new SuiteFields(new FieldsTopic(client));
             Path own = file(FEATURE.formatted("good", "0.01"), FEATURE.formatted("b d", "0.01"));
 

@@ -13,6 +13,7 @@ import java.util.concurrent.RejectedExecutionException;
 
 import org.junit.jupiter.api.Test;
 
+import io.furrow.clock.SettableClock;
 import io.furrow.control.alarm.watch.EncounterReport;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.CommandSender;
@@ -91,25 +92,10 @@ class StopRobotsTest {
     void stopsNoRobotForWhatBecameOldWhileItWaited() {
         List<Runnable> waiting = new ArrayList<>();
         executor = waiting::add;
-        long[] now = {NOW};
-        robots = new StopRobots(settings(), types::get, audited::add, executor, new Clock() {
-            @Override
-            public java.time.ZoneId getZone() {
-                return ZoneOffset.UTC;
-            }
-
-            @Override
-            public Clock withZone(java.time.ZoneId zone) {
-                return this;
-            }
-
-            @Override
-            public Instant instant() {
-                return Instant.ofEpochMilli(now[0]);
-            }
-        });
+        SettableClock clock = new SettableClock(Instant.ofEpochMilli(NOW));
+        robots = new StopRobots(settings(), types::get, audited::add, executor, clock);
         robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
-        now[0] += StopRobots.FRESH.toMillis() + 1;
+        clock.pass(StopRobots.FRESH.plusMillis(1));
         waiting.forEach(Runnable::run);
         assertThat(sent).isEmpty();
         assertThat(audited).extracting(AuditEntry::reason).containsExactly("the prediction was older than 10 s");

@@ -1,7 +1,6 @@
 package io.furrow.control.alarm.action;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
@@ -10,11 +9,12 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class WebhookSecretTest {
-    private static final byte[] BODY = "{\"id\":\"collision-7:7\"}".getBytes(StandardCharsets.UTF_8);
+    private static final byte[] BODY = "{\"id\":\"collision-7:7\"}".getBytes(UTF_8);
 
     @TempDir
     Path directory;

@@ -2,8 +2,6 @@ package io.furrow.control.alarm.action;
 
 import java.io.IOException;
 import java.io.OutputStream;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -15,15 +13,11 @@ import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
 import java.util.concurrent.CountDownLatch;
-import java.util.concurrent.ExecutorService;
-import java.util.concurrent.Executors;
 import java.util.concurrent.TimeUnit;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.sun.net.httpserver.Headers;
-import com.sun.net.httpserver.HttpServer;
-import org.junit.jupiter.api.AfterEach;
-import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -34,6 +28,7 @@ import io.furrow.control.alarm.Alarm;
 import io.furrow.control.alarm.Cause;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.stub.StubServer;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -41,37 +36,27 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class WebhookTest {
     private static final long NOW = 1_700_000_000_000L;
 
-    @TempDir
-    Path directory;
-
     private final List<byte[]> posted = Collections.synchronizedList(new ArrayList<>());
     private final List<Headers> headers = Collections.synchronizedList(new ArrayList<>());
-    private final ExecutorService threads = Executors.newCachedThreadPool();
-    private HttpServer server;
     private int status = 204;
     private String retryAfter;
     private boolean endless;
     private final CountDownLatch cut = new CountDownLatch(1);
 
-    @BeforeEach
-    void listen() throws IOException {
-        server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        server.setExecutor(threads);
-        server.createContext("/hook", exchange -> {
-            posted.add(exchange.getRequestBody().readAllBytes());
-            headers.add(exchange.getRequestHeaders());
-            if (retryAfter != null) {
-                exchange.getResponseHeaders().add("Retry-After", retryAfter);
-            }
-            exchange.getResponseHeaders().add("Location", "/elsewhere");
-            exchange.sendResponseHeaders(status, endless ? 0 : -1);
-            if (endless) {
-                writeUntilItIsCut(exchange.getResponseBody());
-            }
-            exchange.close();
-        });
-        server.start();
-    }
+    @AutoClose
+    private final StubServer server = new StubServer(exchange -> {
+        posted.add(exchange.getRequestBody().readAllBytes());
+        headers.add(exchange.getRequestHeaders());
+        if (retryAfter != null) {
+            exchange.getResponseHeaders().add("Retry-After", retryAfter);
+        }
+        exchange.getResponseHeaders().add("Location", "/elsewhere");
+        exchange.sendResponseHeaders(status, endless ? 0 : -1);
+        if (endless) {
+            writeUntilItIsCut(exchange.getResponseBody());
+        }
+        exchange.close();
+    });
 
     private void writeUntilItIsCut(OutputStream body) {
         try {
@@ -81,12 +66,6 @@ class WebhookTest {
         } catch (IOException e) {
             cut.countDown();
         }
-    }
-
-    @AfterEach
-    void stop() {
-        server.stop(0);
-        threads.shutdownNow();
     }
 
     @Test
@@ -101,7 +80,7 @@ class WebhookTest {
     }
 
     @Test
-    void signsTheBodyWhereThereIsASecret() throws Exception {
+    void signsTheBodyWhereThereIsASecret(@TempDir Path directory) throws Exception {
         Path file = Files.writeString(directory.resolve("secret"), "a-secret-of-some-length\n");
         post(settings().signedWith(file));
         String signature = WebhookSecret.read(file).signature(NOW / 1000, posted.get(0));
@@ -109,7 +88,7 @@ class WebhookTest {
     }
 
     @Test
-    void refusesToStartWithASecretThatIsNone() {
+    void refusesToStartWithASecretThatIsNone(@TempDir Path directory) {
         assertThatThrownBy(() -> new Webhook(settings().signedWith(directory.resolve("nosuch")), Clock.systemUTC()))
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("nosuch cannot be read");
@@ -130,14 +109,10 @@ class WebhookTest {
 
     @ParameterizedTest
     @CsvSource({
-        "429, 30, PT30S",
-        "503, 30, PT30S",
-        "500, 30, ",
-        "503, 999999, PT1H",
-        "503, 'Tue, 14 Nov 2023 22:14:00 GMT', PT40S",
-        "503, 'Tue, 14 Nov 2023 22:13:00 GMT', PT0S",
-        "503, soon, ",
-        "503, -1, "
+        "429, 30, PT30S", "503, 30, PT30S",
+        "500, 30, ", "503, 999999, PT1H",
+        "503, 'Tue, 14 Nov 2023 22:14:00 GMT', PT40S", "503, 'Tue, 14 Nov 2023 22:13:00 GMT', PT0S",
+        "503, soon, ", "503, -1, "
     })
     void readsHowLongItIsToWait(int answered, String header, Duration expected) throws Exception {
         status = answered;
@@ -156,7 +131,7 @@ class WebhookTest {
     @Test
     void reportsThatNobodyListens() throws Exception {
         Webhook.Settings settings = settings();
-        server.stop(0);
+        server.close();
         assertThat(post(settings))
                 .returns(Webhook.Outcome.FAILED, Webhook.Answer::outcome)
                 .satisfies(answer -> assertThat(answer.reason()).isEqualTo("connection refused"));
@@ -171,8 +146,7 @@ class WebhookTest {
     }
 
     private Webhook.Settings settings() {
-        return Webhook.Settings.of(URI.create(
-                "http://127.0.0.1:%d/hook".formatted(server.getAddress().getPort())));
+        return Webhook.Settings.of(server.uri("/hook"));
     }
 
     private static Webhook.Answer post(Webhook.Settings settings) throws Exception {

@@ -1,9 +1,7 @@
 package io.furrow.control.rest.view;
 
-import java.time.Clock;
+import java.time.Duration;
 import java.time.Instant;
-import java.time.ZoneId;
-import java.time.ZoneOffset;
 import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
@@ -14,9 +12,10 @@ import java.util.concurrent.TimeUnit;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.clock.SettableClock;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.mission.RecordingException;
 
@@ -29,13 +28,10 @@ class EventTilesTest {
     private static final MissionTimeline.Extent EXTENT = new MissionTimeline.Extent(0, HOUR - 1);
 
     private final Counter counter = new Counter();
-    private final SettableClock clock = new SettableClock();
-    private final EventTiles tiles = new EventTiles(counter, clock);
+    private final SettableClock clock = new SettableClock(Instant.ofEpochMilli(1_000_000));
 
-    @AfterEach
-    void close() {
-        tiles.close();
-    }
+    @AutoClose
+    private final EventTiles tiles = new EventTiles(counter, clock);
 
     /** Counts one event in each bucket. */
     private static final class Counter implements EventTiles.Counter {
@@ -62,25 +58,6 @@ class EventTilesTest {
         @Override
         public void close() {
             open.countDown();
-        }
-    }
-
-    private static final class SettableClock extends Clock {
-        volatile long millis = 1_000_000;
-
-        @Override
-        public ZoneId getZone() {
-            return ZoneOffset.UTC;
-        }
-
-        @Override
-        public Clock withZone(ZoneId zone) {
-            return this;
-        }
-
-        @Override
-        public Instant instant() {
-            return Instant.ofEpochMilli(millis);
         }
     }
 
@@ -120,7 +97,7 @@ class EventTilesTest {
         count(FIRST, end + 120_000);
         assertThat(counter.requested).as("nothing comes that late").hasSize(3);
 
-        clock.millis += 600_000;
+        clock.pass(Duration.ofMinutes(10));
         count(FIRST, end + 120_000);
         assertThat(counter.requested).as("what is older than ten minutes").hasSize(4);
     }

@@ -8,7 +8,6 @@ import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -30,6 +29,8 @@ import io.furrow.control.rest.RunningApi;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.US_ASCII;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -57,7 +58,7 @@ class ReplayFeedIT {
     }
 
     private String startReplay() throws Exception {
-        return client.json(client.send("POST", "/api/replays", "{\"mission\":\"m\"}"))
+        return client.ask("POST", "/api/replays", "{\"mission\":\"m\"}")
                 .path("replay")
                 .asText();
     }
@@ -76,7 +77,7 @@ class ReplayFeedIT {
     private static BufferedReader events(HttpResponse<InputStream> answer) {
         assertThat(answer.statusCode()).isEqualTo(200);
         assertThat(answer.headers().firstValue("Content-Type")).contains("text/event-stream");
-        return new BufferedReader(new InputStreamReader(answer.body(), StandardCharsets.UTF_8));
+        return new BufferedReader(new InputStreamReader(answer.body(), UTF_8));
     }
 
     private static String until(BufferedReader events, String text) throws Exception {
@@ -138,8 +139,7 @@ class ReplayFeedIT {
                 Socket socket = new Socket(
                         running.api().uri().getHost(), running.api().uri().getPort());
                 socket.getOutputStream()
-                        .write("GET /api/replays/events HTTP/1.1\r\nHost: localhost\r\n\r\n"
-                                .getBytes(StandardCharsets.US_ASCII));
+                        .write("GET /api/replays/events HTTP/1.1\r\nHost: localhost\r\n\r\n".getBytes(US_ASCII));
                 silent.add(socket);
             }
             await().until(() -> open("/api/replays/" + replay + "/events").statusCode() == 503);

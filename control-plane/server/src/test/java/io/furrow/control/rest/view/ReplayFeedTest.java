@@ -1,7 +1,6 @@
 package io.furrow.control.rest.view;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
 import java.util.concurrent.BlockingQueue;
@@ -16,6 +15,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -43,7 +43,7 @@ class ReplayFeedTest {
     }
 
     private void put(String topic, String key, String json) {
-        view.put(topic, key, json == null ? null : json.getBytes(StandardCharsets.UTF_8));
+        view.put(topic, key, json == null ? null : json.getBytes(UTF_8));
     }
 
     private ReplayFeed feed(String only) {
@@ -76,7 +76,7 @@ class ReplayFeedTest {
     }
 
     private static String text(byte[] bytes) {
-        return new String(bytes, StandardCharsets.UTF_8);
+        return new String(bytes, UTF_8);
     }
 
     private static String next(BlockingQueue<String> events) throws InterruptedException {

@@ -1,4 +1,4 @@
-package io.furrow.analytics.collision;
+package io.furrow.analytics;
 
 import org.apache.flink.api.common.eventtime.Watermark;
 import org.apache.flink.api.common.eventtime.WatermarkGenerator;

@@ -1,12 +1,10 @@
-package io.furrow.soak.control;
+package io.furrow.soak;
 
 import java.time.Duration;
-import java.util.ArrayList;
 import java.util.Collection;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
-import java.util.Properties;
 import java.util.Set;
 import java.util.function.Consumer;
 
@@ -17,39 +15,47 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.StringDeserializer;
 
 /** What is committed on topics. */
-final class CommittedState {
+public final class CommittedState {
     private static final Duration POLL = Duration.ofMillis(100);
 
     private CommittedState() {}
 
-    static KafkaConsumer<String, byte[]> consumer(String bootstrapServers) {
-        Properties settings = new Properties();
-        settings.setProperty("bootstrap.servers", bootstrapServers);
-        settings.setProperty("isolation.level", "read_committed");
-        settings.setProperty("auto.offset.reset", "earliest");
-        settings.setProperty("enable.auto.commit", "false");
-        settings.setProperty("allow.auto.create.topics", "false");
+    public static KafkaConsumer<String, byte[]> consumer(String bootstrapServers) {
+        return consumer(bootstrapServers, "read_committed");
+    }
+
+    public static KafkaConsumer<String, byte[]> consumer(String bootstrapServers, String isolation) {
+        Map<String, Object> settings = Map.of(
+                "bootstrap.servers", bootstrapServers,
+                "isolation.level", isolation,
+                "auto.offset.reset", "earliest",
+                "enable.auto.commit", "false",
+                "allow.auto.create.topics", "false");
         return new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer());
     }
 
+    public static List<TopicPartition> partitions(KafkaConsumer<?, ?> consumer, Collection<String> topics) {
+        return topics.stream()
+                .flatMap(topic -> consumer.partitionsFor(topic).stream())
+                .map(each -> new TopicPartition(each.topic(), each.partition()))
+                .toList();
+    }
+
     /** Assigns all partitions of the topics, from their beginning. */
-    static void assign(KafkaConsumer<String, byte[]> consumer, Collection<String> topics) {
-        List<TopicPartition> partitions = new ArrayList<>();
-        for (String topic : topics) {
-            consumer.partitionsFor(topic).forEach(each -> partitions.add(new TopicPartition(topic, each.partition())));
-        }
+    public static void assign(KafkaConsumer<String, byte[]> consumer, Collection<String> topics) {
+        List<TopicPartition> partitions = partitions(consumer, topics);
         consumer.assign(partitions);
         consumer.seekToBeginning(partitions);
     }
 
-    static Set<String> topics(String bootstrapServers) {
+    public static Set<String> topics(String bootstrapServers) {
         try (KafkaConsumer<String, byte[]> consumer = consumer(bootstrapServers)) {
             return consumer.listTopics().keySet();
         }
     }
 
     /** Everything that is on the topics now. */
-    static void read(
+    public static void read(
             String bootstrapServers, Collection<String> topics, Consumer<ConsumerRecord<String, byte[]>> reader) {
         try (KafkaConsumer<String, byte[]> consumer = consumer(bootstrapServers)) {
             assign(consumer, topics);
@@ -61,7 +67,7 @@ final class CommittedState {
     }
 
     /** The newest value of each key that has one. */
-    static Map<String, byte[]> table(String bootstrapServers, String topic) {
+    public static Map<String, byte[]> table(String bootstrapServers, String topic) {
         Map<String, byte[]> newest = new LinkedHashMap<>();
         read(bootstrapServers, List.of(topic), record -> {
             if (record.value() == null) {
