@@ -65,10 +65,10 @@ class RestartedMotionTest {
         var track = track(rules);
         Stage<Long, SegmentUpdate, ApproachCandidate> match =
                 Stage.of(() -> new KeyedProcessOperator<>(new MatchSegments(rules)), SegmentUpdate::cube, Types.LONG);
-        Stage<String, ApproachCandidate, Approach> predict =
-                Stage.of(() -> new KeyedProcessOperator<>(new TrackPredictions(rules)), ApproachCandidate::pair, Types.STRING);
-        Stage<String, ApproachCandidate, Approach> join =
-                Stage.of(() -> new KeyedProcessOperator<>(new JoinContacts(rules)), ApproachCandidate::pair, Types.STRING);
+        Stage<String, ApproachCandidate, Approach> predict = Stage.of(
+                () -> new KeyedProcessOperator<>(new TrackPredictions(rules)), ApproachCandidate::pair, Types.STRING);
+        Stage<String, ApproachCandidate, Approach> join = Stage.of(
+                () -> new KeyedProcessOperator<>(new JoinContacts(rules)), ApproachCandidate::pair, Types.STRING);
         List<Stage<?, ?, ?>> stages = List.of(track, match, predict, join);
         List<Approach> approaches = new ArrayList<>();
         long newest = Long.MIN_VALUE;

@@ -28,7 +28,7 @@ import io.furrow.simulators.device.MqttTestClient;
 import io.furrow.simulators.mqtt.MqttAccess;
 import io.furrow.simulators.scenario.DesiredDeviceReader;
 
-import static java.nio.charset.UTF_8;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 

@@ -114,7 +114,8 @@ public final class ControlPlaneCommand implements Callable<Integer> {
             names = "--replication-factor",
             paramLabel = "N",
             description =
-                    "Replication factor of created topics, including internal ones; existing topics do not change. " + "Default: that of the brokers.")
+                    "Replication factor of created topics, including internal ones; existing topics do not change. "
+                            + "Default: that of the brokers.")
     private short replicationFactor = -1;
 
     @Option(

@@ -59,8 +59,7 @@ public final class ScenarioCommand implements Callable<Integer> {
     @Option(
             names = "--qos",
             paramLabel = "N",
-            description =
-                    "QoS of measures: 0, measures are lost while the connection is broken; or 1. Default: 1.")
+            description = "QoS of measures: 0, measures are lost while the connection is broken; or 1. Default: 1.")
     private int qos = 1;
 
     @Option(
