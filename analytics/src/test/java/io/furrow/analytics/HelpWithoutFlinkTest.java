@@ -38,7 +38,7 @@ class HelpWithoutFlinkTest {
     void explainsTheOptionsOfThePresenceJob() throws Exception {
         TestProcess.Ended help = analytics("presence", "--help");
 
-        assertThat(help.output())
+        assertThat(help.output().replaceAll("\\s+", " "))
                 .contains("--fields-topic=TOPIC", "--dwell=DURATION", "--time-to-live=DURATION")
                 .contains("Default: 5min.", "Default: data.presence.")
                 .doesNotContain("Exception");

@@ -31,7 +31,7 @@ import io.furrow.flink.time.LatenessAware;
  * <p><b>Cleared</b>: when the position's time-to-live has ended, the last {@code left} is emitted and no position waits.
  *
  * <p><b>Late</b>: a position not after the watermark goes to {@link #LATE}, and to {@link #LAGGING} if the device has reported no newer one.
- * So does, to {@code LATE}, a position of which {@value #MAX_WAITING} wait, counted as {@code crowdedOut}. A version of a field that comes after its time has passed for a
+ * So does, to {@code LATE}, a position of which {@value #MAX_WAITING} wait, counted as {@code rejectedCrowded}. A version of a field that comes after its time has passed for a
  * device shows when the device is next looked at: with its next position, or within {@link #AGAIN} of event time.
  *
  * <p><b>Emits</b>: passages, a device's in the order of the times at which they are certain, before the watermark of that time.
@@ -62,7 +62,7 @@ public final class TrackPresence
     private transient EventTimeProgress reached;
     private transient Counter accepted;
     private transient Counter late;
-    private transient Counter crowdedOut;
+    private transient Counter rejectedCrowded;
     private transient Counter changes;
 
     public TrackPresence(PresenceRules rules, TopicSnapshot atStart) {
@@ -83,7 +83,7 @@ public final class TrackPresence
         presence = getRuntimeContext().getState(new ValueStateDescriptor<>("presence", PresenceState.class));
         accepted = getRuntimeContext().getMetricGroup().counter("accepted");
         late = getRuntimeContext().getMetricGroup().counter("late");
-        crowdedOut = getRuntimeContext().getMetricGroup().counter("crowdedOut");
+        rejectedCrowded = getRuntimeContext().getMetricGroup().counter("rejectedCrowded");
         changes = getRuntimeContext().getMetricGroup().counter("fieldChanges");
     }
 
@@ -97,7 +97,7 @@ public final class TrackPresence
         } else if (eventTimeBuffer.offer(fix, MAX_WAITING, context.timerService())) {
             accepted.inc();
         } else {
-            crowdedOut.inc();
+            rejectedCrowded.inc();
             context.output(LATE, fix);
         }
     }

@@ -136,7 +136,7 @@ class ControlTopologyTest {
         farm.read(Topics.DOMAIN_MANAGER);
         farm.request(Topics.DOMAIN_MANAGER, null, request);
         assertThat(error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("domain-exists");
-        assertThat(farm.remembered("domain-answers")).isEqualTo(2);
+        assertThat(farm.remembered("domain-responses")).isEqualTo(2);
     }
 
     @Test
@@ -413,10 +413,10 @@ class ControlTopologyTest {
                 .doesNotContain("-0000")
                 .contains("domain-requests-repartition", "mission-requests-repartition", "replay-requests-repartition");
         assertThat(farm.stores()).isEqualTo(Set.of("""
-                                domains farm-sequence domain-answers domain-positions missions mission-statuses
+                                domains farm-sequence domain-responses domain-positions missions mission-statuses
                                 devices mission-device-lists mission-rollouts templates template-versions
-                                mission-answers mission-positions device-statuses-positions device-healths-positions
+                                mission-responses mission-positions device-statuses-positions device-healths-positions
                                 device-connections-positions replays replay-reports recordings fields replay-sequence
-                                replay-answers replay-positions replay-statuses-positions""".split("\\s+")));
+                                replay-responses replay-positions replay-statuses-positions""".split("\\s+")));
     }
 }

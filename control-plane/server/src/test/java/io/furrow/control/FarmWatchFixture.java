@@ -155,7 +155,7 @@ final class FarmWatchFixture implements AutoCloseable {
 
     /** Keys of the signs that those who listen to reports sent. */
     List<String> signs() {
-        return read(FarmWatch.APPLICATION + "-device-signs-repartition").stream()
+        return read(FarmWatch.APPLICATION + "-device-heartbeats-repartition").stream()
                 .map(TestRecord::key)
                 .toList();
     }

@@ -429,16 +429,16 @@ class WatchTopologyTest {
                         .toString())
                 .doesNotContain("-0000")
                 .contains("""
-                                alarm-requests-repartition device-signs-repartition collisions-repartition
+                                alarm-requests-repartition device-heartbeats-repartition collisions-repartition
                                 temperatures-repartition clocks-repartition faults-repartition
                                 context-domains-repartition context-missions-repartition
                                 context-mission-statuses-repartition""".split("\\s+"));
         assertThat(farm.stores()).isEqualTo(Set.of("""
-                                alarms current-alarms alarm-mutes alarm-sequence alarm-groups alarm-counted
-                                alarm-answers alarm-positions collisions-positions temperatures-positions suspect-runs
-                                clocks-positions faults-positions wanted-devices device-connections device-health
+                                alarms current-alarms alarm-mutes alarm-sequence alarm-groups alarm-overflow
+                                alarm-responses alarm-positions collisions-positions temperatures-positions suspect-streaks
+                                clocks-positions faults-positions desired-devices device-connections device-health
                                 context-domains-positions context-missions-positions
                                 context-mission-statuses-positions context-domains context-missions context-statuses
-                                context-tallies context-fields context-outdated context-told""".split("\\s+")));
+                                context-tallies context-fields context-outdated context-reported""".split("\\s+")));
     }
 }

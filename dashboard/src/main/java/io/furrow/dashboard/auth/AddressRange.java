@@ -33,7 +33,7 @@ public record AddressRange(InetAddress first, int bits) {
     }
 
     private static String none(String text) {
-        return "'%s' is not an address as 10.0.0.7, and no block as 10.0.0.0/24".formatted(text);
+        return "'%s' is neither an address such as 10.0.0.7 nor a block such as 10.0.0.0/24".formatted(text);
     }
 
     boolean contains(InetAddress address) {

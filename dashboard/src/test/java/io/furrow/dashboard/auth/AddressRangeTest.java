@@ -39,6 +39,6 @@ class AddressRangeTest {
     void rejectsNamesAndWhatIsNoAddress(String text) {
         assertThatThrownBy(() -> AddressRange.parse(text))
                 .isInstanceOf(IllegalArgumentException.class)
-                .hasMessageContaining("no address");
+                .hasMessageContaining("neither an address");
     }
 }

@@ -113,18 +113,23 @@ public final class FuzzPages {
                 // it tries again later
             }
         }
-        for (String id : output.deleted) {
-            require(
-                    broker.exchanges().stream()
-                            .filter(exchange -> exchange.path().contains("id=" + URLEncoder.encode(id, UTF_8) + "&"))
-                            .anyMatch(exchange -> shown(exchange)
-                                    .filter(list -> !list.findValuesAsText("id").stream()
-                                            .map(FuzzPages::printable)
-                                            .toList()
-                                            .contains(id))
-                                    .isPresent()),
-                    id + " is told as deleted, and was not shown as absent");
+        output.deleted.forEach((id, type) -> require(
+                broker.exchanges().stream()
+                        .filter(exchange -> exchange.path().contains("id=" + URLEncoder.encode(id, UTF_8) + "&"))
+                        .anyMatch(exchange -> shown(exchange)
+                                .filter(list -> !contains(list, id, type))
+                                .isPresent()),
+                id + " of type " + type + " is reported as deleted, and was not shown as absent"));
+    }
+
+    private static boolean contains(JsonNode list, String id, String type) {
+        for (JsonNode entity : list) {
+            if (printable(entity.path("id").asText()).equals(id)
+                    && printable(entity.path("type").asText("Thing")).equals(type)) {
+                return true;
+            }
         }
+        return false;
     }
 
     /** Where one answer was all: which of several is asked for again, only the reader knows. */

@@ -1,5 +1,6 @@
 package io.furrow.connect.source;
 
+import java.util.HashMap;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
@@ -13,6 +14,7 @@ import io.furrow.connect.repair.MissedChange;
 import io.furrow.connect.repair.RepairOutput;
 import io.furrow.connect.source.journal.JournalRecordCodec;
 import io.furrow.connect.source.notification.NotificationTranslator;
+import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -25,8 +27,8 @@ public final class FuzzOutput implements RepairOutput {
 
     /** Entities of which there is a record or a dead letter. */
     public final Set<String> told = new HashSet<>();
-    /** Entities of which there is a record without a value. */
-    public final Set<String> deleted = new HashSet<>();
+    /** Types of the entities of which there is a record without a value, by id. */
+    public final Map<String, String> deleted = new HashMap<>();
 
     private final RepairRecordWriter records = new RepairRecordWriter(SETTINGS, null, new Ledger());
 
@@ -48,7 +50,7 @@ public final class FuzzOutput implements RepairOutput {
         if (record.topic().equals(SETTINGS.deadLetterTopic())) {
             told.add(new String(record.value(), UTF_8));
         } else if (record.value() == null) {
-            deleted.add(record.key());
+            deleted.put(record.key(), record.headers().getOrDefault(HeaderNames.ENTITY_TYPE, ""));
         } else {
             try {
                 Entity.parse(record.value());

@@ -56,7 +56,7 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, EnumeratorS
         this.source = source;
         state.splits().forEach(split -> unassigned.put(split.replay(), split));
         Gauge<Integer> size = desired::size;
-        context.metricGroup().gauge("replaysWanted", size);
+        context.metricGroup().gauge("replaysDesired", size);
         rejected = context.metricGroup().counter("rejected");
     }
 

@@ -29,7 +29,7 @@ import io.furrow.flink.time.EventTimeProgress;
  * wait.
  *
  * <p><b>Late</b>: a position not after the watermark goes to {@link #LATE}, and to {@link #LAGGING} if the device has reported no newer one.
- * So does, to {@code LATE}, a position of which {@value #MAX_WAITING} wait, counted as {@code crowdedOut}.
+ * So does, to {@code LATE}, a position of which {@value #MAX_WAITING} wait, counted as {@code rejectedCrowded}.
  *
  * <p><b>Emits</b>: updates of cells, a device's in the order of their time, before the watermark that brings them about.
  */
@@ -54,7 +54,7 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
     private transient EventTimeProgress reached;
     private transient Counter accepted;
     private transient Counter late;
-    private transient Counter crowdedOut;
+    private transient Counter rejectedCrowded;
 
     public TrackDevices(CollisionRules rules) {
         super(new PendingFixesSerializer());
@@ -80,7 +80,7 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
         super.open();
         accepted = getMetricGroup().counter("accepted");
         late = getMetricGroup().counter("late");
-        crowdedOut = getMetricGroup().counter("crowdedOut");
+        rejectedCrowded = getMetricGroup().counter("rejectedCrowded");
         if (restored.changed()) {
             forget(false, (track, out) -> {});
         }
@@ -94,7 +94,7 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
             seeLagging(fix);
             output.collect(LATE, record);
         } else if (!offer(fix, MAX_WAITING)) {
-            crowdedOut.inc();
+            rejectedCrowded.inc();
             output.collect(LATE, record);
         } else {
             accepted.inc();

@@ -17,7 +17,7 @@ import io.furrow.model.ngsi.StateJson;
  * @param group entity of the mission, domain or field that it belongs to; null if none
  * @param seen when its cause was last observed, epoch ms, as of the last change; null in a group alarm
  * @param inhibitedBy id of the alarm that inhibits its delivery; null if none
- * @param identity tenant, service path, types and subject; null where the subject is not an entity and no pair
+ * @param identity tenant, service path, types and subject; null where the subject is neither an entity nor a pair
  */
 public record Alarm(
         @JsonUnwrapped Head head,

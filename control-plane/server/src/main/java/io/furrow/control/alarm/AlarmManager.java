@@ -13,14 +13,14 @@ import io.furrow.control.manager.UnitOfWork;
  */
 public final class AlarmManager {
     /** Store of the suspects of each field, by field. */
-    public static final String SUSPECTS = "suspect-runs";
+    public static final String SUSPECTS = "suspect-streaks";
 
     private static final String ALARMS = "alarms";
     private static final String CURRENT = "current-alarms";
     private static final String MUTES = "alarm-mutes";
     private static final String SEQUENCE = "alarm-sequence";
     private static final String GROUPS = "alarm-groups";
-    private static final String COUNTED = "alarm-counted";
+    private static final String COUNTED = "alarm-overflow";
 
     private AlarmManager() {}
 

@@ -42,7 +42,7 @@ public final class ContextTopology {
             "context-tallies",
             "context-fields",
             "context-outdated",
-            "context-told");
+            "context-reported");
 
     private final ManagerTopology topology;
     private final FiwareScope scope;

@@ -30,7 +30,7 @@ import io.furrow.model.topic.Topics;
  */
 public final class HealthWatch {
     private static final Logger LOG = LoggerFactory.getLogger(HealthWatch.class);
-    private static final String WANTED = "wanted-devices";
+    private static final String DESIRED = "desired-devices";
     private static final String HEALTH = "device-health";
     private static final String CONNECTIONS = "device-connections";
 
@@ -38,11 +38,11 @@ public final class HealthWatch {
 
     /** Returns the desired devices from a global store, which every instance and any processor can read. */
     static MonitoredDevices desired(ProcessorContext<?, ?> context) {
-        return new MonitoredDevices(StoreTable.readOnly(context, WANTED));
+        return new MonitoredDevices(StoreTable.readOnly(context, DESIRED));
     }
 
     private static MonitoredDevices desired(UnitOfWork unitOfWork) {
-        return new MonitoredDevices(unitOfWork.table(WANTED));
+        return new MonitoredDevices(unitOfWork.table(DESIRED));
     }
 
     /** Names of the stores that users of {@link #typeOf} need. */
@@ -64,13 +64,13 @@ public final class HealthWatch {
 
     /** Adds the processors. The stores of alarms must exist already. */
     public static void add(ManagerTopology topology, HealthOptions options) {
-        topology.addGlobalStore(WANTED, Topics.DEVICES);
+        topology.addGlobalStore(DESIRED, Topics.DEVICES);
         topology.addGlobalStore(CONNECTIONS, Topics.DEVICES_CONNECTION);
         topology.addStores(stores());
         KStream<String, byte[]> signs = topology.stream(Topics.RAW, "reports-in", AutoOffsetReset.latest())
                 .process(() -> new HeartbeatProcessor(options), Named.as("hear-devices"));
         ManagerTopology.observe(
-                ManagerTopology.toSinglePartition(signs, "device-signs"),
+                ManagerTopology.toSinglePartition(signs, "device-heartbeats"),
                 new ManagerTopology.Nodes("keep-device-health", "device-health-out"),
                 unitOfWork -> observer(new DeviceHealthTracker(
                         unitOfWork.table(HEALTH, DeviceHealth.class),

@@ -39,6 +39,6 @@ public record ManagerTopic<C>(String name, String topic, Function<byte[], Parsed
 
     /** The store of the ids that were answered. */
     public String answers() {
-        return name + "-answers";
+        return name + "-responses";
     }
 }

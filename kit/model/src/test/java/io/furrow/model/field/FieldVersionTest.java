@@ -82,8 +82,8 @@ class FieldVersionTest {
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '"', textBlock = """
             {"id"                                                                   | NOT_JSON     | ''
-            7                                                                       | NOT_AN_EVENT | no GeoJSON Feature
-            {'type':'FeatureCollection','features':[]}                              | NOT_AN_EVENT | no GeoJSON Feature
+            7                                                                       | NOT_AN_EVENT | not a GeoJSON Feature
+            {'type':'FeatureCollection','features':[]}                              | NOT_AN_EVENT | not a GeoJSON Feature
             {'type':'Feature','geometry':null,'properties':{'validFrom':'T'}}       | NOT_AN_EVENT | 'id'
             {'type':'Feature','id':1.5,'geometry':null,'properties':{'validFrom':'T'}} | NOT_AN_EVENT | 'id'
             {'type':'Feature','id':'my field','geometry':null,'properties':{'validFrom':'T'}} | NOT_AN_EVENT | 'id'
@@ -91,8 +91,8 @@ class FieldVersionTest {
             {'type':'Feature','id':'f','geometry':null,'properties':null}           | NOT_AN_EVENT | 'properties'
             {'type':'Feature','id':'f','geometry':null,'properties':{}}             | NOT_AN_EVENT | 'validFrom'
             {'type':'Feature','id':'f','geometry':null,'properties':{'validFrom':1}} | NOT_AN_EVENT | 'validFrom'
-            {'type':'Feature','id':'f','geometry':null,'properties':{'validFrom':'spring'}} | NOT_AN_EVENT | no time
-            {'type':'Feature','id':'f','geometry':null,'properties':{'validFrom':'2026-03-01'}} | NOT_AN_EVENT | no time
+            {'type':'Feature','id':'f','geometry':null,'properties':{'validFrom':'spring'}} | NOT_AN_EVENT | not a time
+            {'type':'Feature','id':'f','geometry':null,'properties':{'validFrom':'2026-03-01'}} | NOT_AN_EVENT | not a time
             {'type':'Feature','id':'f','properties':{'validFrom':'T'}}              | NOT_AN_EVENT | 'geometry'
             {'type':'Feature','id':'f','geometry':{'type':'Point'},'properties':{'validFrom':'T'}} | NOT_AN_EVENT | Polygon
             {'type':'Feature','id':'f','geometry':[],'properties':{'validFrom':'T'}} | NOT_AN_EVENT | Polygon

@@ -85,11 +85,11 @@ public record NgsiLd(String context) implements ContextBrokerApi {
             String words = error.has("error") ? error.get("error").toString() : error.toString();
             refused.put(id.isArray() ? id.path(0).asText() : id.asText(), LogText.beginning(words));
         }
-        Set<String> told = new HashSet<>(refused.keySet());
-        body.path("success").forEach(success -> told.add(success.asText()));
+        Set<String> answered = new HashSet<>(refused.keySet());
+        body.path("success").forEach(success -> answered.add(success.asText()));
         boolean areAllErrorsOurs = !refused.isEmpty() && ids.containsAll(refused.keySet());
-        if (!areAllErrorsOurs && !told.containsAll(ids)) {
-            throw new UnreadableException(Reason.NOT_AN_ENTITY, "it does not tell which entities were refused");
+        if (!areAllErrorsOurs && !answered.containsAll(ids)) {
+            throw new UnreadableException(Reason.NOT_AN_ENTITY, "it does not say which entities were refused");
         }
         return refused;
     }

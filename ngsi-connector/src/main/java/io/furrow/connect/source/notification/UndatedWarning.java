@@ -9,11 +9,11 @@ import org.slf4j.LoggerFactory;
 final class UndatedWarning {
     private static final Logger LOG = LoggerFactory.getLogger(UndatedWarning.class);
 
-    private final AtomicBoolean told = new AtomicBoolean();
+    private final AtomicBoolean warned = new AtomicBoolean();
 
     /** @param source of the first notification without it, {@code /ngsi/<subscription>} */
     void note(String source) {
-        if (!told.get() && told.compareAndSet(false, true)) {
+        if (!warned.get() && warned.compareAndSet(false, true)) {
             LOG.warn(
                     "Notifications of {} carry no dateModified: a change back to an earlier value under the same time"
                             + " of the device has the id of the earlier event, and readers drop it as a duplicate. Add"

@@ -111,7 +111,7 @@ public final class MissionCommandGroup extends MissionControl {
             ExportFormat.Source source = new ExportFormat.Source(missions, store.mongo, mission);
             ExportResult[] done = new ExportResult[1];
             MissionFiles.write(new Path(file), out -> {
-                done[0] = format.write(source, out, told("exported"));
+                done[0] = format.write(source, out, progress("exported"));
                 return done[0].events();
             });
             out().printf("%s of %s in %s%n", Counts.of(done[0].events(), "event"), mission, file);
@@ -136,7 +136,7 @@ public final class MissionCommandGroup extends MissionControl {
                                     + " Compressed where the name ends in .gz.")
                     String file) {
         return run(store, missions -> {
-            long count = MissionFiles.importFrom(missions, mission, new Path(file), told("imported"));
+            long count = MissionFiles.importFrom(missions, mission, new Path(file), progress("imported"));
             out().printf("%s of %s now in mission %s%n", Counts.of(count, "event"), file, mission);
         });
     }
@@ -203,7 +203,7 @@ public final class MissionCommandGroup extends MissionControl {
         return spec.exitCodeOnExecutionException();
     }
 
-    private LongConsumer told(String done) {
+    private LongConsumer progress(String done) {
         return count -> {
             out().printf("\r  %s %s", Counts.of(count, "event"), done);
             out().flush();

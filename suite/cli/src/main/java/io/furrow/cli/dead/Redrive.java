@@ -78,7 +78,7 @@ public final class Redrive {
     /** What a letter says of itself. */
     record Kind(String reason, String stage) {
         /** For people. */
-        String told() {
+        String description() {
             return WENT_ON.contains(stage)
                     ? reason + " of " + stage + ", whose event went on"
                     : reason + " of " + stage;
@@ -189,7 +189,7 @@ public final class Redrive {
             return false;
         }
         if (!request.choice().isOf(kind)) {
-            left.merge(kind.told(), 1L, Long::sum);
+            left.merge(kind.description(), 1L, Long::sum);
             return false;
         }
         return true;
