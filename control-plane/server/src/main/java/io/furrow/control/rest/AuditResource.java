@@ -6,7 +6,6 @@ import java.util.Properties;
 import java.util.function.Predicate;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import jakarta.ws.rs.DefaultValue;
 import jakarta.ws.rs.GET;
 import jakarta.ws.rs.Path;
@@ -23,6 +22,7 @@ import io.furrow.control.rest.view.AuditHistory;
 import io.furrow.control.rest.view.AuditedEntry;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code /api/audit}: the newest out of memory, older ones out of Kafka. */
 @Path("/api/audit")
@@ -63,7 +63,7 @@ public final class AuditResource {
         Predicate<AuditedEntry> desired = entry -> entry.isAbout("device", device) && entry.isAbout("mission", mission);
         AuditHistory.Page page =
                 page(before == null ? Long.MAX_VALUE : Long.parseLong(before), Integer.parseInt(limit), desired);
-        ArrayNode entries = JsonNodeFactory.instance.arrayNode();
+        ArrayNode entries = NgsiJson.array();
         page.entries().forEach(each -> entries.add(each.json()));
         Response.ResponseBuilder answer = JsonResponses.json(200, entries);
         if (page.next() >= 0) {

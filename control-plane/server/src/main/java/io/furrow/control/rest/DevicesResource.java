@@ -10,7 +10,6 @@ import java.util.concurrent.RejectedExecutionException;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.fasterxml.jackson.databind.node.TextNode;
 import jakarta.annotation.security.RolesAllowed;
@@ -42,6 +41,7 @@ import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Role;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/devices}: what is requested of them, what they are, how they are, and commands to them. */
@@ -156,7 +156,7 @@ public final class DevicesResource {
     }
 
     private static ObjectNode about(DeviceName name) {
-        return JsonNodeFactory.instance.objectNode().put(DEVICE, name.id());
+        return NgsiJson.object().put(DEVICE, name.id());
     }
 
     /** A device that has credentials, which can be shown here. */

@@ -4,7 +4,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -13,7 +13,7 @@ import io.furrow.model.ngsi.UnreadableException;
  *
  * @param text what happened, to what, and what to do
  */
-public record Fault(String text) {
+public record Fault(String text) implements StateRecord {
     /** @throws UnreadableException if the value is no object with a {@code text} */
     public static Fault read(byte[] value) throws UnreadableException {
         JsonNode text = NgsiJson.read(value).path("text");
@@ -21,9 +21,5 @@ public record Fault(String text) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, "the fault has no member 'text' with a text");
         }
         return new Fault(text.textValue());
-    }
-
-    public byte[] toBytes() {
-        return StateJson.write(this);
     }
 }

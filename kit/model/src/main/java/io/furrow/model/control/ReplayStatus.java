@@ -5,7 +5,6 @@ import java.util.Objects;
 
 import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
@@ -127,7 +126,7 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
     }
 
     public byte[] toBytes() {
-        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        ObjectNode json = NgsiJson.object();
         json.put(SEQUENCE, sequence).put(STATE, state.code());
         DeviceGroup.put(json, REASON, Limits.reason(reason));
         if (state.isOver()) {

@@ -8,7 +8,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -36,7 +36,8 @@ public record DeviceVersion(
         Long until,
         long sequence,
         String carriedBy,
-        @JsonInclude(JsonInclude.Include.NON_DEFAULT) boolean stationary) {
+        @JsonInclude(JsonInclude.Include.NON_DEFAULT) boolean stationary)
+        implements StateRecord {
     public DeviceVersion {
         Objects.requireNonNull(id);
         Objects.requireNonNull(domain);
@@ -106,11 +107,6 @@ public record DeviceVersion(
     /** The same with another sequence. */
     public DeviceVersion numbered(long other) {
         return new DeviceVersion(id, service, servicePath, domain, mission, from, until, other, carriedBy, stationary);
-    }
-
-    /** UTF-8 JSON; members without a value are left out. */
-    public byte[] toBytes() {
-        return StateJson.write(this);
     }
 
     private static String text(JsonNode json, String member) throws UnreadableException {

@@ -18,6 +18,9 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.ObjectMapper;
 import com.fasterxml.jackson.databind.cfg.JsonNodeFeature;
 import com.fasterxml.jackson.databind.json.JsonMapper;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.text.Utf8;
 
@@ -55,6 +58,16 @@ public final class NgsiJson {
     /** The mapper behind it, for what is not a notification (configuration, REST bodies). */
     public static ObjectMapper mapper() {
         return MAPPER;
+    }
+
+    /** A new object without members. */
+    public static ObjectNode object() {
+        return JsonNodeFactory.instance.objectNode();
+    }
+
+    /** A new array without elements. */
+    public static ArrayNode array() {
+        return JsonNodeFactory.instance.arrayNode();
     }
 
     /**
@@ -99,8 +112,17 @@ public final class NgsiJson {
         }
     }
 
+    /** Reads what was written here, or was read before. */
+    public static <T> T own(Reading<T> reading) {
+        try {
+            return reading.read();
+        } catch (IOException | UnreadableException e) {
+            throw new IllegalStateException("what was written here cannot be read", e);
+        }
+    }
+
     /** Something that Jackson does with input. */
-    interface Reading<T> {
+    public interface Reading<T> {
         T read() throws IOException, UnreadableException;
     }
 
