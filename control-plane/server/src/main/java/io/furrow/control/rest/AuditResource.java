@@ -56,10 +56,10 @@ public final class AuditResource {
             throw new ProblemException(
                     ErrorCode.WRONG_MEMBER, "'limit' must be a whole number from 1 to " + StateView.AUDITED);
         }
-        if (before != null && !before.matches("[0-9]{1,18}")) {
-            throw new ProblemException(
-                    ErrorCode.WRONG_MEMBER, "'before' must be the position of an entry, a whole number from 0");
-        }
+        ProblemException.refuseIf(
+                before != null && !before.matches("[0-9]{1,18}"),
+                ErrorCode.WRONG_MEMBER,
+                "'before' must be the position of an entry, a whole number from 0");
         Predicate<AuditedEntry> desired = entry -> entry.isAbout("device", device) && entry.isAbout("mission", mission);
         AuditHistory.Page page =
                 page(before == null ? Long.MAX_VALUE : Long.parseLong(before), Integer.parseInt(limit), desired);

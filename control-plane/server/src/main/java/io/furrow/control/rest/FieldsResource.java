@@ -115,9 +115,10 @@ public final class FieldsResource {
     @POST
     public Response add(@Context ContainerRequestContext request, @QueryParam("domain") String domain, InputStream body)
             throws IOException {
-        if (domain != null && !TopicName.isLegal(domain)) {
-            throw new ProblemException(ErrorCode.WRONG_MEMBER, "'domain' must be 1 to 64 of A-Z a-z 0-9 _ -");
-        }
+        ProblemException.refuseIf(
+                domain != null && !TopicName.isLegal(domain),
+                ErrorCode.WRONG_MEMBER,
+                "'domain' must be 1 to 64 of A-Z a-z 0-9 _ -");
         if (!free.tryAcquire()) {
             throw ProblemException.overloaded();
         }

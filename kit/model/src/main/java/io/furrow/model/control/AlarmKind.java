@@ -28,11 +28,7 @@ public enum AlarmKind implements Coded {
     /** @throws IllegalArgumentException if there is none of that code */
     @JsonCreator
     public static AlarmKind of(String code) {
-        for (AlarmKind kind : values()) {
-            if (kind.code().equals(code)) {
-                return kind;
-            }
-        }
-        throw new IllegalArgumentException("there is no alarm of kind '" + code + "'");
+        return Coded.find(values(), code)
+                .orElseThrow(() -> new IllegalArgumentException("there is no alarm of kind '" + code + "'"));
     }
 }

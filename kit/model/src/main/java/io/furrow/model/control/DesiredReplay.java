@@ -200,10 +200,8 @@ public record DesiredReplay(
         }
         try {
             DesiredReplay replay = read(new JsonObjectReader(json));
-            if (!replay.belongsTogether()) {
-                throw new UnreadableException(
-                        Reason.NOT_AN_EVENT, "'replay', 'mission' and 'topic' do not belong together");
-            }
+            Reason.NOT_AN_EVENT.refuseIf(
+                    !replay.belongsTogether(), "'replay', 'mission' and 'topic' do not belong together");
             return replay;
         } catch (RejectedException e) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage());

@@ -17,9 +17,7 @@ public record Fault(String text) implements StateRecord {
     /** @throws UnreadableException if the value is no object with a {@code text} */
     public static Fault read(byte[] value) throws UnreadableException {
         JsonNode text = NgsiJson.read(value).path("text");
-        if (!text.isTextual()) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "the fault has no member 'text' with a text");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(!text.isTextual(), "the fault has no member 'text' with a text");
         return new Fault(text.textValue());
     }
 }

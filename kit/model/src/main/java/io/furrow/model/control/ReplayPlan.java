@@ -120,15 +120,10 @@ public record ReplayPlan(
 
     private static Stamps stamps(JsonObjectReader members) throws RejectedException {
         String word = members.textOrNull("stamps");
-        if (word == null) {
-            return Stamps.ORIGINAL;
-        }
-        for (Stamps stamps : Stamps.values()) {
-            if (stamps.code().equals(word)) {
-                return stamps;
-            }
-        }
-        throw JsonObjectReader.wrong("stamps", "original or now");
+        return word == null
+                ? Stamps.ORIGINAL
+                : Coded.find(Stamps.values(), word)
+                        .orElseThrow(() -> JsonObjectReader.wrong("stamps", "original or now"));
     }
 
     private static Long millis(Instant time) {

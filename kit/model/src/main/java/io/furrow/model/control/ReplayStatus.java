@@ -81,18 +81,12 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
 
         private static Progress read(JsonNode json) {
             return new Progress(
-                    json.path("epoch").asLong(),
-                    json.path("position").asLong(),
-                    json.path("from").asLong(),
-                    json.path("to").asLong(),
-                    json.path("offset").asLong(),
-                    json.path("lateness").asLong(),
-                    json.path("slip").asLong(),
-                    json.path("rate").asDouble(),
-                    json.path("events").asLong(),
-                    json.path("primes").asLong(),
-                    json.path("skipped").asLong(),
-                    json.path("waiting").textValue());
+                    json.path("epoch").asLong(), json.path("position").asLong(),
+                    json.path("from").asLong(), json.path("to").asLong(),
+                    json.path("offset").asLong(), json.path("lateness").asLong(),
+                    json.path("slip").asLong(), json.path("rate").asDouble(),
+                    json.path("events").asLong(), json.path("primes").asLong(),
+                    json.path("skipped").asLong(), json.path("waiting").textValue());
         }
     }
 
@@ -108,9 +102,9 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
     public static ReplayStatus read(byte[] value) throws UnreadableException {
         JsonNode json = NgsiJson.read(value);
         JsonNode sequence = json.path(SEQUENCE);
-        if (!sequence.isIntegralNumber() || !sequence.canConvertToLong()) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "'sequence' of the status is no whole number");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(
+                !sequence.isIntegralNumber() || !sequence.canConvertToLong(),
+                "'sequence' of the status is no whole number");
         for (State state : State.values()) {
             if (state.code().equals(json.path(STATE).textValue())) {
                 return new ReplayStatus(

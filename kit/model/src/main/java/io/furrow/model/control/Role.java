@@ -1,6 +1,5 @@
 package io.furrow.model.control;
 
-import java.util.Arrays;
 import java.util.Optional;
 
 import io.furrow.model.text.Coded;
@@ -18,7 +17,7 @@ public enum Role implements Coded {
     public static final String ADMINS = "admin";
 
     public static Optional<Role> of(String code) {
-        return Arrays.stream(values()).filter(role -> role.code().equals(code)).findFirst();
+        return Coded.find(values(), code);
     }
 
     public boolean includes(Role minimum) {

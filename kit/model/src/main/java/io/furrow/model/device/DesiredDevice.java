@@ -105,10 +105,9 @@ public record DesiredDevice(
         if (number.isMissingNode()) {
             return 0;
         }
-        if (!number.isIntegralNumber() || !number.canConvertToInt() || number.intValue() < 0) {
-            throw new UnreadableException(
-                    Reason.NOT_AN_EVENT, "'generation' of the device is no whole number from 0 on");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(
+                !number.isIntegralNumber() || !number.canConvertToInt() || number.intValue() < 0,
+                "'generation' of the device is no whole number from 0 on");
         return number.intValue();
     }
 

@@ -38,17 +38,13 @@ public record DeviceStatus(long sequence, State state, String reason) implements
     public static DeviceStatus read(byte[] value) throws UnreadableException {
         JsonNode json = NgsiJson.read(value);
         JsonNode sequence = json.path("sequence");
-        if (!sequence.isIntegralNumber() || !sequence.canConvertToLong()) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "'sequence' of the status is no whole number");
-        }
-        for (State state : State.values()) {
-            if (state.code().equals(json.path("state").textValue())) {
-                return new DeviceStatus(
-                        sequence.longValue(),
-                        state,
-                        Limits.reason(json.path("reason").textValue()));
-            }
-        }
-        throw new UnreadableException(Reason.NOT_AN_EVENT, "'state' of the status is not running, stopped or failed");
+        Reason.NOT_AN_EVENT.refuseIf(
+                !sequence.isIntegralNumber() || !sequence.canConvertToLong(),
+                "'sequence' of the status is no whole number");
+        State state = Coded.find(State.values(), json.path("state").textValue())
+                .orElseThrow(() -> new UnreadableException(
+                        Reason.NOT_AN_EVENT, "'state' of the status is not running, stopped or failed"));
+        return new DeviceStatus(
+                sequence.longValue(), state, Limits.reason(json.path("reason").textValue()));
     }
 }

@@ -66,15 +66,11 @@ public record DeviceVersion(
      */
     public static DeviceVersion read(byte[] value) throws UnreadableException {
         JsonNode json = NgsiJson.read(value);
-        if (text(json, "id").isBlank()) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "the device has no member 'id' with a text");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(text(json, "id").isBlank(), "the device has no member 'id' with a text");
         FiwareScope scope = FiwareScope.of(text(json, "service"), text(json, "servicePath"));
         long from = number(json, "from");
         Long until = json.hasNonNull("until") ? Long.valueOf(number(json, "until")) : null;
-        if (until != null && until < from) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "'until' is before 'from'");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(until != null && until < from, "'until' is before 'from'");
         return new DeviceVersion(
                 text(json, "id"),
                 scope.service(),

@@ -77,9 +77,7 @@ public record SecretFingerprints(
             }
         }
         int newest = json.path("newest").asInt();
-        if (!byNumber.containsKey(newest)) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "it names no fingerprint of its newest key");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(!byNumber.containsKey(newest), "it names no fingerprint of its newest key");
         return new SecretFingerprints(newest, json.path("apiKeys").asInt(), byNumber);
     }
 

@@ -80,9 +80,7 @@ public final class NgsiJson {
         checkMark(bytes);
         return understand(() -> {
             JsonNode node = MAPPER.readTree(bytes);
-            if (node == null || node.isMissingNode()) {
-                throw new UnreadableException(Reason.NOT_JSON, "the body is empty");
-            }
+            Reason.NOT_JSON.refuseIf(node == null || node.isMissingNode(), "the body is empty");
             return node;
         });
     }
@@ -98,10 +96,7 @@ public final class NgsiJson {
     }
 
     private static void checkMark(byte[] bytes) throws UnreadableException {
-        if (hasMark(bytes)) {
-            throw new UnreadableException(
-                    Reason.NOT_JSON, "the text begins with a byte order mark (EF BB BF); send it without");
-        }
+        Reason.NOT_JSON.refuseIf(hasMark(bytes), "the text begins with a byte order mark (EF BB BF); send it without");
     }
 
     /** Jackson's own decoder is too lenient, and looks only at what it is asked for. */

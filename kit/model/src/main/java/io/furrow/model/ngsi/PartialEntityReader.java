@@ -62,9 +62,7 @@ final class PartialEntityReader {
                 EntityLimits.checkText(name);
             }
         }
-        if (parser.nextToken() != null) {
-            throw new UnreadableException(Reason.NOT_JSON, "something follows the entity");
-        }
+        Reason.NOT_JSON.refuseIf(parser.nextToken() != null, "something follows the entity");
         return excerpt;
     }
 

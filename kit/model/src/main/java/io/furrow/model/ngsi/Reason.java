@@ -26,4 +26,11 @@ public enum Reason implements Coded {
     REFUSED,
     /** The reader failed at it: a fault of the program, which the log describes. */
     FAILED;
+
+    /** @param message why it cannot be read, a sentence */
+    public void refuseIf(boolean isWrong, String message) throws UnreadableException {
+        if (isWrong) {
+            throw new UnreadableException(this, message);
+        }
+    }
 }
