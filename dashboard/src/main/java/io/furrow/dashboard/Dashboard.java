@@ -94,7 +94,7 @@ public final class Dashboard implements AutoCloseable {
         this.images = new ImageIndex(settings.client());
         URI health = URI.create(settings.controlPlane().toString().replaceAll("/+$", "") + "/health");
         this.probes = List.of(
-                new Probe("kafka", () -> streams.checkKafka(Probe.TIMEOUT), () -> {}),
+                new Probe("kafka", () -> streams.feeds().checkKafka(Probe.TIMEOUT), () -> {}),
                 Probe.http("controlPlane", health));
         probes.forEach(probe -> readiness.require(probe::status));
     }

@@ -19,7 +19,6 @@ import java.util.concurrent.TimeoutException;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.servlet.http.HttpServletRequest;
 import jakarta.servlet.http.HttpServletResponse;
@@ -73,7 +72,7 @@ final class PlatformServlet extends UserServlet {
 
     private synchronized byte[] current() {
         if (answer == null || System.nanoTime() - answered > FRESH.toNanos()) {
-            ObjectNode platform = JsonNodeFactory.instance.objectNode();
+            ObjectNode platform = NgsiJson.object();
             platform.put("time", System.currentTimeMillis());
             addKafka(platform);
             platform.set("controlPlane", controlPlane());
@@ -88,7 +87,7 @@ final class PlatformServlet extends UserServlet {
         ArrayNode deadLetters = platform.putArray("deadLetters");
         ArrayNode groups = platform.putArray("groups");
         ObjectNode kafka = platform.putObject("kafka");
-        if (streams.isKafkaUnavailable()) { // whoever asks need not wait to hear it again
+        if (streams.feeds().isKafkaUnavailable()) { // whoever asks need not wait to hear it again
             kafka.put("state", "away").put("reason", reason(new TimeoutException()));
             return;
         }
@@ -186,8 +185,7 @@ final class PlatformServlet extends UserServlet {
                     HttpResponse.BodyHandlers.ofByteArray());
             return NgsiJson.read(page.body());
         } catch (IOException | UnreadableException e) {
-            return JsonNodeFactory.instance
-                    .objectNode()
+            return NgsiJson.object()
                     .put("status", "away")
                     .put("reason", "%s does not answer (%s)".formatted(readiness, FailureText.of(e)));
         } catch (InterruptedException e) {

@@ -143,7 +143,7 @@ class DashboardRefusalsIT extends DashboardFixture {
             Properties nowhere = new Properties();
             nowhere.setProperty("bootstrap.servers", "127.0.0.1:" + silent.getLocalPort());
             restart(DashboardSettings.of(0, nowhere, api.uri()));
-            await().until(() -> dashboard.streams().isKafkaUnavailable());
+            await().until(() -> dashboard.streams().feeds().isKafkaUnavailable());
 
             long begun = System.nanoTime();
             for (int i = 0; i < 5; i++) { // each of which would wait for 5 s

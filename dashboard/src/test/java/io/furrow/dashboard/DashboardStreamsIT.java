@@ -222,7 +222,7 @@ class DashboardStreamsIT extends DashboardFixture {
         }
 
         await().until(() ->
-                dashboard.streams().open() == 0 && dashboard.streams().topics() == 0);
+                dashboard.streams().open() == 0 && dashboard.streams().feeds().size() == 0);
         await().until(() -> Thread.getAllStackTraces().keySet().stream()
                 .noneMatch(thread -> thread.getName().startsWith("feed-")));
         open(TOPIC).close(); // and it continues
@@ -266,7 +266,7 @@ class DashboardStreamsIT extends DashboardFixture {
         for (int i = 0; i < 10; i++) {
             clients.add(open(TOPIC + "?format=record"));
         }
-        assertThat(dashboard.streams().topics()).isEqualTo(1);
+        assertThat(dashboard.streams().feeds().size()).isEqualTo(1);
         assertThat(Thread.getAllStackTraces().keySet().stream()
                         .filter(thread -> thread.getName().startsWith("feed-")))
                 .hasSize(1);

@@ -6,13 +6,13 @@ import java.util.Set;
 import java.util.TreeSet;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.MissingNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.field.ImportOptions;
 import io.furrow.model.field.InvalidFileException;
+import io.furrow.model.ngsi.NgsiJson;
 
 /** Derives the id, name and domain of a field from the attributes of its feature. */
 record FeatureNaming(ImportOptions options, Set<String> attributes) {
@@ -63,7 +63,7 @@ record FeatureNaming(ImportOptions options, Set<String> attributes) {
     }
 
     FieldVersion version(SourceFeature feature, ObjectNode geometry) throws RejectedFeatureException {
-        ObjectNode properties = JsonNodeFactory.instance.objectNode();
+        ObjectNode properties = NgsiJson.object();
         put(properties, NAME, text(value(feature, options.nameProperty() == null ? NAME : options.nameProperty())));
         put(properties, DOMAIN, options.domain() == null ? text(value(feature, DOMAIN)) : options.domain());
         feature.properties().properties().forEach(one -> {

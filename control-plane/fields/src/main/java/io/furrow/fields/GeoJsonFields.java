@@ -8,7 +8,6 @@ import java.util.Arrays;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.locationtech.jts.geom.Coordinate;
 
@@ -81,9 +80,8 @@ final class GeoJsonFields {
     private static SourceFeature feature(int number, JsonNode feature) {
         JsonNode id = feature.path("id");
         String named = id.isTextual() || id.isIntegralNumber() ? id.asText() : null;
-        ObjectNode properties = feature.path("properties") instanceof ObjectNode some
-                ? some.deepCopy()
-                : JsonNodeFactory.instance.objectNode();
+        ObjectNode properties =
+                feature.path("properties") instanceof ObjectNode some ? some.deepCopy() : NgsiJson.object();
         try {
             return new SourceFeature(number, named, properties, outline(feature.path("geometry")), null);
         } catch (RejectedFeatureException e) {

@@ -10,10 +10,10 @@ import java.sql.Statement;
 import java.util.ArrayList;
 import java.util.List;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.field.InvalidFileException;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
 /**
@@ -94,7 +94,7 @@ record GeoPackageFields(Path file, Connection database) {
     }
 
     private static SourceFeature feature(int number, ResultSet row, Layer layer, String key) throws SQLException {
-        ObjectNode properties = JsonNodeFactory.instance.objectNode();
+        ObjectNode properties = NgsiJson.object();
         for (int column = 1; column <= row.getMetaData().getColumnCount(); column++) {
             String name = row.getMetaData().getColumnName(column);
             if (!name.equals(layer.geometry()) && !name.equals(key)) {

@@ -15,12 +15,12 @@ import java.util.Locale;
 import java.util.Optional;
 import java.util.stream.Stream;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.linuxense.javadbf.DBFException;
 import com.linuxense.javadbf.DBFReader;
 
 import io.furrow.model.field.InvalidFileException;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
 /**
@@ -66,7 +66,7 @@ final class ShapefileFields {
         if (dbf.isEmpty()) {
             notes.add("there is no .dbf file next to it: the fields have no attributes");
             for (int shape = 0; shape < shapes; shape++) {
-                rows.add(JsonNodeFactory.instance.objectNode());
+                rows.add(NgsiJson.object());
             }
             return rows;
         }
@@ -83,7 +83,7 @@ final class ShapefileFields {
     }
 
     private static ObjectNode attributes(DBFReader table, Object[] row) {
-        ObjectNode attributes = JsonNodeFactory.instance.objectNode();
+        ObjectNode attributes = NgsiJson.object();
         for (int column = 1; column < row.length; column++) {
             String name = table.getField(column).getName();
             Object value = row[column];

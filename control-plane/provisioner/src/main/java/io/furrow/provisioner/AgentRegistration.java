@@ -5,11 +5,11 @@ import java.util.Set;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.MissingNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.control.MeasuredAttribute;
+import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * The registration of a device at the IoT Agent, actual or desired; two are equal if devices need not be provisioned
@@ -102,8 +102,7 @@ record AgentRegistration(
     }
 
     ObjectNode toJson() {
-        ObjectNode json = JsonNodeFactory.instance
-                .objectNode()
+        ObjectNode json = NgsiJson.object()
                 .put("device_id", device)
                 .put("apikey", apiKey)
                 .put("entity_name", entity)

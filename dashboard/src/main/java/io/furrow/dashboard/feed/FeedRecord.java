@@ -8,7 +8,6 @@ import java.util.Set;
 
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.header.Header;
@@ -121,8 +120,7 @@ public final class FeedRecord {
     }
 
     private String made() {
-        ObjectNode json = JsonNodeFactory.instance
-                .objectNode()
+        ObjectNode json = NgsiJson.object()
                 .put("topic", record.topic())
                 .put("partition", record.partition())
                 .put("offset", record.offset())

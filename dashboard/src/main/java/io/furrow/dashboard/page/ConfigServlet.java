@@ -2,7 +2,6 @@ package io.furrow.dashboard.page;
 
 import java.io.IOException;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.servlet.http.HttpServlet;
 import jakarta.servlet.http.HttpServletRequest;
@@ -17,7 +16,7 @@ public final class ConfigServlet extends HttpServlet {
     private final byte[] config;
 
     public ConfigServlet(PageSettings settings) {
-        ObjectNode node = JsonNodeFactory.instance.objectNode();
+        ObjectNode node = NgsiJson.object();
         node.put("tiles", settings.tiles());
         node.put("tileFile", settings.tileFile() == null ? null : TileFile.PATH);
         node.put("signIn", settings.signIn());

@@ -5,7 +5,6 @@ import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeoutException;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.servlet.http.HttpServletRequest;
 import jakarta.servlet.http.HttpServletResponse;
@@ -15,6 +14,7 @@ import io.furrow.dashboard.auth.User;
 import io.furrow.dashboard.auth.UserServlet;
 import io.furrow.dashboard.feed.TopicDensity;
 import io.furrow.dashboard.http.Problem;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
 /** {@code GET /api/density/<topic>?from&to&width}: how many records a topic has, bucket by bucket, epoch ms. */
@@ -43,8 +43,7 @@ public final class DensityServlet extends UserServlet {
 
     private void write(String topic, long from, long width, int buckets, HttpServletResponse response)
             throws IOException {
-        ObjectNode answer =
-                JsonNodeFactory.instance.objectNode().put("from", from).put("width", width);
+        ObjectNode answer = NgsiJson.object().put("from", from).put("width", width);
         ArrayNode counts = answer.putArray("counts");
         try {
             density.count(topic, from, width, buckets).forEach(counts::add);

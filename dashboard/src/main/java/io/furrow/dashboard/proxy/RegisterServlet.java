@@ -2,13 +2,13 @@ package io.furrow.dashboard.proxy;
 
 import java.io.IOException;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import jakarta.servlet.http.HttpServletRequest;
 import jakarta.servlet.http.HttpServletResponse;
 
 import io.furrow.dashboard.auth.Credentials;
 import io.furrow.dashboard.auth.User;
 import io.furrow.dashboard.auth.UserServlet;
+import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code GET /api/register/<topic>}: the path of a socket that may be opened once. */
 public final class RegisterServlet extends UserServlet {
@@ -27,6 +27,6 @@ public final class RegisterServlet extends UserServlet {
         StreamRequest desired = StreamRequest.read(request, streams.rules(), StreamRequest.Format.VALUE);
         streams.feeds().check(desired.topic());
         String ticket = streams.tickets().issue(desired, user, credentials);
-        write(JsonNodeFactory.instance.objectNode().put("socket", "/socket/" + ticket), response);
+        write(NgsiJson.object().put("socket", "/socket/" + ticket), response);
     }
 }

@@ -192,12 +192,10 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
                 }
                 streams.counters().add(Count.MESSAGES_WRITTEN, 1);
                 if (ticket.request().format() == StreamRequest.Format.RECORD) {
-                    send(NgsiJson.write(NgsiJson.mapper()
-                            .createObjectNode()
+                    send(NgsiJson.write(NgsiJson.object()
                             .set(
                                     "written",
-                                    NgsiJson.mapper()
-                                            .createObjectNode()
+                                    NgsiJson.object()
                                             .put("partition", at.partition())
                                             .put("offset", at.offset()))));
                 }

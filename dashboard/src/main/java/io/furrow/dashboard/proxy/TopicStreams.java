@@ -6,13 +6,11 @@ import java.util.Properties;
 import java.util.Set;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ConcurrentHashMap;
-import java.util.concurrent.ExecutionException;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
 import java.util.concurrent.RejectedExecutionException;
 import java.util.concurrent.ScheduledExecutorService;
 import java.util.concurrent.TimeUnit;
-import java.util.concurrent.TimeoutException;
 
 import org.apache.kafka.common.KafkaException;
 import org.slf4j.Logger;
@@ -79,7 +77,7 @@ public final class TopicStreams implements AutoCloseable {
         return tickets;
     }
 
-    TopicFeeds feeds() {
+    public TopicFeeds feeds() {
         return feeds;
     }
 
@@ -101,16 +99,6 @@ public final class TopicStreams implements AutoCloseable {
         return (int) streams.stream().filter(TopicSocket.class::isInstance).count();
     }
 
-    /** Fails where Kafka does not answer in time. */
-    public void checkKafka(Duration timeout) throws ExecutionException, TimeoutException, InterruptedException {
-        feeds.checkKafka(timeout);
-    }
-
-    /** Whether Kafka has answered none of these checks for six seconds. */
-    public boolean isKafkaUnavailable() {
-        return feeds.isKafkaUnavailable();
-    }
-
     public UserCache users() {
         return users;
     }
@@ -126,11 +114,6 @@ public final class TopicStreams implements AutoCloseable {
     /** How many streams are open. */
     public int open() {
         return quota.taken();
-    }
-
-    /** How many topics are read. */
-    public int topics() {
-        return feeds.size();
     }
 
     /**

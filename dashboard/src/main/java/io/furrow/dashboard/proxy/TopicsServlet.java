@@ -5,12 +5,12 @@ import java.util.List;
 import java.util.Map;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import jakarta.servlet.http.HttpServletRequest;
 import jakarta.servlet.http.HttpServletResponse;
 
 import io.furrow.dashboard.auth.User;
 import io.furrow.dashboard.auth.UserServlet;
+import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code GET /api/topics}: the topics that there are and may be read, by name, and how many records were written to each. */
 public final class TopicsServlet extends UserServlet {
@@ -25,7 +25,7 @@ public final class TopicsServlet extends UserServlet {
 
     @Override
     protected void answer(HttpServletRequest request, HttpServletResponse response, User user) throws IOException {
-        ArrayNode topics = JsonNodeFactory.instance.arrayNode();
+        ArrayNode topics = NgsiJson.array();
         List<String> readable = streams.feeds().topics().stream()
                 .filter(streams.rules()::mayRead)
                 .toList();

@@ -25,7 +25,10 @@ final class StreamMetrics {
                 Stream.of(
                         new Point(sockets, "kind", "socket"),
                         new Point(Math.max(0, streams.open() - sockets), "kind", "events")));
-        page.gauge("topics", "Topics that are read, each by one consumer.", streams.topics());
+        page.gauge(
+                "topics",
+                "Topics that are read, each by one consumer.",
+                streams.feeds().size());
         page.gauge("tickets", "Paths of sockets that wait to be opened.", streams.unusedTickets());
         page.counter(
                 "streams_closed",

@@ -1,7 +1,8 @@
 package io.furrow.kafka;
 
 import java.time.Instant;
-import java.util.Locale;
+
+import io.furrow.model.text.Coded;
 
 /**
  * How it is with a part of the control plane, or with something that it needs.
@@ -12,17 +13,12 @@ import java.util.Locale;
  */
 public record ComponentStatus(String name, State state, Instant lastSuccess, String detail) {
     /** Whether it works. */
-    public enum State {
+    public enum State implements Coded {
         UP,
         /** It does not work now, and will by itself once what it needs is back. */
         DOWN,
         /** It has ended, and only a restart of the process brings it back. */
         DEAD;
-
-        /** As the health page has it. */
-        public String code() {
-            return name().toLowerCase(Locale.ROOT);
-        }
     }
 
     /** The same under another name. */

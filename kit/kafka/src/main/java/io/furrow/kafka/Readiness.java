@@ -7,8 +7,9 @@ import java.util.concurrent.CopyOnWriteArrayList;
 import java.util.function.Supplier;
 import java.util.stream.Stream;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * The parts of this control plane, and what they need. It is <b>alive</b> unless a part has ended that only a restart of the process
@@ -83,7 +84,7 @@ public final class Readiness {
     }
 
     private ObjectNode page(String status) {
-        ObjectNode page = JsonNodeFactory.instance.objectNode().put("status", status);
+        ObjectNode page = NgsiJson.object().put("status", status);
         ObjectNode described = page.putObject("parts");
         all(false).forEach(part -> described.set(part.name(), described(part)));
         List<String> sentences =
@@ -95,8 +96,7 @@ public final class Readiness {
     }
 
     private ObjectNode described(ComponentStatus part) {
-        ObjectNode json =
-                JsonNodeFactory.instance.objectNode().put("state", part.state().code());
+        ObjectNode json = NgsiJson.object().put("state", part.state().code());
         if (part.lastSuccess() != null) {
             json.put("lastSuccess", part.lastSuccess().toString());
             Duration age = Duration.between(part.lastSuccess(), clock.instant());

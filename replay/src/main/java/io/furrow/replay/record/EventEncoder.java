@@ -53,12 +53,9 @@ public final class EventEncoder {
             HeaderNames.REPLAY_CE_ID);
 
     private static final Map<String, String> DEFAULTS = Map.of(
-            HeaderNames.CE_SOURCE,
-            ReplayRecords.SOURCE,
-            HeaderNames.SERVICE,
-            FiwareScope.DEFAULT.service(),
-            HeaderNames.SERVICE_PATH,
-            FiwareScope.DEFAULT.servicePath());
+            HeaderNames.CE_SOURCE, ReplayRecords.SOURCE,
+            HeaderNames.SERVICE, FiwareScope.DEFAULT.service(),
+            HeaderNames.SERVICE_PATH, FiwareScope.DEFAULT.servicePath());
 
     private final DesiredReplay replay;
     private final long epoch;

@@ -1,13 +1,12 @@
 package io.furrow.control.alarm;
 
 import java.util.List;
-import java.util.Locale;
 
 import com.fasterxml.jackson.annotation.JsonUnwrapped;
-import com.fasterxml.jackson.annotation.JsonValue;
 
 import io.furrow.model.control.AlarmKind;
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
+import io.furrow.model.text.Coded;
 
 /**
  * A condition that needs attention: stored, and published as a record of {@code service.alarms} keyed by its id.
@@ -31,7 +30,8 @@ public record Alarm(
         @JsonUnwrapped Extent extent,
         Long seen,
         String inhibitedBy,
-        String identity) {
+        String identity)
+        implements StateRecord {
     /**
      * What never changes.
      *
@@ -88,7 +88,7 @@ public record Alarm(
     }
 
     /** Kinds of changes. */
-    public enum Change {
+    public enum Change implements Coded {
         OPENED,
         /** Its extent, its text or its inhibiting alarm changed. */
         UPDATED,
@@ -96,12 +96,6 @@ public record Alarm(
         CLOSED,
         MUTED,
         UNMUTED;
-
-        /** The value in records. */
-        @JsonValue
-        public String code() {
-            return name().toLowerCase(Locale.ROOT);
-        }
     }
 
     /** @param mutedUntil null if it is not muted */
@@ -231,10 +225,5 @@ public record Alarm(
     public Alarm inhibitedFromStart(String by) {
         return new Alarm(
                 head, state, change, description, period, handling, sequence, group, extent, seen, by, identity);
-    }
-
-    /** UTF-8 JSON; members without a value are omitted. */
-    public byte[] toBytes() {
-        return StateJson.write(this);
     }
 }

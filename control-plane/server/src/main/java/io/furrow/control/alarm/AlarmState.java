@@ -1,11 +1,9 @@
 package io.furrow.control.alarm;
 
-import java.util.Locale;
-
-import com.fasterxml.jackson.annotation.JsonValue;
+import io.furrow.model.text.Coded;
 
 /** State in the life cycle of an alarm. */
-public enum AlarmState {
+public enum AlarmState implements Coded {
     OPEN,
     /** Somebody is dealing with it. */
     ACKNOWLEDGED,
@@ -15,11 +13,5 @@ public enum AlarmState {
     /** Whether the transition is allowed. */
     boolean canBecome(AlarmState next) {
         return next.ordinal() > ordinal();
-    }
-
-    /** The value in records. */
-    @JsonValue
-    public String code() {
-        return name().toLowerCase(Locale.ROOT);
     }
 }

@@ -1,13 +1,10 @@
 package io.furrow.control.alarm;
 
-import java.util.Locale;
-
-import com.fasterxml.jackson.annotation.JsonValue;
-
 import io.furrow.model.control.AlarmKind;
+import io.furrow.model.text.Coded;
 
 /** Severity of an alarm, in the terms of ITU-T X.733. */
-public enum Severity {
+public enum Severity implements Coded {
     CRITICAL,
     MAJOR,
     MINOR,
@@ -20,11 +17,5 @@ public enum Severity {
             case SILENT_DEVICE -> MINOR;
             case SUSPECT_SENSOR -> WARNING;
         };
-    }
-
-    /** The value in records. */
-    @JsonValue
-    public String code() {
-        return name().toLowerCase(Locale.ROOT);
     }
 }

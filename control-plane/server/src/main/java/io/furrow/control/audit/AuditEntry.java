@@ -5,12 +5,11 @@ import java.util.Map;
 import java.util.StringJoiner;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -36,7 +35,8 @@ public record AuditEntry(
         String result,
         String error,
         String reason,
-        String requestId) {
+        String requestId)
+        implements StateRecord {
     /** As target: a command to a device, through the context broker. */
     public static final String DEVICE = "device";
     /** As user: anybody with write access to the topics of the managers. */
@@ -50,7 +50,7 @@ public record AuditEntry(
     /** Creates the entry of a request to a manager and its answer. The request may be anything, even invalid JSON. */
     public static AuditEntry of(String topic, byte[] request, CommandResult answer, long now) {
         JsonNode json = read(request);
-        ObjectNode about = JsonNodeFactory.instance.objectNode();
+        ObjectNode about = NgsiJson.object();
         for (Map.Entry<String, JsonNode> member : json.properties()) {
             if (about.size() < MAX_MEMBERS && isPlain(member.getKey()) && isShort(member.getValue())) {
                 about.set(member.getKey(), member.getValue());
@@ -111,7 +111,7 @@ public record AuditEntry(
         try {
             return NgsiJson.read(request);
         } catch (UnreadableException e) { // the answer reports it already
-            return JsonNodeFactory.instance.objectNode();
+            return NgsiJson.object();
         }
     }
 
@@ -127,10 +127,5 @@ public record AuditEntry(
     private static boolean isPlain(String text) {
         return text.length() <= MAX_LENGTH
                 && StandardCharsets.UTF_8.newEncoder().canEncode(text);
-    }
-
-    /** UTF-8 JSON; members without a value are omitted. */
-    public byte[] toBytes() {
-        return StateJson.write(this);
     }
 }

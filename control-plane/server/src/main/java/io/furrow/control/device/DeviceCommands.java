@@ -16,7 +16,6 @@ import java.util.concurrent.RejectedExecutionException;
 import java.util.concurrent.Semaphore;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.fasterxml.jackson.databind.node.TextNode;
 
@@ -162,7 +161,7 @@ public final class DeviceCommands implements CommandSender {
     }
 
     private static ObjectNode body(String type, String command, JsonNode value) {
-        ObjectNode body = JsonNodeFactory.instance.objectNode();
+        ObjectNode body = NgsiJson.object();
         if (isRobot(type)) {
             body.putObject("cmd").put("type", "String").put("value", command);
             // The result of an earlier command does not stand for that of this one.

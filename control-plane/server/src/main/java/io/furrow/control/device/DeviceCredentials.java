@@ -8,7 +8,6 @@ import java.util.function.Supplier;
 import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.nayuki.qrcodegen.QrCode;
 
@@ -64,8 +63,7 @@ public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
         FarmSecret.Login login = now.device(mission, device.device(), device.generation());
         String topic = "/%s/%s/".formatted(now.apiKey(mission), device.device());
         List<MeasuredAttribute> attributes = device.attributes();
-        ObjectNode json = JsonNodeFactory.instance
-                .objectNode()
+        ObjectNode json = NgsiJson.object()
                 .put("device", device.version().id())
                 .put("deviceId", device.device())
                 .put("mission", mission);
@@ -116,7 +114,7 @@ public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
     /** Its first attribute, which is what it measures. */
     private static String measure(List<MeasuredAttribute> attributes) {
         MeasuredAttribute first = attributes.get(0);
-        ObjectNode measure = JsonNodeFactory.instance.objectNode();
+        ObjectNode measure = NgsiJson.object();
         switch (first.type()) {
             case "Float", "Number", "Integer" -> measure.put(first.objectId(), 21);
             case "Boolean" -> measure.put(first.objectId(), true);

@@ -3,7 +3,7 @@ package io.furrow.control.domain;
 import com.fasterxml.jackson.annotation.JsonUnwrapped;
 
 import io.furrow.model.control.DomainDetails;
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 
 /**
  * A domain as stored, and a record of {@code service.domains} keyed by its name. Members without a value are null.
@@ -14,7 +14,8 @@ import io.furrow.model.ngsi.StateJson;
  * @param changed when it last changed, epoch ms
  * @param sequence increases with every change of the desired state
  */
-public record Domain(String domain, @JsonUnwrapped DomainDetails details, long created, long changed, long sequence) {
+public record Domain(String domain, @JsonUnwrapped DomainDetails details, long created, long changed, long sequence)
+        implements StateRecord {
     static Domain of(String domain, DomainDetails details, long now, long sequence) {
         return new Domain(domain, details, now, now, sequence);
     }
@@ -27,9 +28,5 @@ public record Domain(String domain, @JsonUnwrapped DomainDetails details, long c
     public Domain withoutArea() {
         DomainDetails rest = new DomainDetails(details.name(), details.description(), null, details.fields());
         return new Domain(domain, rest, created, changed, sequence);
-    }
-
-    byte[] toBytes() {
-        return StateJson.write(this);
     }
 }

@@ -5,7 +5,7 @@ import com.fasterxml.jackson.annotation.JsonUnwrapped;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.FiwareScope;
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 
 /**
  * The health of a desired device: stored, and a record of {@code service.devices.health} with the key of
@@ -18,7 +18,7 @@ public record DeviceHealth(
         @JsonUnwrapped Device device,
         boolean silent,
         long since,
-        @JsonUnwrapped NewestReport report) {
+        @JsonUnwrapped NewestReport report) implements StateRecord {
     /**
      * Which device it is.
      *
@@ -77,9 +77,5 @@ public record DeviceHealth(
 
     String key() {
         return new FiwareScope(device.service, device.servicePath).identity(device.id);
-    }
-
-    byte[] toBytes() {
-        return StateJson.write(this);
     }
 }

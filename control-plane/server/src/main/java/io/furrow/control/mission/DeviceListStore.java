@@ -4,7 +4,6 @@ import java.util.ArrayList;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
@@ -17,6 +16,7 @@ import io.furrow.model.control.MissionDevices;
 import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.GroupRef;
 import io.furrow.model.device.MissionDeviceList;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -26,7 +26,7 @@ import io.furrow.model.topic.Topics;
  */
 record DeviceListStore(Table<byte[]> parts, Sequence sequence, Quota quota, EventPublisher publisher) {
     MissionDevices of(Mission mission) {
-        ArrayNode all = JsonNodeFactory.instance.arrayNode();
+        ArrayNode all = NgsiJson.array();
         for (MissionDeviceList part : parts(mission)) {
             all.addAll(part.devices());
         }
@@ -133,10 +133,6 @@ record DeviceListStore(Table<byte[]> parts, Sequence sequence, Quota quota, Even
     }
 
     private static MissionDeviceList read(byte[] value) {
-        try {
-            return MissionDeviceList.read(value);
-        } catch (io.furrow.model.ngsi.UnreadableException e) {
-            throw new IllegalStateException("a stored device list cannot be read", e);
-        }
+        return NgsiJson.own(() -> MissionDeviceList.read(value));
     }
 }

@@ -7,7 +7,6 @@ import io.furrow.control.health.SilenceCause;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * A device that was asked for, as it is remembered under its key.
@@ -26,20 +25,13 @@ record DeviceState(
         DeviceConnection connection) {
     /** @param before null if it was never asked for */
     static DeviceState requested(DesiredDevice device, DeviceState before) {
-        try {
-            DeviceConnection connection = before == null ? null : before.connection();
-            return new DeviceState(NgsiJson.read(device.toBytes()), false, null, false, connection);
-        } catch (UnreadableException e) {
-            throw new IllegalStateException("a device is not read as it was written", e);
-        }
+        DeviceConnection connection = before == null ? null : before.connection();
+        JsonNode json = NgsiJson.own(() -> NgsiJson.read(device.toBytes()));
+        return new DeviceState(json, false, null, false, connection);
     }
 
     DesiredDevice device() {
-        try {
-            return DesiredDevice.read(NgsiJson.write(desired));
-        } catch (UnreadableException e) {
-            throw new IllegalStateException("a stored device cannot be read", e);
-        }
+        return NgsiJson.own(() -> DesiredDevice.read(NgsiJson.write(desired)));
     }
 
     String mission() {

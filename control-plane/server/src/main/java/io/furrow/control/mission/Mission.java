@@ -1,6 +1,6 @@
 package io.furrow.control.mission;
 
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 
 /**
  * What is requested of a mission: remembered, and a record of {@code service.missions} under its name. Its devices are listed on {@code
@@ -26,7 +26,8 @@ public record Mission(
         Long start,
         Long duration,
         long created,
-        long sequence) {
+        long sequence)
+        implements StateRecord {
 
     static Mission of(String mission, String domain, long now) {
         return new Mission(mission, domain, null, 0, 0, false, null, null, now, 0);
@@ -50,9 +51,5 @@ public record Mission(
 
     Mission undesired(long newSequence) {
         return new Mission(mission, domain, template, parts, deviceCount, false, start, duration, created, newSequence);
-    }
-
-    byte[] toBytes() {
-        return StateJson.write(this);
     }
 }

@@ -1,11 +1,9 @@
 package io.furrow.control.mission;
 
-import java.util.Locale;
-
-import com.fasterxml.jackson.annotation.JsonValue;
+import io.furrow.model.text.Coded;
 
 /** Where a mission is in its life. */
-public enum MissionState {
+public enum MissionState implements Coded {
     /** There is nothing to do yet: it waits for its start date, or to be started. */
     CREATED,
     /** Its devices are requested and not all of them are up. */
@@ -31,11 +29,5 @@ public enum MissionState {
             case STOPPING -> next == STOPPED;
             case STOPPED, FAILED -> next == CREATED || next == STARTING;
         };
-    }
-
-    /** As records have it. */
-    @JsonValue
-    public String code() {
-        return name().toLowerCase(Locale.ROOT);
     }
 }

@@ -4,7 +4,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.stream.Collectors;
 
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.text.Counts;
 
 /**
@@ -31,7 +31,8 @@ public record MissionStatus(
         List<Missing> missing,
         String reason,
         Long due,
-        Long ends) {
+        Long ends)
+        implements StateRecord {
     /** More are counted, but not named. */
     static final int MAX_NAMED = 100;
 
@@ -135,10 +136,6 @@ public record MissionStatus(
 
     boolean isDue(long now) {
         return due != null && due <= now;
-    }
-
-    byte[] toBytes() {
-        return StateJson.write(this);
     }
 
     /** On to the next state where all devices are as wanted. */

@@ -5,7 +5,6 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.control.DeviceGroup;
@@ -13,6 +12,7 @@ import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.GroupRef;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * The devices of a mission one by one. The n-th of a type is {@code urn:ngsi-ld:<type>:<mission>-<n>} unless its group has an
@@ -84,7 +84,7 @@ final class PlannedDevices {
                     carrier,
                     group.settings().has("at"));
             String device = group.type() != null ? ids.get(i).replace("+", "%2B") : null;
-            ObjectNode none = JsonNodeFactory.instance.objectNode();
+            ObjectNode none = NgsiJson.object();
             devices.add(new DesiredDevice(
                     version,
                     group.type(),

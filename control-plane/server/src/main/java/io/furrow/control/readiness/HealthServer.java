@@ -5,7 +5,6 @@ import java.net.URI;
 import java.nio.ByteBuffer;
 import java.util.function.Supplier;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.eclipse.jetty.http.HttpHeader;
 import org.eclipse.jetty.http.HttpMethod;
@@ -94,7 +93,7 @@ public final class HealthServer implements AutoCloseable {
     }
 
     private static ObjectNode error(String error, String reason) {
-        return JsonNodeFactory.instance.objectNode().put("error", error).put("reason", reason);
+        return NgsiJson.object().put("error", error).put("reason", reason);
     }
 
     private static final class Answering extends Handler.Abstract.NonBlocking {

@@ -14,6 +14,7 @@ import io.furrow.control.manager.UnitOfWork;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.RecordedMission;
 import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
@@ -56,11 +57,7 @@ public final class ReplayManager {
     }
 
     private static DesiredReplay stored(byte[] value) {
-        try {
-            return DesiredReplay.read(value);
-        } catch (UnreadableException e) {
-            throw new IllegalStateException("the manager kept a replay that it cannot read", e);
-        }
+        return NgsiJson.own(() -> DesiredReplay.read(value));
     }
 
     private static ReplayCommandHandler handler(UnitOfWork unitOfWork, Supplier<UUID> ids, ReplaySettings settings) {

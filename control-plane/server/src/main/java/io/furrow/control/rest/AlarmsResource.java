@@ -28,6 +28,7 @@ import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.text.Coded;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/alarms}. */
@@ -69,15 +70,10 @@ public final class AlarmsResource {
         if (requested.isEmpty()) {
             return null;
         }
-        if (requested.size() == 1) {
-            for (AlarmState state : AlarmState.values()) {
-                if (state.code().equals(requested.get(0))) {
-                    return state;
-                }
-            }
-        }
         String states = Arrays.stream(AlarmState.values()).map(AlarmState::code).collect(Collectors.joining(", "));
-        throw new ProblemException(ErrorCode.WRONG_MEMBER, "'state' must be one of " + states + ", and given once");
+        return Coded.find(AlarmState.values(), requested.size() == 1 ? requested.get(0) : null)
+                .orElseThrow(() -> new ProblemException(
+                        ErrorCode.WRONG_MEMBER, "'state' must be one of " + states + ", and given once"));
     }
 
     private static int limit(List<String> requested) {
@@ -92,13 +88,9 @@ public final class AlarmsResource {
 
     /** Of a severity that this version does not know, last. */
     private static int severity(JsonNode alarm) {
-        String code = alarm.path("severity").asText();
-        for (Severity severity : Severity.values()) {
-            if (severity.code().equals(code)) {
-                return severity.ordinal();
-            }
-        }
-        return Severity.values().length;
+        return Coded.find(Severity.values(), alarm.path("severity").asText())
+                .map(Severity::ordinal)
+                .orElse(Severity.values().length);
     }
 
     /** @param command {@code for}, a duration, belongs to {@code mute} */

@@ -6,7 +6,6 @@ import java.util.Properties;
 import java.util.function.Predicate;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import jakarta.ws.rs.DefaultValue;
 import jakarta.ws.rs.GET;
 import jakarta.ws.rs.Path;
@@ -23,6 +22,7 @@ import io.furrow.control.rest.view.AuditHistory;
 import io.furrow.control.rest.view.AuditedEntry;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code /api/audit}: the newest out of memory, older ones out of Kafka. */
 @Path("/api/audit")
@@ -56,14 +56,14 @@ public final class AuditResource {
             throw new ProblemException(
                     ErrorCode.WRONG_MEMBER, "'limit' must be a whole number from 1 to " + StateView.AUDITED);
         }
-        if (before != null && !before.matches("[0-9]{1,18}")) {
-            throw new ProblemException(
-                    ErrorCode.WRONG_MEMBER, "'before' must be the position of an entry, a whole number from 0");
-        }
+        ProblemException.refuseIf(
+                before != null && !before.matches("[0-9]{1,18}"),
+                ErrorCode.WRONG_MEMBER,
+                "'before' must be the position of an entry, a whole number from 0");
         Predicate<AuditedEntry> desired = entry -> entry.isAbout("device", device) && entry.isAbout("mission", mission);
         AuditHistory.Page page =
                 page(before == null ? Long.MAX_VALUE : Long.parseLong(before), Integer.parseInt(limit), desired);
-        ArrayNode entries = JsonNodeFactory.instance.arrayNode();
+        ArrayNode entries = NgsiJson.array();
         page.entries().forEach(each -> entries.add(each.json()));
         Response.ResponseBuilder answer = JsonResponses.json(200, entries);
         if (page.next() >= 0) {

@@ -22,9 +22,7 @@ public final class CallerResource {
     @GET
     public Response me(@Context ContainerRequestContext request) {
         Role role = request.getProperty(TokenFilter.TOKEN) instanceof ApiToken token ? token.role() : Role.ADMIN;
-        return JsonResponses.ok(NgsiJson.mapper()
-                .createObjectNode()
-                .put("user", RequestContext.user(request))
-                .put("role", role.code()));
+        return JsonResponses.ok(
+                NgsiJson.object().put("user", RequestContext.user(request)).put("role", role.code()));
     }
 }

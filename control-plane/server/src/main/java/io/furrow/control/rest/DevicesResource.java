@@ -10,7 +10,6 @@ import java.util.concurrent.RejectedExecutionException;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.fasterxml.jackson.databind.node.TextNode;
 import jakarta.annotation.security.RolesAllowed;
@@ -42,6 +41,7 @@ import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Role;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/devices}: what is requested of them, what they are, how they are, and commands to them. */
@@ -156,7 +156,7 @@ public final class DevicesResource {
     }
 
     private static ObjectNode about(DeviceName name) {
-        return JsonNodeFactory.instance.objectNode().put(DEVICE, name.id());
+        return NgsiJson.object().put(DEVICE, name.id());
     }
 
     /** A device that has credentials, which can be shown here. */
@@ -185,11 +185,10 @@ public final class DevicesResource {
     }
 
     static void requireSecret(DeviceCredentials credentials) {
-        if (credentials == null) {
-            throw new ProblemException(
-                    ErrorCode.NO_CREDENTIALS,
-                    "this control plane does not know the secret of the farm; start it with --farm-secret");
-        }
+        ProblemException.refuseIf(
+                credentials == null,
+                ErrorCode.NO_CREDENTIALS,
+                "this control plane does not know the secret of the farm; start it with --farm-secret");
     }
 
     /** Answers once the context broker has taken it, which does not say that the device obeyed. */
@@ -251,27 +250,25 @@ public final class DevicesResource {
     }
 
     private static void check(ObjectNode members, String command, String type) {
-        if (!members.has("command")) {
-            throw new ProblemException(ErrorCode.MISSING_MEMBER, "the request needs a member 'command'");
-        }
-        if (!members.get("command").isTextual() || !COMMAND.matcher(command).matches()) {
-            throw new ProblemException(
-                    ErrorCode.WRONG_MEMBER, "'command' must be 1 to 64 of A-Z a-z 0-9 _ - that begin with a letter");
-        }
-        if (members.hasNonNull("type") && !members.get("type").isTextual()) {
-            throw new ProblemException(ErrorCode.WRONG_MEMBER, "'type' must be a text");
-        }
+        ProblemException.refuseIf(
+                !members.has("command"), ErrorCode.MISSING_MEMBER, "the request needs a member 'command'");
+        ProblemException.refuseIf(
+                !members.get("command").isTextual() || !COMMAND.matcher(command).matches(),
+                ErrorCode.WRONG_MEMBER,
+                "'command' must be 1 to 64 of A-Z a-z 0-9 _ - that begin with a letter");
+        ProblemException.refuseIf(
+                members.hasNonNull("type") && !members.get("type").isTextual(),
+                ErrorCode.WRONG_MEMBER,
+                "'type' must be a text");
         boolean hasValue = members.hasNonNull("value") && !members.get("value").equals(NO_VALUE);
-        if (hasValue && DeviceCommands.isRobot(type)) {
-            throw new ProblemException(
-                    ErrorCode.WRONG_MEMBER,
-                    "a robot gets commands in its attribute 'cmd', which has no room for a 'value'; leave it out");
-        }
-        if (type.isEmpty()) {
-            throw new ProblemException(
-                    ErrorCode.MISSING_MEMBER,
-                    "the device reports by itself: the request needs a member 'type' with the type of its entity");
-        }
+        ProblemException.refuseIf(
+                hasValue && DeviceCommands.isRobot(type),
+                ErrorCode.WRONG_MEMBER,
+                "a robot gets commands in its attribute 'cmd', which has no room for a 'value'; leave it out");
+        ProblemException.refuseIf(
+                type.isEmpty(),
+                ErrorCode.MISSING_MEMBER,
+                "the device reports by itself: the request needs a member 'type' with the type of its entity");
     }
 
     private void audit(String user, String command, ObjectNode about, String failure) {

@@ -4,7 +4,6 @@ import java.io.IOException;
 import java.io.InputStream;
 import java.util.concurrent.CompletionStage;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.annotation.security.RolesAllowed;
 import jakarta.ws.rs.Consumes;
@@ -26,6 +25,7 @@ import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Role;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/domains}. */
@@ -79,7 +79,7 @@ public final class DomainsResource {
             @Context ContainerRequestContext request,
             @PathParam(DOMAIN) String domain,
             @QueryParam("force") boolean force) {
-        ObjectNode members = JsonNodeFactory.instance.objectNode();
+        ObjectNode members = NgsiJson.object();
         return manager.command(request, "delete", members.put(DOMAIN, domain).put("force", force));
     }
 }

@@ -12,7 +12,6 @@ import java.util.Properties;
 import java.util.concurrent.Semaphore;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.fasterxml.jackson.databind.util.RawValue;
 import jakarta.annotation.security.RolesAllowed;
@@ -49,6 +48,7 @@ import io.furrow.model.field.ImportOptions;
 import io.furrow.model.field.ImportedField;
 import io.furrow.model.field.InvalidFileException;
 import io.furrow.model.field.RejectedFeature;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.TopicName;
 import io.furrow.model.topic.Topics;
 
@@ -91,7 +91,7 @@ public final class FieldsResource {
         if (!readers.tryAcquire()) {
             throw ProblemException.overloaded();
         }
-        ObjectNode collection = JsonNodeFactory.instance.objectNode().put("type", "FeatureCollection");
+        ObjectNode collection = NgsiJson.object().put("type", "FeatureCollection");
         ArrayNode features = collection.putArray("features");
         try {
             FieldChange.asOf(System.currentTimeMillis(), topic.read()).values().stream()
@@ -115,14 +115,15 @@ public final class FieldsResource {
     @POST
     public Response add(@Context ContainerRequestContext request, @QueryParam("domain") String domain, InputStream body)
             throws IOException {
-        if (domain != null && !TopicName.isLegal(domain)) {
-            throw new ProblemException(ErrorCode.WRONG_MEMBER, "'domain' must be 1 to 64 of A-Z a-z 0-9 _ -");
-        }
+        ProblemException.refuseIf(
+                domain != null && !TopicName.isLegal(domain),
+                ErrorCode.WRONG_MEMBER,
+                "'domain' must be 1 to 64 of A-Z a-z 0-9 _ -");
         if (!free.tryAcquire()) {
             throw ProblemException.overloaded();
         }
         RequestContext caller = RequestContext.of(request);
-        ObjectNode about = JsonNodeFactory.instance.objectNode().put("fields", 0);
+        ObjectNode about = NgsiJson.object().put("fields", 0);
         if (domain != null) {
             about.put("domain", domain);
         }
@@ -150,7 +151,7 @@ public final class FieldsResource {
     public Response change(@Context ContainerRequestContext request, @PathParam(FIELD) String id, InputStream body)
             throws IOException {
         ObjectNode members = JsonBodyReader.read(body);
-        ObjectNode about = JsonNodeFactory.instance.objectNode().put(FIELD, id);
+        ObjectNode about = NgsiJson.object().put(FIELD, id);
         if (members.size() == 1 && members.hasNonNull(END)) {
             return edit(RequestContext.of(request), "end-field", about, () -> {
                 Instant end = new JsonObjectReader(members).time(END);
@@ -179,7 +180,7 @@ public final class FieldsResource {
     @DELETE
     @jakarta.ws.rs.Path("{field}")
     public Response delete(@Context ContainerRequestContext request, @PathParam(FIELD) String id) {
-        ObjectNode about = JsonNodeFactory.instance.objectNode().put(FIELD, id);
+        ObjectNode about = NgsiJson.object().put(FIELD, id);
         return edit(RequestContext.of(request), "delete-field", about, () -> {
             List<String> keys = topic.keys(id);
             if (keys.isEmpty()) {

@@ -9,7 +9,6 @@ import java.util.Set;
 import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.ws.rs.container.ContainerRequestContext;
 import jakarta.ws.rs.container.ContainerRequestFilter;
@@ -40,7 +39,7 @@ final class JsonBodyReader {
     static ObjectNode read(InputStream body) throws IOException {
         byte[] bytes = bytes(body, Limits.REQUEST_BYTES);
         if (bytes.length == 0) {
-            return JsonNodeFactory.instance.objectNode();
+            return NgsiJson.object();
         }
         try {
             JsonNode json = NgsiJson.read(bytes);

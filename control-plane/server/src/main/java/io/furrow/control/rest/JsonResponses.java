@@ -5,7 +5,6 @@ import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 import jakarta.ws.rs.core.UriBuilder;
@@ -23,7 +22,7 @@ final class JsonResponses {
     }
 
     static Response ok(Stream<? extends JsonNode> elements) {
-        ArrayNode array = JsonNodeFactory.instance.arrayNode();
+        ArrayNode array = NgsiJson.array();
         elements.forEach(array::add);
         return ok(array);
     }

@@ -10,7 +10,6 @@ import java.util.concurrent.CompletionException;
 import java.util.concurrent.CompletionStage;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.ws.rs.Consumes;
 import jakarta.ws.rs.DELETE;
@@ -36,6 +35,7 @@ import io.furrow.mission.marker.Markers;
 import io.furrow.mission.marker.RejectedMarkerException;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code /api/missions/{mission}/markers}: moments of a mission with a note, kept with what is stored of it. */
 @Path("/api/missions/{mission}/markers")
@@ -126,10 +126,7 @@ public final class MarkersResource {
         Throwable cause =
                 failure instanceof CompletionException && failure.getCause() != null ? failure.getCause() : failure;
         ProblemException problem = cause instanceof ProblemException existing ? existing : null;
-        ObjectNode about = JsonNodeFactory.instance
-                .objectNode()
-                .put(MISSION, change.mission())
-                .put(MARKER, change.marker());
+        ObjectNode about = NgsiJson.object().put(MISSION, change.mission()).put(MARKER, change.marker());
         managers.audit(new AuditEntry(
                 System.currentTimeMillis(),
                 change.caller().user(),

@@ -6,7 +6,6 @@ import java.util.List;
 import java.util.concurrent.CompletionStage;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.annotation.security.RolesAllowed;
 import jakarta.ws.rs.Consumes;
@@ -32,6 +31,7 @@ import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Role;
 import io.furrow.model.device.MissionDeviceList;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/missions}. */
@@ -99,7 +99,7 @@ public final class MissionsResource {
     private ArrayNode credentialsOf(ContainerRequestContext request, String mission) {
         get(mission);
         DevicesResource.requireSecret(credentials);
-        ArrayNode all = JsonNodeFactory.instance.arrayNode();
+        ArrayNode all = NgsiJson.array();
         new DeviceView(view)
                 .of(mission).stream()
                         .filter(device -> DeviceCredentials.has(device) && !device.simulated())
@@ -163,6 +163,6 @@ public final class MissionsResource {
     }
 
     private static ObjectNode named(String mission) {
-        return JsonNodeFactory.instance.objectNode().put(MISSION, mission);
+        return NgsiJson.object().put(MISSION, mission);
     }
 }

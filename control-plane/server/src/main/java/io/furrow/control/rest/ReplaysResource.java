@@ -4,7 +4,6 @@ import java.io.IOException;
 import java.io.InputStream;
 import java.util.concurrent.CompletionStage;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.ws.rs.Consumes;
 import jakarta.ws.rs.DELETE;
@@ -20,6 +19,7 @@ import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.ReplayStatusView;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/replays}, and {@code /api/replays/groups} of those that follow one clock. */
@@ -106,6 +106,6 @@ public final class ReplaysResource {
     }
 
     private static ObjectNode none() {
-        return JsonNodeFactory.instance.objectNode();
+        return NgsiJson.object();
     }
 }

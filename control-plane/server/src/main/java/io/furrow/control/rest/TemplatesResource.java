@@ -8,7 +8,6 @@ import java.util.concurrent.CompletionStage;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.annotation.security.RolesAllowed;
 import jakarta.ws.rs.Consumes;
@@ -28,6 +27,7 @@ import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Role;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/templates}; what it gives of one can be given to it again. */
@@ -83,7 +83,7 @@ public final class TemplatesResource {
         if (!parts.matches()) {
             throw unknown(name);
         }
-        ObjectNode members = JsonNodeFactory.instance.objectNode().put(TEMPLATE, parts.group(1));
+        ObjectNode members = NgsiJson.object().put(TEMPLATE, parts.group(1));
         if (parts.group(2) != null) {
             members.put(VERSION, Integer.parseInt(parts.group(2)));
         }

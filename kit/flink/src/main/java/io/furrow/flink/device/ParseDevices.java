@@ -38,9 +38,7 @@ public final class ParseDevices extends ProcessFunction<TopicRecord, DeviceChang
             DeviceVersion version = DeviceVersion.read(record.value());
             return new DeviceChange(version.key(), record.partition(), record.offset(), record.timestamp(), version);
         }
-        if (record.key() == null) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "the record has neither a value nor a key");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(record.key() == null, "the record has neither a value nor a key");
         return new DeviceChange(
                 new String(record.key(), StandardCharsets.UTF_8),
                 record.partition(),

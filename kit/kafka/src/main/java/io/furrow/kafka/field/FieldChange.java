@@ -9,10 +9,8 @@ import java.util.TreeMap;
 import java.util.function.Predicate;
 import java.util.stream.Collectors;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
-
 import io.furrow.model.field.FieldVersion;
-import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * The effect of a field version compared with the existing versions.
@@ -55,7 +53,7 @@ public record FieldChange(Kind kind, FieldVersion version, FieldVersion before) 
 
     /** The version with which a field ends. */
     static FieldVersion end(String id, long time) {
-        return new FieldVersion(id, time, null, JsonNodeFactory.instance.objectNode());
+        return new FieldVersion(id, time, null, NgsiJson.object());
     }
 
     /** Returns the fields valid at a time, by id. */
@@ -84,10 +82,6 @@ public record FieldChange(Kind kind, FieldVersion version, FieldVersion before) 
     }
 
     private static FieldVersion readBack(FieldVersion version) {
-        try {
-            return FieldVersion.read(version.toBytes());
-        } catch (UnreadableException e) {
-            throw new IllegalStateException("the JSON of a field version cannot be read back: " + version.key(), e);
-        }
+        return NgsiJson.own(() -> FieldVersion.read(version.toBytes()));
     }
 }

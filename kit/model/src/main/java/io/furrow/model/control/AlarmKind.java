@@ -1,12 +1,11 @@
 package io.furrow.model.control;
 
-import java.util.Locale;
-
 import com.fasterxml.jackson.annotation.JsonCreator;
-import com.fasterxml.jackson.annotation.JsonValue;
+
+import io.furrow.model.text.Coded;
 
 /** What alarms are about; the names are never changed, clients branch on them. */
-public enum AlarmKind {
+public enum AlarmKind implements Coded {
     /** Devices of a mission did not come up within the start timeout; the subject is the mission's entity. */
     MISSING_DEVICES,
     /** Devices were not heard of for longer than they may be; the subject is the entity of their mission, else domain. */
@@ -26,20 +25,10 @@ public enum AlarmKind {
     /** A part of Furrow itself does not do its work, or needs somebody; the subject is its name. */
     FAULT;
 
-    /** The name in lower case with hyphens, for instance {@code silent-device}. */
-    @JsonValue
-    public String code() {
-        return name().toLowerCase(Locale.ROOT).replace('_', '-');
-    }
-
     /** @throws IllegalArgumentException if there is none of that code */
     @JsonCreator
     public static AlarmKind of(String code) {
-        for (AlarmKind kind : values()) {
-            if (kind.code().equals(code)) {
-                return kind;
-            }
-        }
-        throw new IllegalArgumentException("there is no alarm of kind '" + code + "'");
+        return Coded.find(values(), code)
+                .orElseThrow(() -> new IllegalArgumentException("there is no alarm of kind '" + code + "'"));
     }
 }

@@ -4,7 +4,6 @@ import java.util.List;
 import java.util.Optional;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
@@ -24,7 +23,7 @@ public record CommandResult(ObjectNode json) {
 
     /** An answer of a status, for instance {@code created}. */
     public static CommandResult of(String status) {
-        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        ObjectNode json = NgsiJson.object();
         return new CommandResult(json.put("type", "response").put("status", status));
     }
 

@@ -12,7 +12,7 @@ import com.fasterxml.jackson.databind.util.StdConverter;
 import io.furrow.model.control.ReplayStatus.State;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
@@ -51,7 +51,8 @@ public record DesiredReplay(
         Step step,
         Clock clock,
         long created,
-        long sequence) {
+        long sequence)
+        implements StateRecord {
 
     /**
      * A part of the recording, between event times.
@@ -199,10 +200,8 @@ public record DesiredReplay(
         }
         try {
             DesiredReplay replay = read(new JsonObjectReader(json));
-            if (!replay.belongsTogether()) {
-                throw new UnreadableException(
-                        Reason.NOT_AN_EVENT, "'replay', 'mission' and 'topic' do not belong together");
-            }
+            Reason.NOT_AN_EVENT.refuseIf(
+                    !replay.belongsTogether(), "'replay', 'mission' and 'topic' do not belong together");
             return replay;
         } catch (RejectedException e) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage());
@@ -251,9 +250,5 @@ public record DesiredReplay(
                 && replay.substring(0, replay.lastIndexOf('.')).equals(mission)
                 && Topics.isReplay(topic)
                 && topic.endsWith(replay.substring(replay.lastIndexOf('.')));
-    }
-
-    public byte[] toBytes() {
-        return StateJson.write(this);
     }
 }

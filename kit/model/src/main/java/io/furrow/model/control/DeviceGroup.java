@@ -55,7 +55,7 @@ public record DeviceGroup(
 
     /** An entity that reports with a login of its own. */
     public static DeviceGroup entity(String id) {
-        return new DeviceGroup(null, id, null, 1, null, null, null, JsonNodeFactory.instance.objectNode());
+        return new DeviceGroup(null, id, null, 1, null, null, null, NgsiJson.object());
     }
 
     /** By what {@code carriedBy} of another group means this one; null if nothing does. */
@@ -94,7 +94,7 @@ public record DeviceGroup(
 
     /** The settings of a group as requests have it; those that are null are left out. */
     public static ObjectNode settings(ObjectNode group) {
-        ObjectNode settings = JsonNodeFactory.instance.objectNode();
+        ObjectNode settings = NgsiJson.object();
         for (String name : SETTINGS) {
             if (group.hasNonNull(name)) {
                 settings.set(name, group.get(name));
@@ -105,7 +105,7 @@ public record DeviceGroup(
 
     /** What its settings take, all but the area, which its devices share: for each device. */
     long settingsBytes() {
-        ObjectNode own = JsonNodeFactory.instance.objectNode();
+        ObjectNode own = NgsiJson.object();
         own.setAll(settings);
         own.remove(List.of("area", AT));
         return own.isEmpty() ? 0 : (long) count * NgsiJson.write(own).length;
@@ -173,7 +173,7 @@ public record DeviceGroup(
         if (type == null) {
             return JsonNodeFactory.instance.textNode(id);
         }
-        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        ObjectNode json = NgsiJson.object();
         put(json, "name", name);
         put(json, "id", id);
         json.put("type", type).put("count", count);

@@ -1,9 +1,9 @@
 package io.furrow.model.control;
 
-import java.util.Locale;
+import io.furrow.model.text.Coded;
 
 /** Why a request was refused: the member {@code error} of the answer. Codes are never renamed, clients branch on them. */
-public enum ErrorCode {
+public enum ErrorCode implements Coded {
     /** Not one well-formed JSON document in UTF-8. */
     NOT_JSON,
     /** JSON, but no object with {@code type} {@code request} or {@code response}. */
@@ -53,9 +53,4 @@ public enum ErrorCode {
     OVERLOADED,
     /** The manager failed at the request and changed nothing; the request is a dead letter. */
     INTERNAL_ERROR;
-
-    /** The name in lower case with hyphens, for instance {@code not-json}. */
-    public String code() {
-        return name().toLowerCase(Locale.ROOT).replace('_', '-');
-    }
 }

@@ -4,7 +4,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -13,17 +13,11 @@ import io.furrow.model.ngsi.UnreadableException;
  *
  * @param text what happened, to what, and what to do
  */
-public record Fault(String text) {
+public record Fault(String text) implements StateRecord {
     /** @throws UnreadableException if the value is not an object with a {@code text} */
     public static Fault read(byte[] value) throws UnreadableException {
         JsonNode text = NgsiJson.read(value).path("text");
-        if (!text.isTextual()) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "the fault has no member 'text' with a text");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(!text.isTextual(), "the fault has no member 'text' with a text");
         return new Fault(text.textValue());
-    }
-
-    public byte[] toBytes() {
-        return StateJson.write(this);
     }
 }

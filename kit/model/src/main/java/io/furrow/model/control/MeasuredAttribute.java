@@ -6,8 +6,9 @@ import java.util.Map;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * An attribute of a device's entity, and the member of its MQTT messages that the IoT Agent makes it from. What a device sends follows
@@ -93,11 +94,7 @@ public record MeasuredAttribute(String objectId, String name, String type, Strin
 
     /** As both its group and the IoT Agent name it; each has its own member for the unit. */
     public ObjectNode toJson() {
-        return JsonNodeFactory.instance
-                .objectNode()
-                .put("object_id", objectId)
-                .put("name", name)
-                .put("type", type);
+        return NgsiJson.object().put("object_id", objectId).put("name", name).put("type", type);
     }
 
     /** Checks the member {@code attributes} of a group. */

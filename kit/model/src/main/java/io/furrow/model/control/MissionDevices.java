@@ -10,7 +10,8 @@ import java.util.Set;
 import com.fasterxml.jackson.annotation.JsonValue;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+
+import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * The devices of a mission or of a template, group by group. Names are unique, what carries is there, nothing carries itself.
@@ -37,8 +38,7 @@ public record MissionDevices(List<DeviceGroup> groups) {
      */
     public static MissionDevices of(ArrayNode json) {
         try {
-            return read(
-                    new JsonObjectReader(JsonNodeFactory.instance.objectNode().set("devices", json)));
+            return read(new JsonObjectReader(NgsiJson.object().set("devices", json)));
         } catch (RejectedException e) {
             throw new IllegalArgumentException("these are no devices of a mission: " + e.getMessage(), e);
         }
@@ -47,8 +47,7 @@ public record MissionDevices(List<DeviceGroup> groups) {
     /** A part of a list as {@link #toJson()} wrote it: whether names and carriers fit shows with the rest of the list. */
     public static MissionDevices ofPart(ArrayNode json) {
         try {
-            return readPart(
-                    new JsonObjectReader(JsonNodeFactory.instance.objectNode().set("devices", json)));
+            return readPart(new JsonObjectReader(NgsiJson.object().set("devices", json)));
         } catch (RejectedException e) {
             throw new IllegalArgumentException("these are no devices of a mission: " + e.getMessage(), e);
         }
@@ -143,7 +142,7 @@ public record MissionDevices(List<DeviceGroup> groups) {
     /** As {@code devices} has it. */
     @JsonValue
     public ArrayNode toJson() {
-        ArrayNode array = JsonNodeFactory.instance.arrayNode();
+        ArrayNode array = NgsiJson.array();
         groups.forEach(group -> array.add(group.toJson()));
         return array;
     }

@@ -6,7 +6,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -20,7 +20,8 @@ public record MissionTemplate(
         @JsonProperty("template") String name,
         @JsonInclude(JsonInclude.Include.NON_DEFAULT) int version,
         String description,
-        MissionDevices devices) {
+        MissionDevices devices)
+        implements StateRecord {
     /** {@code <name>@<version>}. */
     public String key() {
         return name + "@" + version;
@@ -55,9 +56,5 @@ public record MissionTemplate(
                 members.wholeNumber("version", 0, Integer.MAX_VALUE, 0),
                 members.textOrNull("description"),
                 MissionDevices.read(members));
-    }
-
-    public byte[] toBytes() {
-        return StateJson.write(this);
     }
 }

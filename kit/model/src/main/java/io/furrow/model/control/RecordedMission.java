@@ -4,7 +4,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -13,7 +13,7 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param first event time of its oldest event, epoch ms, as it was when it was looked up last
  * @param last event time of its newest event, epoch ms, inclusive
  */
-public record RecordedMission(String mission, long first, long last) {
+public record RecordedMission(String mission, long first, long last) implements StateRecord {
     /**
      * Reads the value of a record; members of other names are skipped.
      *
@@ -29,9 +29,5 @@ public record RecordedMission(String mission, long first, long last) {
         } catch (RejectedException e) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage());
         }
-    }
-
-    public byte[] toBytes() {
-        return StateJson.write(this);
     }
 }

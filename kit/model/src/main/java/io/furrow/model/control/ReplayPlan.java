@@ -3,7 +3,6 @@ package io.furrow.model.control;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
-import java.util.Locale;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
@@ -12,6 +11,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.fasterxml.jackson.databind.util.StdConverter;
 
 import io.furrow.model.result.AnalyticsKind;
+import io.furrow.model.text.Coded;
 
 /**
  * What a replay plays, as it was asked for at its start.
@@ -68,15 +68,11 @@ public record ReplayPlan(
     }
 
     /** What the timestamps of records say. */
-    public enum Stamps {
+    public enum Stamps implements Coded {
         /** The original event time, plus an offset that grows at each jump back. */
         ORIGINAL,
         /** The time at which the event is played. */
         NOW;
-
-        String code() {
-            return name().toLowerCase(Locale.ROOT);
-        }
     }
 
     private static final class GapToText extends StdConverter<Long, String> {
@@ -124,15 +120,10 @@ public record ReplayPlan(
 
     private static Stamps stamps(JsonObjectReader members) throws RejectedException {
         String word = members.textOrNull("stamps");
-        if (word == null) {
-            return Stamps.ORIGINAL;
-        }
-        for (Stamps stamps : Stamps.values()) {
-            if (stamps.code().equals(word)) {
-                return stamps;
-            }
-        }
-        throw JsonObjectReader.wrong("stamps", "original or now");
+        return word == null
+                ? Stamps.ORIGINAL
+                : Coded.find(Stamps.values(), word)
+                        .orElseThrow(() -> JsonObjectReader.wrong("stamps", "original or now"));
     }
 
     private static Long millis(Instant time) {

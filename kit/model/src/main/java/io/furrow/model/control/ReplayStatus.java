@@ -5,7 +5,6 @@ import java.util.Objects;
 
 import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
@@ -82,18 +81,12 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
 
         private static Progress read(JsonNode json) {
             return new Progress(
-                    json.path("epoch").asLong(),
-                    json.path("position").asLong(),
-                    json.path("from").asLong(),
-                    json.path("to").asLong(),
-                    json.path("offset").asLong(),
-                    json.path("lateness").asLong(),
-                    json.path("slip").asLong(),
-                    json.path("rate").asDouble(),
-                    json.path("events").asLong(),
-                    json.path("primes").asLong(),
-                    json.path("skipped").asLong(),
-                    json.path("waiting").textValue());
+                    json.path("epoch").asLong(), json.path("position").asLong(),
+                    json.path("from").asLong(), json.path("to").asLong(),
+                    json.path("offset").asLong(), json.path("lateness").asLong(),
+                    json.path("slip").asLong(), json.path("rate").asDouble(),
+                    json.path("events").asLong(), json.path("primes").asLong(),
+                    json.path("skipped").asLong(), json.path("waiting").textValue());
         }
     }
 
@@ -109,9 +102,9 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
     public static ReplayStatus read(byte[] value) throws UnreadableException {
         JsonNode json = NgsiJson.read(value);
         JsonNode sequence = json.path(SEQUENCE);
-        if (!sequence.isIntegralNumber() || !sequence.canConvertToLong()) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "'sequence' of the status is not a whole number");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(
+                !sequence.isIntegralNumber() || !sequence.canConvertToLong(),
+                "'sequence' of the status is not a whole number");
         for (State state : State.values()) {
             if (state.code().equals(json.path(STATE).textValue())) {
                 return new ReplayStatus(
@@ -127,7 +120,7 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
     }
 
     public byte[] toBytes() {
-        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        ObjectNode json = NgsiJson.object();
         json.put(SEQUENCE, sequence).put(STATE, state.code());
         DeviceGroup.put(json, REASON, Limits.reason(reason));
         if (state.isOver()) {

@@ -5,7 +5,6 @@ import java.util.Set;
 
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
@@ -23,7 +22,7 @@ public record RequestSummary(ObjectNode json) {
 
     /** Reads as far as the value is JSON. */
     public static RequestSummary of(byte[] value) {
-        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        ObjectNode json = NgsiJson.object();
         try (JsonParser parser = NgsiJson.mapper().getFactory().createParser(value)) {
             if (parser.nextToken() == JsonToken.START_OBJECT) {
                 read(parser, json);

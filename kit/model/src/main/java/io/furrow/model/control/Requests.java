@@ -4,7 +4,6 @@ import java.util.List;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
@@ -49,7 +48,7 @@ public final class Requests {
 
     /** @param requestId may be null */
     public static byte[] write(String requestId, Command command) {
-        ObjectNode json = JsonNodeFactory.instance.objectNode().put("type", "request");
+        ObjectNode json = NgsiJson.object().put("type", "request");
         DeviceGroup.put(json, "requestId", requestId);
         json.put("command", command.verb());
         command.describe(json);
@@ -58,7 +57,7 @@ public final class Requests {
 
     /** The answer to a command that was understood and not granted. */
     public static CommandResult refusal(RejectedException refusal, Command command) {
-        ObjectNode request = JsonNodeFactory.instance.objectNode();
+        ObjectNode request = NgsiJson.object();
         command.describe(request);
         return aboutSubjects(CommandResult.refused(refusal), request);
     }

@@ -1,11 +1,11 @@
 package io.furrow.model.control;
 
-import java.util.Arrays;
-import java.util.Locale;
 import java.util.Optional;
 
+import io.furrow.model.text.Coded;
+
 /** What a caller may do; each may what those before it may. */
-public enum Role {
+public enum Role implements Coded {
     /** Reads, but no credentials. */
     VIEWER,
     /** Commands missions, devices, replays and alarms. */
@@ -17,12 +17,7 @@ public enum Role {
     public static final String ADMINS = "admin";
 
     public static Optional<Role> of(String code) {
-        return Arrays.stream(values()).filter(role -> role.code().equals(code)).findFirst();
-    }
-
-    /** As in the file of tokens. */
-    public String code() {
-        return name().toLowerCase(Locale.ROOT);
+        return Coded.find(values(), code);
     }
 
     public boolean includes(Role minimum) {

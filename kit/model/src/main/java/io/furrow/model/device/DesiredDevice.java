@@ -6,7 +6,6 @@ import java.util.List;
 import java.util.Objects;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.control.MeasuredAttribute;
@@ -97,7 +96,7 @@ public record DesiredDevice(
                 !"stopped".equals(json.path("wanted").textValue()),
                 period(json.path("period").textValue()),
                 json.path(SIMULATED).asBoolean(),
-                json.path(SETTINGS) instanceof ObjectNode settings ? settings : JsonNodeFactory.instance.objectNode(),
+                json.path(SETTINGS) instanceof ObjectNode settings ? settings : NgsiJson.object(),
                 GroupRef.read(json.path(GROUP)),
                 generation(json.path(GENERATION)));
     }
@@ -106,10 +105,9 @@ public record DesiredDevice(
         if (number.isMissingNode()) {
             return 0;
         }
-        if (!number.isIntegralNumber() || !number.canConvertToInt() || number.intValue() < 0) {
-            throw new UnreadableException(
-                    Reason.NOT_AN_EVENT, "'generation' of the device is not a whole number from 0 on");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(
+                !number.isIntegralNumber() || !number.canConvertToInt() || number.intValue() < 0,
+                "'generation' of the device is not a whole number from 0 on");
         return number.intValue();
     }
 

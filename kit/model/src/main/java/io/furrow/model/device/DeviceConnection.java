@@ -2,6 +2,7 @@ package io.furrow.model.device;
 
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -21,7 +22,8 @@ public record DeviceConnection(
         RefusedLogin refusedLogin,
         ForeignTopic foreignTopic,
         UnreadablePayload unreadablePayload,
-        Boolean registered) {
+        Boolean registered)
+        implements StateRecord {
     /** Reason of a refused login: there is no such user, or no longer. */
     public static final String UNKNOWN_USER = "unknown-user";
     /** Reason of a refused login: the user exists and has another password. */
@@ -57,9 +59,5 @@ public record DeviceConnection(
         } catch (UnreadableException e) {
             throw new UnreadableException(Reason.NOT_JSON, "no record of a device's connection: " + e.getMessage(), e);
         }
-    }
-
-    public byte[] toBytes() {
-        return StateJson.write(this);
     }
 }

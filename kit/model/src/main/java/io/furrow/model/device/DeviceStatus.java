@@ -1,16 +1,15 @@
 package io.furrow.model.device;
 
-import java.util.Locale;
 import java.util.Objects;
 
-import com.fasterxml.jackson.annotation.JsonValue;
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.control.Limits;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.Coded;
 
 /**
  * The status of a device, reported by its host: a record of {@code service.devices.status} under the key of {@code
@@ -19,18 +18,12 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param sequence of the desired device that this is the state of; a smaller one than the newest wanted says nothing of it
  * @param reason why it failed, at most {@value Limits#REASON_LENGTH} characters of it; null if it did not
  */
-public record DeviceStatus(long sequence, State state, String reason) {
+public record DeviceStatus(long sequence, State state, String reason) implements StateRecord {
     /** How it is with a device. */
-    public enum State {
+    public enum State implements Coded {
         RUNNING,
         STOPPED,
         FAILED;
-
-        /** As the record has it. */
-        @JsonValue
-        public String code() {
-            return name().toLowerCase(Locale.ROOT);
-        }
     }
 
     public DeviceStatus {
@@ -45,21 +38,13 @@ public record DeviceStatus(long sequence, State state, String reason) {
     public static DeviceStatus read(byte[] value) throws UnreadableException {
         JsonNode json = NgsiJson.read(value);
         JsonNode sequence = json.path("sequence");
-        if (!sequence.isIntegralNumber() || !sequence.canConvertToLong()) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "'sequence' of the status is not a whole number");
-        }
-        for (State state : State.values()) {
-            if (state.code().equals(json.path("state").textValue())) {
-                return new DeviceStatus(
-                        sequence.longValue(),
-                        state,
-                        Limits.reason(json.path("reason").textValue()));
-            }
-        }
-        throw new UnreadableException(Reason.NOT_AN_EVENT, "'state' of the status is not running, stopped or failed");
-    }
-
-    public byte[] toBytes() {
-        return StateJson.write(this);
+        Reason.NOT_AN_EVENT.refuseIf(
+                !sequence.isIntegralNumber() || !sequence.canConvertToLong(),
+                "'sequence' of the status is not a whole number");
+        State state = Coded.find(State.values(), json.path("state").textValue())
+                .orElseThrow(() -> new UnreadableException(
+                        Reason.NOT_AN_EVENT, "'state' of the status is not running, stopped or failed"));
+        return new DeviceStatus(
+                sequence.longValue(), state, Limits.reason(json.path("reason").textValue()));
     }
 }

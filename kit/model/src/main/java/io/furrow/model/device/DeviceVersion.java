@@ -8,7 +8,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -36,7 +36,8 @@ public record DeviceVersion(
         Long until,
         long sequence,
         String carriedBy,
-        @JsonInclude(JsonInclude.Include.NON_DEFAULT) boolean stationary) {
+        @JsonInclude(JsonInclude.Include.NON_DEFAULT) boolean stationary)
+        implements StateRecord {
     public DeviceVersion {
         Objects.requireNonNull(id);
         Objects.requireNonNull(domain);
@@ -65,15 +66,11 @@ public record DeviceVersion(
      */
     public static DeviceVersion read(byte[] value) throws UnreadableException {
         JsonNode json = NgsiJson.read(value);
-        if (text(json, "id").isBlank()) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "the device has no member 'id' with a text");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(text(json, "id").isBlank(), "the device has no member 'id' with a text");
         FiwareScope scope = FiwareScope.of(text(json, "service"), text(json, "servicePath"));
         long from = number(json, "from");
         Long until = json.hasNonNull("until") ? Long.valueOf(number(json, "until")) : null;
-        if (until != null && until < from) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "'until' is before 'from'");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(until != null && until < from, "'until' is before 'from'");
         return new DeviceVersion(
                 text(json, "id"),
                 scope.service(),
@@ -106,11 +103,6 @@ public record DeviceVersion(
     /** The same with another sequence. */
     public DeviceVersion numbered(long other) {
         return new DeviceVersion(id, service, servicePath, domain, mission, from, until, other, carriedBy, stationary);
-    }
-
-    /** UTF-8 JSON; members without a value are left out. */
-    public byte[] toBytes() {
-        return StateJson.write(this);
     }
 
     private static String text(JsonNode json, String member) throws UnreadableException {

@@ -2,13 +2,12 @@ package io.furrow.model.device;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -19,7 +18,7 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param sequence grows with every change of anything that is requested
  * @param devices groups and entity ids as requests have them; owned by the list, not to be changed by readers
  */
-public record MissionDeviceList(String mission, int part, long sequence, ArrayNode devices) {
+public record MissionDeviceList(String mission, int part, long sequence, ArrayNode devices) implements StateRecord {
     /** {@code <mission>.<part>}. */
     public String key() {
         return key(mission, part);
@@ -52,16 +51,11 @@ public record MissionDeviceList(String mission, int part, long sequence, ArrayNo
 
     /** The settings of a device, {@code at} its own place; none if there is no such group. */
     ObjectNode settings(GroupRef ref) {
-        ObjectNode settings = devices.get(ref.index()) instanceof ObjectNode group
-                ? DeviceGroup.settings(group)
-                : JsonNodeFactory.instance.objectNode();
+        ObjectNode settings =
+                devices.get(ref.index()) instanceof ObjectNode group ? DeviceGroup.settings(group) : NgsiJson.object();
         if (settings.path("at").isArray()) {
             settings.set("at", settings.path("at").path(ref.member()));
         }
         return settings;
-    }
-
-    public byte[] toBytes() {
-        return StateJson.write(this);
     }
 }

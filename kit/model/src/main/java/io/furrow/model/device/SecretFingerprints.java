@@ -9,7 +9,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -22,7 +22,7 @@ import io.furrow.model.ngsi.UnreadableException;
 public record SecretFingerprints(
         int newest,
         int apiKeys,
-        @JsonProperty("fingerprints") Map<Integer, String> byNumber) {
+        @JsonProperty("fingerprints") Map<Integer, String> byNumber) implements StateRecord {
     /** Key of the one record of the topic. */
     public static final String KEY = "farm";
 
@@ -77,15 +77,8 @@ public record SecretFingerprints(
             }
         }
         int newest = json.path("newest").asInt();
-        if (!byNumber.containsKey(newest)) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "it names no fingerprint of its newest key");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(!byNumber.containsKey(newest), "it names no fingerprint of its newest key");
         return new SecretFingerprints(newest, json.path("apiKeys").asInt(), byNumber);
-    }
-
-    /** UTF-8 JSON. */
-    public byte[] toBytes() {
-        return StateJson.write(this);
     }
 
     /** Fingerprint and number of the newest key, as in {@link FarmSecret#toString()}. */

@@ -5,7 +5,6 @@ import java.time.Duration;
 import java.time.Instant;
 import java.util.LinkedHashSet;
 import java.util.List;
-import java.util.Locale;
 import java.util.Map;
 import java.util.Optional;
 import java.util.stream.Stream;
@@ -13,6 +12,7 @@ import java.util.stream.Stream;
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.text.Coded;
 import io.furrow.model.time.Instants;
 
 /**
@@ -26,7 +26,7 @@ public record EventTimeRule(List<Source> order, Duration maxSkew) implements Ser
     public static final List<Source> DEFAULT_ORDER = List.of(Source.DEVICE, Source.ATTRIBUTES, Source.ENTITY);
 
     /** Where a time is read from. */
-    public enum Source {
+    public enum Source implements Coded {
         /** {@code Time} (epoch ms), else {@code TimeInstant}, {@code dateObserved}, {@code timestamp} (see {@link Instants}). */
         DEVICE,
         /**
@@ -68,11 +68,6 @@ public record EventTimeRule(List<Source> order, Duration maxSkew) implements Ser
         private static Stream<Instant> modified(JsonNode attribute) {
             JsonNode modified = attribute.path("metadata").path(Entity.MODIFIED).path("value");
             return Instants.of(modified).stream();
-        }
-
-        /** As options name it. */
-        public String code() {
-            return name().toLowerCase(Locale.ROOT);
         }
 
         private static Source of(String word) {

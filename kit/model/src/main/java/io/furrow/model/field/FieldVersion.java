@@ -9,7 +9,6 @@ import java.util.Set;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
@@ -155,7 +154,7 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
     }
 
     private static ObjectNode none() {
-        return JsonNodeFactory.instance.objectNode();
+        return NgsiJson.object();
     }
 
     private static UnreadableException refused(String why) {

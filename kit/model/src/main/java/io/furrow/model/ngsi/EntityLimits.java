@@ -46,9 +46,7 @@ final class EntityLimits {
         for (int i = 0; i < text.length(); i++) {
             if (Character.isSurrogate(text.charAt(i))) {
                 boolean pair = i + 1 < text.length() && Character.isSurrogatePair(text.charAt(i), text.charAt(i + 1));
-                if (!pair) {
-                    throw new UnreadableException(Reason.NOT_AN_ENTITY, "a text holds half of a surrogate pair");
-                }
+                Reason.NOT_AN_ENTITY.refuseIf(!pair, "a text holds half of a surrogate pair");
                 i++;
             }
         }

@@ -18,6 +18,9 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.ObjectMapper;
 import com.fasterxml.jackson.databind.cfg.JsonNodeFeature;
 import com.fasterxml.jackson.databind.json.JsonMapper;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.text.Utf8;
 
@@ -57,6 +60,16 @@ public final class NgsiJson {
         return MAPPER;
     }
 
+    /** A new object without members. */
+    public static ObjectNode object() {
+        return JsonNodeFactory.instance.objectNode();
+    }
+
+    /** A new array without elements. */
+    public static ArrayNode array() {
+        return JsonNodeFactory.instance.arrayNode();
+    }
+
     /**
      * Reads one JSON document.
      *
@@ -67,9 +80,7 @@ public final class NgsiJson {
         checkMark(bytes);
         return understand(() -> {
             JsonNode node = MAPPER.readTree(bytes);
-            if (node == null || node.isMissingNode()) {
-                throw new UnreadableException(Reason.NOT_JSON, "the body is empty");
-            }
+            Reason.NOT_JSON.refuseIf(node == null || node.isMissingNode(), "the body is empty");
             return node;
         });
     }
@@ -85,10 +96,7 @@ public final class NgsiJson {
     }
 
     private static void checkMark(byte[] bytes) throws UnreadableException {
-        if (hasMark(bytes)) {
-            throw new UnreadableException(
-                    Reason.NOT_JSON, "the text begins with a byte order mark (EF BB BF); send it without");
-        }
+        Reason.NOT_JSON.refuseIf(hasMark(bytes), "the text begins with a byte order mark (EF BB BF); send it without");
     }
 
     /** Jackson's own decoder is too lenient, and looks only at what it is asked for. */
@@ -99,8 +107,17 @@ public final class NgsiJson {
         }
     }
 
+    /** Reads what was written here, or was read before. */
+    public static <T> T own(Reading<T> reading) {
+        try {
+            return reading.read();
+        } catch (IOException | UnreadableException e) {
+            throw new IllegalStateException("what was written here cannot be read", e);
+        }
+    }
+
     /** Something that Jackson does with input. */
-    interface Reading<T> {
+    public interface Reading<T> {
         T read() throws IOException, UnreadableException;
     }
 

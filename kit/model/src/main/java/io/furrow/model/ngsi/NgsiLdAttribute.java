@@ -51,14 +51,10 @@ final class NgsiLdAttribute {
             "objectList", "ListRelationship");
 
     private static final Map<String, String> TIMES = Map.of(
-            "observedAt",
-            "TimeInstant",
-            "createdAt",
-            "dateCreated",
-            "modifiedAt",
-            "dateModified",
-            "deletedAt",
-            "deletedAt");
+            "observedAt", "TimeInstant",
+            "createdAt", "dateCreated",
+            "modifiedAt", "dateModified",
+            "deletedAt", "deletedAt");
 
     private static final String DELETED = "urn:ngsi-ld:null";
 

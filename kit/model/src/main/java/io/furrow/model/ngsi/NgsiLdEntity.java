@@ -59,13 +59,10 @@ final class NgsiLdEntity {
     }
 
     static Entity read(JsonNode reported) throws UnreadableException {
-        if (!reported.isObject()) {
-            throw new UnreadableException(Reason.NOT_AN_ENTITY, "an NGSI-LD entity is a JSON object");
-        }
+        Reason.NOT_AN_ENTITY.refuseIf(!reported.isObject(), "an NGSI-LD entity is a JSON object");
         JsonNode id = reported.path("id");
-        if (!id.isTextual() || id.textValue().isBlank()) {
-            throw new UnreadableException(Reason.NOT_AN_ENTITY, "the entity has no member 'id' with a text");
-        }
+        Reason.NOT_AN_ENTITY.refuseIf(
+                !id.isTextual() || id.textValue().isBlank(), "the entity has no member 'id' with a text");
         NgsiLdEntity entity = new NgsiLdEntity();
         entity.normalized.set("id", id);
         if (reported.has("type")) {
@@ -92,10 +89,8 @@ final class NgsiLdEntity {
     private static String type(JsonNode type) throws UnreadableException {
         boolean several =
                 type.isArray() && !type.isEmpty() && type.valueStream().allMatch(JsonNode::isTextual);
-        if (!type.isTextual() && !several) {
-            throw new UnreadableException(
-                    Reason.NOT_AN_ENTITY, "the type of the entity is not text and no list of texts");
-        }
+        Reason.NOT_AN_ENTITY.refuseIf(
+                !type.isTextual() && !several, "the type of the entity is neither text nor a list of texts");
         return several
                 ? type.valueStream().map(JsonNode::textValue).collect(Collectors.joining(","))
                 : type.textValue();

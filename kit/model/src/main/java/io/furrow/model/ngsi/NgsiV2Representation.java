@@ -61,9 +61,8 @@ enum NgsiV2Representation {
             throw new UnreadableException(Reason.NOT_AN_ENTITY, "an entity is a JSON object, not " + kind(reported));
         }
         JsonNode id = reported.path("id");
-        if (!id.isTextual() || id.textValue().isBlank()) {
-            throw new UnreadableException(Reason.NOT_AN_ENTITY, "the entity has no member 'id' with a text");
-        }
+        Reason.NOT_AN_ENTITY.refuseIf(
+                !id.isTextual() || id.textValue().isBlank(), "the entity has no member 'id' with a text");
         if (reported.has("type") && !reported.get("type").isTextual()) {
             throw new UnreadableException(
                     Reason.NOT_AN_ENTITY, "the type of entity '" + id.textValue() + "' is not text");

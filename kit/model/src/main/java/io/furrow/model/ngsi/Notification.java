@@ -34,16 +34,12 @@ public record Notification(
      */
     public static Notification read(byte[] body, String attrsFormat) throws UnreadableException {
         JsonNode root = NgsiJson.read(body);
-        if (root.path("contextResponses").isArray()) {
-            throw new UnreadableException(
-                    Reason.UNSUPPORTED_FORM,
-                    "form 'legacy' is that of NGSIv1, which is not read; set the subscription's attrsFormat to normalized");
-        }
-        if ("values".equals(attrsFormat) || !root.has("id") && isListOfLists(root.path("data"))) {
-            throw new UnreadableException(
-                    Reason.UNSUPPORTED_FORM,
-                    "form 'values' does not name its attributes; set the subscription's attrsFormat to normalized");
-        }
+        Reason.UNSUPPORTED_FORM.refuseIf(
+                root.path("contextResponses").isArray(),
+                "form 'legacy' is that of NGSIv1, which is not read; set the subscription's attrsFormat to normalized");
+        Reason.UNSUPPORTED_FORM.refuseIf(
+                "values".equals(attrsFormat) || !root.has("id") && isListOfLists(root.path("data")),
+                "form 'values' does not name its attributes; set the subscription's attrsFormat to normalized");
         if (isLinkedData(root)) {
             return readLinkedData(root);
         }
@@ -51,9 +47,8 @@ public record Notification(
         if (simplified || root.has("id") || !root.has("data")) {
             return new Notification(Optional.empty(), List.of(readEntity(root, attrsFormat)), List.of(0), List.of());
         }
-        if (!root.isObject() || !root.get("data").isArray()) {
-            throw new UnreadableException(Reason.NOT_AN_ENTITY, "'data' is not an array of entities");
-        }
+        Reason.NOT_AN_ENTITY.refuseIf(
+                !root.isObject() || !root.get("data").isArray(), "'data' is not an array of entities");
         Optional<String> subscription =
                 Optional.ofNullable(root.path("subscriptionId").textValue());
         return readAll(subscription, root.get("data"), entity -> readEntity(entity, attrsFormat));

@@ -8,7 +8,6 @@ import com.fasterxml.jackson.core.JsonToken;
 import com.fasterxml.jackson.databind.DeserializationFeature;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.ObjectReader;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
@@ -51,7 +50,7 @@ final class PartialEntityReader {
                     ? new UnreadableException(Reason.NOT_JSON, "the body is empty")
                     : new UnreadableException(Reason.NOT_AN_ENTITY, "an entity is a JSON object");
         }
-        ObjectNode excerpt = JsonNodeFactory.instance.objectNode();
+        ObjectNode excerpt = NgsiJson.object();
         while (parser.nextToken() == JsonToken.FIELD_NAME) {
             String name = parser.currentName();
             JsonToken value = parser.nextToken();
@@ -63,9 +62,7 @@ final class PartialEntityReader {
                 EntityLimits.checkText(name);
             }
         }
-        if (parser.nextToken() != null) {
-            throw new UnreadableException(Reason.NOT_JSON, "something follows the entity");
-        }
+        Reason.NOT_JSON.refuseIf(parser.nextToken() != null, "something follows the entity");
         return excerpt;
     }
 

@@ -1,9 +1,9 @@
 package io.furrow.model.ngsi;
 
-import java.util.Locale;
+import io.furrow.model.text.Coded;
 
 /** Why input was set aside; the code stands in the header {@code dead-reason} of the dead letter. */
-public enum Reason {
+public enum Reason implements Coded {
     /** Not one well-formed JSON document in UTF-8. */
     NOT_JSON,
     /** Nested deeper, or a string or number longer, than {@link NgsiJson} takes. */
@@ -27,8 +27,10 @@ public enum Reason {
     /** The reader failed at it: a fault of the program, which the log describes. */
     FAILED;
 
-    /** The name in lower case with hyphens, for instance {@code not-json}. */
-    public String code() {
-        return name().toLowerCase(Locale.ROOT).replace('_', '-');
+    /** @param message why it cannot be read, a sentence */
+    public void refuseIf(boolean isWrong, String message) throws UnreadableException {
+        if (isWrong) {
+            throw new UnreadableException(this, message);
+        }
     }
 }

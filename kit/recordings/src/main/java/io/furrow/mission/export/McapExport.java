@@ -8,7 +8,6 @@ import java.util.Optional;
 import java.util.TreeMap;
 import java.util.function.LongConsumer;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.mission.StoredEvent;
@@ -48,7 +47,7 @@ public final class McapExport implements MissionExport {
     }
 
     static ObjectNode emptySchema(String title) {
-        ObjectNode schema = JsonNodeFactory.instance.objectNode();
+        ObjectNode schema = NgsiJson.object();
         schema.put("$schema", "https://json-schema.org/draft/2020-12/schema");
         return schema.put("title", title).put("type", "object");
     }
@@ -88,10 +87,7 @@ public final class McapExport implements MissionExport {
                 byEntity.put(key, channel);
             }
             ObjectNode data = event.entity() == null
-                    ? JsonNodeFactory.instance
-                            .objectNode()
-                            .put("id", event.entityId())
-                            .put("deleted", true)
+                    ? NgsiJson.object().put("id", event.entityId()).put("deleted", true)
                     : event.entity();
             file.message(channel, event.time() * NANOS, NgsiJson.write(data));
             return Optional.empty();

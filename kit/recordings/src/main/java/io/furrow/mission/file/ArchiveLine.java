@@ -49,10 +49,8 @@ public final class ArchiveLine {
                 && line.path("headers").isObject()
                 && (entity.isNull() || entity.isObject())
                 && entityId.isTextual();
-        if (!complete) {
-            throw new UnreadableException(
-                    Reason.NOT_AN_EVENT, "it lacks one of id, time, headers and entity (or entityId of a deletion)");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(
+                !complete, "it lacks one of id, time, headers and entity (or entityId of a deletion)");
         Map<String, String> headers = new TreeMap<>();
         line.get("headers")
                 .properties()

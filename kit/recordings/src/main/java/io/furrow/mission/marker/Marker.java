@@ -1,7 +1,8 @@
 package io.furrow.mission.marker;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * A moment of a mission with a note. What may be stored is said by {@link Markers#add}.
@@ -16,8 +17,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 public record Marker(String id, String mission, long time, String note, String author, long created) {
     /** {@code {"id", "mission", "time", "note", "author", "created"}}, with times in epoch ms. */
     public ObjectNode toJson() {
-        return JsonNodeFactory.instance
-                .objectNode()
+        return NgsiJson.object()
                 .put("id", id)
                 .put("mission", mission)
                 .put("time", time)

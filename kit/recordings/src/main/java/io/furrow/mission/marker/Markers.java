@@ -5,13 +5,10 @@ import java.util.Comparator;
 import java.util.Date;
 import java.util.List;
 import java.util.Optional;
-import java.util.function.Supplier;
 
 import com.mongodb.ErrorCategory;
-import com.mongodb.MongoException;
 import com.mongodb.MongoWriteException;
 import com.mongodb.client.MongoCollection;
-import com.mongodb.client.MongoDatabase;
 import com.mongodb.client.model.CountOptions;
 import com.mongodb.client.model.Filters;
 import com.mongodb.client.model.IndexOptions;
@@ -24,14 +21,13 @@ import io.furrow.mission.RecordingException;
 import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.MongoRecordings;
-import io.furrow.mission.mongo.SharedMongoClient;
-import io.furrow.model.text.FailureText;
+import io.furrow.mission.mongo.StoredDatabase;
 
 /**
  * The markers of all missions, in the collection {@code markers} beside these: {@code _id}, {@code mission} (as its collection has it), {@code
  * time} (a date), {@code note}, {@code author}, {@code created} (a date), with an index on mission and time. Not thread-safe.
  */
-public final class Markers implements AutoCloseable {
+public final class Markers extends StoredDatabase {
     /** At most so many are stored of a mission. */
     public static final int MAX = 10_000;
 
@@ -45,18 +41,12 @@ public final class Markers implements AutoCloseable {
     private static final Comparator<Marker> BY_TIME =
             Comparator.comparingLong(Marker::time).thenComparing(Marker::id);
 
-    private final SharedMongoClient client;
-    private final MongoDatabase database;
-    private final MongoCollection<Document> collection;
-    private final String where;
+    private final MongoCollection<Document> collection = database().getCollection(COLLECTION);
     private final int most;
     private boolean indexed;
 
-    private Markers(SharedMongoClient client, MongoDatabase database, String where, int most) {
-        this.client = client;
-        this.database = database;
-        this.collection = database.getCollection(COLLECTION);
-        this.where = where;
+    Markers(MongoRecordings at, int most) {
+        super(at);
         this.most = most;
     }
 
@@ -67,12 +57,7 @@ public final class Markers implements AutoCloseable {
      * @throws IllegalArgumentException if the URI is none
      */
     public static Markers open(String uri, String database) {
-        return open(new MongoRecordings(uri, database), MAX);
-    }
-
-    static Markers open(MongoRecordings at, int most) {
-        SharedMongoClient client = SharedMongoClient.of(at.uri(), at.selectionTimeout());
-        return new Markers(client, client.client().getDatabase(at.database()), at.toString(), most);
+        return new Markers(new MongoRecordings(uri, database), MAX);
     }
 
     /**
@@ -85,7 +70,7 @@ public final class Markers implements AutoCloseable {
      */
     public void add(Marker marker) throws RejectedMarkerException, RecordingException {
         MarkerRules.check(marker);
-        Optional<String> refusal = answer(marker.mission(), () -> {
+        Optional<String> refusal = answer(unreachable(marker.mission()), () -> {
             if (!indexed) {
                 collection.createIndex(Indexes.ascending(MISSION, TIME), new IndexOptions().name("mission-and-time"));
                 indexed = true;
@@ -143,7 +128,7 @@ public final class Markers implements AutoCloseable {
      * @throws RecordingException if MongoDB cannot be asked now
      */
     public List<Marker> list(String mission, long from, long to) throws RecordingException {
-        return answer(mission, () -> {
+        return answer(unreachable(mission), () -> {
             String key = missionOf(mission);
             List<Marker> markers = new ArrayList<>();
             collection
@@ -167,7 +152,7 @@ public final class Markers implements AutoCloseable {
      */
     public boolean remove(String mission, String id) throws RecordingException {
         return answer(
-                mission,
+                unreachable(mission),
                 () -> collection
                                 .deleteOne(Filters.and(Filters.eq(ID, id), Filters.eq(MISSION, missionOf(mission))))
                                 .getDeletedCount()
@@ -197,23 +182,11 @@ public final class Markers implements AutoCloseable {
     /** The mission's collection without its prefix: that which recordings of this name are read from. */
     private String missionOf(String mission) {
         boolean isPlain = MissionCollections.candidates(mission).size() == 1;
-        Optional<String> known = isPlain ? Optional.empty() : MongoRecordings.collectionOf(database, mission);
+        Optional<String> known = isPlain ? Optional.empty() : MongoRecordings.collectionOf(database(), mission);
         return known.orElse(MissionCollections.nameOf(mission)).substring(MissionCollections.PREFIX.length());
     }
 
-    private <T> T answer(String mission, Supplier<T> question) throws RecordingException {
-        try {
-            return question.get();
-        } catch (MongoException e) {
-            throw new RecordingException(
-                    "The markers of mission %s cannot be reached at %s: %s. Check that MongoDB runs there and answers."
-                            .formatted(mission, where, FailureText.of(e)),
-                    e);
-        }
-    }
-
-    @Override
-    public void close() {
-        client.close();
+    private static String unreachable(String mission) {
+        return "The markers of mission %s cannot be reached at".formatted(mission);
     }
 }

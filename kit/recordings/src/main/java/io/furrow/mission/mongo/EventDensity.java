@@ -4,9 +4,7 @@ import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.TimeUnit;
 
-import com.mongodb.MongoException;
 import com.mongodb.client.MongoCollection;
-import com.mongodb.client.MongoDatabase;
 import com.mongodb.client.model.Accumulators;
 import com.mongodb.client.model.Aggregates;
 import com.mongodb.client.model.Filters;
@@ -15,27 +13,20 @@ import org.bson.Document;
 import org.bson.conversions.Bson;
 
 import io.furrow.mission.RecordingException;
-import io.furrow.model.text.FailureText;
 
 /**
  * Counts the events of stored missions by event time. MongoDB counts, by its index on event time alone, where it keeps that; no
  * document comes here.
  */
-public final class EventDensity implements AutoCloseable {
+public final class EventDensity extends StoredDatabase {
     private static final int COUNT_SECONDS = 30;
     private static final String COUNT = "count";
     private static final String TIME = "$" + EventDocumentCodec.TIME;
     /** The bucket of an array of dates, which a comparison with a date finds too. */
     private static final int NONE = -1;
 
-    private final SharedMongoClient client;
-    private final MongoDatabase database;
-    private final String where;
-
-    private EventDensity(MongoRecordings at) {
-        this.client = SharedMongoClient.of(at.uri(), at.selectionTimeout());
-        this.database = client.client().getDatabase(at.database());
-        this.where = at.toString();
+    EventDensity(MongoRecordings at) {
+        super(at);
     }
 
     /**
@@ -46,10 +37,6 @@ public final class EventDensity implements AutoCloseable {
      */
     public static EventDensity open(String uri, String database) {
         return new EventDensity(new MongoRecordings(uri, database));
-    }
-
-    static EventDensity of(MongoRecordings recordings) {
-        return new EventDensity(recordings);
     }
 
     /**
@@ -65,15 +52,10 @@ public final class EventDensity implements AutoCloseable {
         if (width < 1 || buckets < 1) {
             throw new IllegalArgumentException("%d buckets of %d ms are none".formatted(buckets, width));
         }
-        try {
-            return MongoRecordings.collectionOf(database, mission)
-                    .map(name -> count(database.getCollection(name), from, width, buckets));
-        } catch (MongoException e) {
-            throw new RecordingException(
-                    "The events of mission %s cannot be counted at %s: %s. Check that MongoDB runs there and answers."
-                            .formatted(mission, where, FailureText.of(e)),
-                    e);
-        }
+        return answer(
+                "The events of mission %s cannot be counted at".formatted(mission),
+                () -> MongoRecordings.collectionOf(database(), mission)
+                        .map(name -> count(database().getCollection(name), from, width, buckets)));
     }
 
     private static long[] count(MongoCollection<Document> collection, long from, long width, int buckets) {
@@ -98,10 +80,5 @@ public final class EventDensity implements AutoCloseable {
                     }
                 });
         return counts;
-    }
-
-    @Override
-    public void close() {
-        client.close();
     }
 }

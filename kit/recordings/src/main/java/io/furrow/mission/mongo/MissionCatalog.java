@@ -6,28 +6,20 @@ import java.util.List;
 import java.util.Optional;
 import java.util.function.Supplier;
 
-import com.mongodb.MongoException;
 import com.mongodb.client.MongoCollection;
-import com.mongodb.client.MongoDatabase;
 import com.mongodb.client.model.Sorts;
 import org.bson.RawBsonDocument;
 
 import io.furrow.mission.RecordingException;
-import io.furrow.model.text.FailureText;
 
 /**
  * Lists the missions that are stored in MongoDB: by the names of collections, and by the first and last entry of their
  * index on event time.
  */
-public final class MissionCatalog implements AutoCloseable {
-    private final SharedMongoClient client;
-    private final MongoDatabase database;
-    private final String where;
-
-    private MissionCatalog(MongoRecordings at) {
-        this.client = SharedMongoClient.of(at.uri(), at.selectionTimeout());
-        this.database = client.client().getDatabase(at.database());
-        this.where = at.toString();
+public final class MissionCatalog extends StoredDatabase {
+    /** Of the missions that these recordings open. */
+    MissionCatalog(MongoRecordings recordings) {
+        super(recordings);
     }
 
     /**
@@ -37,12 +29,7 @@ public final class MissionCatalog implements AutoCloseable {
      * @throws IllegalArgumentException if the URI is none
      */
     public static MissionCatalog open(String uri, String database) {
-        return of(new MongoRecordings(uri, database));
-    }
-
-    /** Of the missions that these recordings open. */
-    static MissionCatalog of(MongoRecordings recordings) {
-        return new MissionCatalog(recordings);
+        return new MissionCatalog(new MongoRecordings(uri, database));
     }
 
     /**
@@ -53,7 +40,7 @@ public final class MissionCatalog implements AutoCloseable {
     List<StoredMission> list() throws RecordingException {
         return answer(() -> {
             List<StoredMission> missions = new ArrayList<>();
-            for (String name : database.listCollectionNames()) {
+            for (String name : database().listCollectionNames()) {
                 if (name.startsWith(MissionCollections.PREFIX)) {
                     missions.add(stored(name));
                 }
@@ -71,7 +58,7 @@ public final class MissionCatalog implements AutoCloseable {
     public List<String> topicNames() throws RecordingException {
         return answer(() -> {
             List<String> names = new ArrayList<>();
-            for (String name : database.listCollectionNames()) {
+            for (String name : database().listCollectionNames()) {
                 if (name.startsWith(MissionCollections.PREFIX)) {
                     names.add(name.substring(MissionCollections.PREFIX.length()));
                 }
@@ -87,7 +74,7 @@ public final class MissionCatalog implements AutoCloseable {
      * @throws RecordingException if MongoDB cannot be asked now
      */
     public Optional<StoredMission> find(String mission) throws RecordingException {
-        return answer(() -> MongoRecordings.collectionOf(database, mission).map(this::stored));
+        return answer(() -> MongoRecordings.collectionOf(database(), mission).map(this::stored));
     }
 
     /**
@@ -96,11 +83,11 @@ public final class MissionCatalog implements AutoCloseable {
      * @throws RecordingException if MongoDB cannot be asked now
      */
     boolean has(String mission) throws RecordingException {
-        return answer(() -> MongoRecordings.collectionOf(database, mission).isPresent());
+        return answer(() -> MongoRecordings.collectionOf(database(), mission).isPresent());
     }
 
     private StoredMission stored(String name) {
-        MongoCollection<RawBsonDocument> collection = database.getCollection(name, RawBsonDocument.class);
+        MongoCollection<RawBsonDocument> collection = database().getCollection(name, RawBsonDocument.class);
         String mission = MissionCollections.missionOf(
                 name,
                 () -> collection
@@ -111,18 +98,6 @@ public final class MissionCatalog implements AutoCloseable {
     }
 
     private <T> T answer(Supplier<T> question) throws RecordingException {
-        try {
-            return question.get();
-        } catch (MongoException e) {
-            throw new RecordingException(
-                    "Which missions are stored cannot be read from %s: %s. Check that MongoDB runs there and answers."
-                            .formatted(where, FailureText.of(e)),
-                    e);
-        }
-    }
-
-    @Override
-    public void close() {
-        client.close();
+        return answer("Which missions are stored cannot be read from", question);
     }
 }

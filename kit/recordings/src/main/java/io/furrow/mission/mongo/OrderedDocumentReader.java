@@ -116,9 +116,7 @@ final class OrderedDocumentReader implements AutoCloseable {
     /** @throws UnreadableException for a document that holds no event */
     static StoredEvent event(BsonDocument document) throws UnreadableException {
         BsonValue id = document.get(EventDocumentCodec.ID);
-        if (!id.isString() || text(id).isEmpty()) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "_id is not an event id");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(!id.isString() || text(id).isEmpty(), "_id is not an event id");
         try {
             return EventDocumentCodec.read(document);
         } catch (BSONException | ArithmeticException e) { // the latter for a decimal −0

@@ -107,9 +107,7 @@ final class EventTopicReader {
     }
 
     private static StoredEvent event(ConsumerRecord<byte[], byte[]> record) throws UnreadableException {
-        if (record.timestamp() < 0) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "the record has no timestamp");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(record.timestamp() < 0, "the record has no timestamp");
         Map<String, String> headers = new TreeMap<>();
         for (Header header : record.headers()) {
             if (header.value() != null) {
@@ -130,9 +128,7 @@ final class EventTopicReader {
     }
 
     private static String key(ConsumerRecord<byte[], byte[]> record) throws UnreadableException {
-        if (record.key() == null) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "the deletion names no entity: the record has no key");
-        }
+        Reason.NOT_AN_EVENT.refuseIf(record.key() == null, "the deletion names no entity: the record has no key");
         return new String(record.key(), StandardCharsets.UTF_8);
     }
 }

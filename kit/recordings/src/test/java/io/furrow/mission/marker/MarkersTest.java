@@ -116,7 +116,7 @@ class MarkersTest {
 
     @Test
     void storesNoMoreOfAMissionThanMayBe() throws Exception {
-        try (Markers markers = Markers.open(new MongoRecordings(mongo.uri(), "full"), 3)) {
+        try (Markers markers = new Markers(new MongoRecordings(mongo.uri(), "full"), 3)) {
             for (String id : List.of("a", "b", "c")) {
                 markers.add(new Marker(id, "hoeing", TIME, "turns", "", TIME));
             }
@@ -162,7 +162,7 @@ class MarkersTest {
     void saysThatMongoIsAway() throws Exception {
         int port = FreePort.orFree(0);
         MongoRecordings nobody = new MongoRecordings("mongodb://127.0.0.1:" + port, "away", Duration.ofMillis(100));
-        try (Markers markers = Markers.open(nobody, 3)) {
+        try (Markers markers = new Markers(nobody, 3)) {
             assertThatThrownBy(() -> markers.list("hoeing"))
                     .isInstanceOf(RecordingException.class)
                     .hasMessageStartingWith(

@@ -97,8 +97,9 @@ class EventDensityTest {
 
     @Test
     void saysThatMongoIsAway() {
-        var nobody = new MongoRecordings("mongodb://127.0.0.1:" + FreePort.orFree(0), "away", Duration.ofMillis(100));
-        try (EventDensity density = EventDensity.of(nobody)) {
+        MongoRecordings nobody =
+                new MongoRecordings("mongodb://127.0.0.1:" + FreePort.orFree(0), "away", Duration.ofMillis(100));
+        try (EventDensity density = new EventDensity(nobody)) {
             assertThatThrownBy(() -> density.count("hoeing", TIME, 10, 2))
                     .isInstanceOf(RecordingException.class)
                     .hasMessageStartingWith("The events of mission hoeing cannot be counted at MongoDB at 127.0.0.1:")

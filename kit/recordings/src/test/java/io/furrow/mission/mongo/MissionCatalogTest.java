@@ -123,7 +123,7 @@ class MissionCatalogTest {
     void saysThatMongoIsAway() throws Exception {
         int port = FreePort.orFree(0);
         MongoRecordings nobody = new MongoRecordings("mongodb://127.0.0.1:" + port, "away", Duration.ofMillis(100));
-        try (MissionCatalog catalog = MissionCatalog.of(nobody)) {
+        try (MissionCatalog catalog = new MissionCatalog(nobody)) {
             assertThatThrownBy(() -> catalog.has("hoeing"))
                     .isInstanceOf(RecordingException.class)
                     .hasMessageStartingWith(

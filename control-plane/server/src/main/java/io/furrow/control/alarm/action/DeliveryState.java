@@ -1,7 +1,7 @@
 package io.furrow.control.alarm.action;
 
 import io.furrow.control.alarm.AlarmState;
-import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.StateRecord;
 
 /**
  * The last delivery of an alarm to the webhook: a record of {@code service.alarms.delivered} keyed by the alarm's id.
@@ -12,13 +12,9 @@ import io.furrow.model.ngsi.StateJson;
  * @param repeats how often that state was repeated because it lasted
  * @param refused whether the webhook rejected it permanently
  */
-record DeliveryState(long sequence, AlarmState state, long time, int repeats, boolean refused) {
+record DeliveryState(long sequence, AlarmState state, long time, int repeats, boolean refused) implements StateRecord {
     /** Before the first post of an alarm is answered. */
     static DeliveryState attempted(long time) {
         return new DeliveryState(0, AlarmState.OPEN, time, 0, false);
-    }
-
-    byte[] toBytes() {
-        return StateJson.write(this);
     }
 }

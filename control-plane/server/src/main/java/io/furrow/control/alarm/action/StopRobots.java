@@ -11,13 +11,13 @@ import java.util.function.Consumer;
 import java.util.function.Function;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.control.alarm.watch.EncounterReport;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.CommandSender;
 import io.furrow.kafka.BoundedMap;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
 /**
@@ -171,7 +171,7 @@ public final class StopRobots {
     }
 
     private void note(EncounterReport encounter, EncounterReport.Member member, String failure) {
-        ObjectNode about = JsonNodeFactory.instance.objectNode();
+        ObjectNode about = NgsiJson.object();
         about.put(DEVICE, member.id()).put(ENCOUNTER, encounter.id());
         audit.accept(AuditEntry.ofDevice(clock.millis(), USER, STOP, about, failure));
     }

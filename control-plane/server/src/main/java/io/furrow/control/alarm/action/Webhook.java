@@ -21,7 +21,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.control.alarm.Alarm;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.text.FailureText;
 
 /**
@@ -190,13 +190,7 @@ public final class Webhook {
     }
 
     private static byte[] body(String id, Alarm alarm) {
-        try {
-            ObjectNode json = NgsiJson.mapper().createObjectNode();
-            json.put("id", id);
-            json.setAll((ObjectNode) NgsiJson.read(alarm.toBytes()));
-            return NgsiJson.write(json);
-        } catch (UnreadableException e) {
-            throw new IllegalStateException("the JSON of an alarm cannot be read back", e);
-        }
+        ObjectNode json = NgsiJson.object().put("id", id);
+        return NgsiJson.write(json.setAll(StateJson.tree(alarm)));
     }
 }

@@ -30,7 +30,11 @@ public final class AnalyticsAlarms {
      * @param opening creates the lookup function
      * @param stores names of the stores that it needs
      */
-    public record Types(Function<UnitOfWork, Function<String, String>> opening, List<String> stores) {}
+    public record Types(Function<UnitOfWork, Function<String, String>> opening, List<String> stores) {
+        private Function<String, String> of(UnitOfWork unit) {
+            return opening.apply(unit);
+        }
+    }
 
     /** @param collisions the records of {@code data.collision}, in a single partition */
     public static void addEncounters(
@@ -39,8 +43,7 @@ public final class AnalyticsAlarms {
                 collisions,
                 "encounters",
                 types,
-                (alarms, unitOfWork) ->
-                        new EncounterAlarmProcessor(alarms, types.opening().apply(unitOfWork), holds));
+                (alarms, unit) -> new EncounterAlarmProcessor(alarms, types.of(unit), holds));
     }
 
     /** @param temperatures the records of {@code data.temperature}, in a single partition */
@@ -49,35 +52,24 @@ public final class AnalyticsAlarms {
                 temperatures,
                 "sensors",
                 types,
-                (alarms, unitOfWork) -> new SensorAlarmProcessor(
-                        alarms,
-                        types.opening().apply(unitOfWork),
-                        unitOfWork.table(AlarmManager.SUSPECTS, SuspectStreaks.class)));
+                (alarms, unit) -> new SensorAlarmProcessor(
+                        alarms, types.of(unit), unit.table(AlarmManager.SUSPECTS, SuspectStreaks.class)));
     }
 
     /** @param clocks the records of {@code data.clocks}, in a single partition */
     public static void addClocks(KStream<String, byte[]> clocks, Types types) {
-        add(
-                clocks,
-                "clocks",
-                types,
-                (alarms, unitOfWork) ->
-                        new ClockAlarmProcessor(alarms, types.opening().apply(unitOfWork)));
+        add(clocks, "clocks", types, (alarms, unit) -> new ClockAlarmProcessor(alarms, types.of(unit)));
     }
 
     /** @param faults the records of {@code service.faults}, in a single partition */
     public static void addFaults(KStream<String, byte[]> faults, Types types) {
-        add(
-                faults,
-                "faults",
-                types,
-                (alarms, unitOfWork) -> (Observer.OfStatuses) (key, value, now) -> alarms.raiseReworded(
-                        new Cause(AlarmKind.FAULT, key, Fault.read(value).text(), List.of(), FAULT_HOLDS), now));
+        add(faults, "faults", types, (alarms, unit) -> (Observer.OfStatuses) (key, value, now) -> alarms.raiseReworded(
+                new Cause(AlarmKind.FAULT, key, Fault.read(value).text(), List.of(), FAULT_HOLDS), now));
     }
 
     /** @param statuses the records of {@code service.missions.status}, in a single partition */
     public static void addStarts(KStream<String, byte[]> statuses, Types types) {
-        add(statuses, "starts", types, (alarms, unitOfWork) -> new StartAlarmProcessor(alarms));
+        add(statuses, "starts", types, (alarms, unit) -> new StartAlarmProcessor(alarms));
     }
 
     private static void add(

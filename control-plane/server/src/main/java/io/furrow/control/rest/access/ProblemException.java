@@ -27,6 +27,12 @@ public final class ProblemException extends RuntimeException {
         this(statusOf(code.code()), code.code(), reason);
     }
 
+    public static void refuseIf(boolean isWrong, ErrorCode code, String reason) {
+        if (isWrong) {
+            throw new ProblemException(code, reason);
+        }
+    }
+
     /** Which status an error of a manager has in HTTP: 400 for what is not understood, 404 for what is not there, and so on. */
     private static int statusOf(String code) {
         return switch (code) {

@@ -132,9 +132,10 @@ public final class CommandClient implements AutoCloseable {
         if (cause instanceof ProblemException problem) {
             throw problem;
         }
-        if (cause instanceof RecordTooLargeException) {
-            throw new ProblemException(ErrorCode.TOO_LARGE, "the request is larger than Kafka takes");
-        }
+        ProblemException.refuseIf(
+                cause instanceof RecordTooLargeException,
+                ErrorCode.TOO_LARGE,
+                "the request is larger than Kafka takes");
         String why = cause instanceof TimeoutException
                 ? "no manager answered within " + timeout.toMillis() + " ms"
                 : "Kafka does not take requests (" + FailureText.of(cause) + ")";

@@ -5,7 +5,6 @@ import java.util.List;
 import java.util.Optional;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.control.health.SilenceCause;
@@ -44,8 +43,7 @@ public record DeviceView(StateView view) {
 
     /** The device with what is known of how it is connected; lists of devices leave that out. */
     public ObjectNode withConnection(String key, ObjectNode device) {
-        ObjectNode connection =
-                view.find(Topics.DEVICES_CONNECTION, key).orElseGet(JsonNodeFactory.instance::objectNode);
+        ObjectNode connection = view.find(Topics.DEVICES_CONNECTION, key).orElseGet(NgsiJson::object);
         JsonNode health = device.path("health");
         Long heard = health.hasNonNull("heard") ? health.path("heard").longValue() : null;
         silence(connection, device).ifPresent(cause -> connection.put("cause", cause.text()));

@@ -8,10 +8,10 @@ import java.util.concurrent.Executor;
 import java.util.concurrent.TimeUnit;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * How many events a stretch of a mission has, bucket by bucket.
@@ -107,8 +107,7 @@ public record MissionTimeline(String mission, Extent extent, long from, long wid
     }
 
     private ObjectNode json(List<EventTiles.Tile> tiles, List<CompletableFuture<EventTiles.Counted>> answers) {
-        ObjectNode json = JsonNodeFactory.instance
-                .objectNode()
+        ObjectNode json = NgsiJson.object()
                 .put("mission", mission)
                 .put("first", extent.first())
                 .put("last", extent.last())

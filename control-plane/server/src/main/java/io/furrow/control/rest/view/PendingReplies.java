@@ -10,7 +10,7 @@ import io.furrow.control.rest.access.ProblemException;
 import io.furrow.kafka.BoundedMap;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * The answers of the managers by the id of their request: those that somebody waits for, and the newest {@value #REMEMBERED} of each manager,
@@ -72,11 +72,7 @@ public final class PendingReplies {
         if (find.fingerprint() != null && !find.fingerprint().equals(fingerprint)) {
             throw ProblemException.keyReused();
         }
-        try {
-            return Optional.of(CommandResult.read(find.answer()));
-        } catch (UnreadableException e) {
-            throw new IllegalStateException("a stored reply cannot be read", e);
-        }
+        return Optional.of(NgsiJson.own(() -> CommandResult.read(find.answer())));
     }
 
     /** @param fingerprint of the request; null if the answer does not say */

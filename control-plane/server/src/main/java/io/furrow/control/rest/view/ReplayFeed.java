@@ -8,7 +8,6 @@ import java.util.LinkedHashSet;
 import java.util.Optional;
 import java.util.Set;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
@@ -122,7 +121,7 @@ final class ReplayFeed {
         if (!shown.remove(replay) && only == null) {
             return true; // the last of one that was over before
         }
-        ObjectNode last = JsonNodeFactory.instance.objectNode().put("replay", replay);
+        ObjectNode last = NgsiJson.object().put("replay", replay);
         replays.status(replay).ifPresent(status -> last.set("status", status));
         output.write(event("over", last));
         return only == null;

@@ -13,7 +13,6 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -168,10 +167,6 @@ public final class StateView {
     }
 
     private static ObjectNode parse(byte[] value) {
-        try {
-            return (ObjectNode) NgsiJson.read(value);
-        } catch (UnreadableException e) {
-            throw new IllegalStateException("what was put is not a JSON object", e);
-        }
+        return (ObjectNode) NgsiJson.own(() -> NgsiJson.read(value));
     }
 }
