@@ -51,7 +51,8 @@ class DecisionsTest {
     }
 
     private static List<String> decisions() throws IOException {
-        return Folders.list(FOLDER).stream().map(file -> file.getFileName().toString())
+        return Folders.list(FOLDER).stream()
+                .map(file -> file.getFileName().toString())
                 .filter(name -> name.matches("\\d{4}-.*\\.md"))
                 .toList();
     }

@@ -43,7 +43,8 @@ class EndedFromOutsideIT {
             furrow.end(signal);
         }
 
-        assertThat(Folders.list(temporary).stream().filter(file -> file.getFileName().toString().startsWith("furrow-")))
+        assertThat(Folders.list(temporary).stream()
+                        .filter(file -> file.getFileName().toString().startsWith("furrow-")))
                 .isEmpty();
     }
 

@@ -29,7 +29,8 @@ final class SourceWords {
     /** The files by identifier that has one of the words, in singular or plural. */
     static Map<String, Set<String>> identifiersWith(Set<String> words, Path module) throws IOException {
         Map<String, Set<String>> found = new TreeMap<>();
-        Folders.walk(module.resolve("src")).stream().filter(file -> file.toString().endsWith(".java"))
+        Folders.walk(module.resolve("src")).stream()
+                .filter(file -> file.toString().endsWith(".java"))
                 .forEach(file -> TOKEN.matcher(text(file))
                         .results()
                         .map(MatchResult::group)

@@ -62,8 +62,8 @@ class HelpWithoutFlinkTest {
     }
 
     private static TestProcess.Ended analytics(String... args) throws Exception {
-        List<String> command = new ArrayList<>(List.of(
-                TestProcess.program("java"), "-cp", classPath(), AnalyticsJobs.class.getName()));
+        List<String> command = new ArrayList<>(
+                List.of(TestProcess.program("java"), "-cp", classPath(), AnalyticsJobs.class.getName()));
         command.addAll(List.of(args));
         return TestProcess.run(new ProcessBuilder(command));
     }

@@ -27,8 +27,9 @@ class StaticStateTest {
                 .getResource("io/furrow/analytics/AnalyticsJobs.class")
                 .toURI();
         Path classes = Path.of(root).getParent();
-        for (Path file :
-                Folders.walk(classes).stream().filter(each -> each.toString().endsWith(".class")).toList()) {
+        for (Path file : Folders.walk(classes).stream()
+                .filter(each -> each.toString().endsWith(".class"))
+                .toList()) {
             String name = "io.furrow.analytics."
                     + classes.relativize(file).toString().replace('/', '.').replaceAll("[.]class$", "");
             for (Field field : Class.forName(name).getDeclaredFields()) {

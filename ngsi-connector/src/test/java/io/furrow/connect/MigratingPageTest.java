@@ -40,8 +40,9 @@ class MigratingPageTest {
 
     private static String source(String test) throws IOException {
         for (Path root : List.of(Path.of("src/test/java"), Path.of("../kit/model/src/test/java"))) {
-            List<Path> found =
-                    Folders.walk(root).stream().filter(file -> file.endsWith(test + ".java")).toList();
+            List<Path> found = Folders.walk(root).stream()
+                    .filter(file -> file.endsWith(test + ".java"))
+                    .toList();
             if (!found.isEmpty()) {
                 return Files.readString(found.get(0));
             }

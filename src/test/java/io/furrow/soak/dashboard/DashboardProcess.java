@@ -122,8 +122,8 @@ final class DashboardProcess implements AutoCloseable {
     }
 
     private String jcmd(String command) throws IOException, InterruptedException {
-        TestProcess.Ended jcmd = TestProcess.run(
-                new ProcessBuilder(TestProcess.program("jcmd"), Long.toString(process.pid()), command));
+        TestProcess.Ended jcmd =
+                TestProcess.run(new ProcessBuilder(TestProcess.program("jcmd"), Long.toString(process.pid()), command));
         if (jcmd.status() != 0) {
             throw new IOException("jcmd %s: %s".formatted(command, jcmd.output()));
         }

@@ -113,14 +113,16 @@ public record IngestOutcome(SortedMap<String, List<String>> lines) {
     }
 
     private static List<String> files(Path folder) throws IOException {
-        return Folders.walk(folder).stream().filter(Files::isRegularFile)
+        return Folders.walk(folder).stream()
+                .filter(Files::isRegularFile)
                 .filter(file -> !file.getFileName().toString().startsWith(UNFINISHED))
                 .map(file -> folder.relativize(file) + " " + sha256(file))
                 .toList();
     }
 
     static long unfinished(Path folder) throws IOException {
-        return Folders.walk(folder).stream().filter(file -> file.getFileName().toString().startsWith(UNFINISHED))
+        return Folders.walk(folder).stream()
+                .filter(file -> file.getFileName().toString().startsWith(UNFINISHED))
                 .count();
     }
 

@@ -32,8 +32,8 @@ final class UndeliveredRecords {
 
     /** A planted fault. */
     static void deleteJournals(Path disk) throws IOException {
-        List<Path> journals = Folders.walk(disk.resolve("journal")).stream().filter(path ->
-                        JOURNAL.matcher(path.getFileName().toString()).matches())
+        List<Path> journals = Folders.walk(disk.resolve("journal")).stream()
+                .filter(path -> JOURNAL.matcher(path.getFileName().toString()).matches())
                 .toList();
         for (Path journal : journals) {
             Folders.delete(journal);

@@ -65,7 +65,8 @@ final class PowerCut {
     }
 
     private static List<Path> partitions(Path folder) throws IOException {
-        return Folders.list(folder).stream().filter(Files::isDirectory)
+        return Folders.list(folder).stream()
+                .filter(Files::isDirectory)
                 .filter(each -> SYNCED.stream()
                         .noneMatch(synced -> each.getFileName().toString().startsWith(synced)))
                 .filter(each -> !each.getFileName().toString().endsWith("-delete"))
@@ -73,7 +74,8 @@ final class PowerCut {
     }
 
     private static List<Path> logs(Path partition) throws IOException {
-        return Folders.list(partition).stream().filter(file -> file.getFileName().toString().endsWith(".log"))
+        return Folders.list(partition).stream()
+                .filter(file -> file.getFileName().toString().endsWith(".log"))
                 .toList();
     }
 }

@@ -51,7 +51,8 @@ class FlowTypesTest {
     private static List<Class<?>> publicRecords() throws IOException {
         Path root = Path.of("target/classes");
         Path classes = root.resolve(Reading.class.getPackageName().replace('.', '/'));
-        Stream<Class<?>> ours = Folders.walk(classes).stream().map(file -> root.relativize(file).toString())
+        Stream<Class<?>> ours = Folders.walk(classes).stream()
+                .map(file -> root.relativize(file).toString())
                 .filter(file -> file.endsWith(".class") && !file.endsWith("package-info.class"))
                 .map(file -> named(file.replace(".class", "").replace('/', '.')));
         return Stream.concat(ours, Stream.of(TopicRecord.class))

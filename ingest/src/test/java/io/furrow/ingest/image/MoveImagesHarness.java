@@ -105,7 +105,8 @@ abstract class MoveImagesHarness {
     }
 
     List<String> files() throws IOException {
-        return Folders.walk(folder).stream().filter(Files::isRegularFile)
+        return Folders.walk(folder).stream()
+                .filter(Files::isRegularFile)
                 .map(file -> folder.relativize(file).toString())
                 .toList();
     }

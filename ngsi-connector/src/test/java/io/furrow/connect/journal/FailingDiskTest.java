@@ -174,6 +174,8 @@ class FailingDiskTest extends QuietJournal {
     }
 
     private long segmentFiles() throws Exception {
-        return Folders.list(folder).stream().filter(file -> file.toString().endsWith(".segment")).count();
+        return Folders.list(folder).stream()
+                .filter(file -> file.toString().endsWith(".segment"))
+                .count();
     }
 }

@@ -252,7 +252,8 @@ class JournalDamageTest extends QuietJournal {
     }
 
     private List<Path> segments() throws IOException {
-        return Folders.list(folder).stream().filter(file -> file.toString().endsWith(".segment"))
+        return Folders.list(folder).stream()
+                .filter(file -> file.toString().endsWith(".segment"))
                 .toList();
     }
 

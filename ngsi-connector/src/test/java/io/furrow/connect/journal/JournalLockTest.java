@@ -27,7 +27,8 @@ class JournalLockTest {
     }
 
     private String anotherProcess() throws Exception {
-        String output = TestProcess.run(TestProcess.java("-Xmx64m", JournalOpener.class, folder)).output();
+        String output = TestProcess.run(TestProcess.java("-Xmx64m", JournalOpener.class, folder))
+                .output();
         return output.strip().lines().reduce((first, second) -> second).orElseThrow();
     }
 }

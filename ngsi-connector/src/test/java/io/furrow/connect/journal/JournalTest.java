@@ -289,6 +289,8 @@ class JournalTest {
     }
 
     private List<Path> segmentFiles() throws IOException {
-        return Folders.list(folder).stream().filter(file -> file.toString().endsWith(".segment")).toList();
+        return Folders.list(folder).stream()
+                .filter(file -> file.toString().endsWith(".segment"))
+                .toList();
     }
 }

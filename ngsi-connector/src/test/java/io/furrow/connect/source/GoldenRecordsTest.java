@@ -36,7 +36,8 @@ class GoldenRecordsTest {
     private static final Instant RECEIVED = Instant.parse("2026-11-21T02:00:00Z");
 
     static List<Path> requests() throws IOException {
-        return Folders.walk(RECORDED).stream().filter(file -> file.toString().endsWith(".http"))
+        return Folders.walk(RECORDED).stream()
+                .filter(file -> file.toString().endsWith(".http"))
                 .toList();
     }
 

@@ -290,6 +290,8 @@ class NgsiOffsetsIT {
     }
 
     private static List<Path> journals(String connector) throws Exception {
-        return Folders.list(rig.journals().resolve(connector)).stream().map(Path::getFileName).toList();
+        return Folders.list(rig.journals().resolve(connector)).stream()
+                .map(Path::getFileName)
+                .toList();
     }
 }

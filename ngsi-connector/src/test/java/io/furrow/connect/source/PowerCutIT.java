@@ -88,10 +88,10 @@ class PowerCutIT {
                 .toList()) {
             Path copy = Files.createDirectories(to.resolve(partition.getFileName()));
             for (Path file : Folders.list(copy)) {
-                    Files.delete(file);
+                Files.delete(file);
             }
             for (Path file : Folders.list(partition)) {
-                    Files.copy(file, copy.resolve(file.getFileName()), StandardCopyOption.REPLACE_EXISTING);
+                Files.copy(file, copy.resolve(file.getFileName()), StandardCopyOption.REPLACE_EXISTING);
             }
         }
     }

@@ -121,8 +121,9 @@ class OpenApiTest {
     private static List<Class<?>> resources() throws Exception {
         var folder = Path.of(RestApi.class.getResource("RestApi.class").toURI()).getParent();
         List<Class<?>> types = new ArrayList<>();
-        for (Path file :
-                Folders.list(folder).stream().filter(each -> each.toString().endsWith(".class")).toList()) {
+        for (Path file : Folders.list(folder).stream()
+                .filter(each -> each.toString().endsWith(".class"))
+                .toList()) {
             String name = file.getFileName().toString().replace(".class", "");
             Class<?> type = Class.forName(RestApi.class.getPackageName() + "." + name);
             if (type.isAnnotationPresent(jakarta.ws.rs.Path.class)) {

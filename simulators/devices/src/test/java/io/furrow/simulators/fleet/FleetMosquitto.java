@@ -125,8 +125,7 @@ final class FleetMosquitto {
     private static void run(String... command) throws Exception {
         TestProcess.Ended ended = TestProcess.run(new ProcessBuilder(command));
         if (ended.status() != 0) {
-            throw new IOException(
-                    command[0] + ", of the Debian package mosquitto, failed: " + ended.output());
+            throw new IOException(command[0] + ", of the Debian package mosquitto, failed: " + ended.output());
         }
     }
 

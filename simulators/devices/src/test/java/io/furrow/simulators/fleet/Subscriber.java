@@ -29,8 +29,8 @@ record Subscriber(MqttAsyncClient client, Set<String> received) implements AutoC
         client.subscribe(
                         "/+/+/attrs",
                         1,
-                        (topic, message) -> measures.add(
-                                topic + " " + NgsiJson.read(message.getPayload()).path("time")))
+                        (topic, message) -> measures.add(topic + " "
+                                + NgsiJson.read(message.getPayload()).path("time")))
                 .waitForCompletion();
         return new Subscriber(client, measures);
     }

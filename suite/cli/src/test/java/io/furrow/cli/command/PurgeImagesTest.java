@@ -100,7 +100,8 @@ class PurgeImagesTest {
     }
 
     private List<String> everything() throws IOException {
-        return Folders.walk(folder).stream().filter(Files::isRegularFile)
+        return Folders.walk(folder).stream()
+                .filter(Files::isRegularFile)
                 .map(file -> folder.relativize(file).toString())
                 .toList();
     }
