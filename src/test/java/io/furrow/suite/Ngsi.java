@@ -13,14 +13,9 @@ import io.furrow.launcher.suite.Suite;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** The context broker and the listener for notifications, as a client over HTTP sees them. */
-public final class Ngsi {
+public record Ngsi(Suite suite) {
     private final HttpClient http =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
-    private final Suite suite;
-
-    Ngsi(Suite suite) {
-        this.suite = suite;
-    }
 
     /** The entities that a query such as {@code type=Camera} finds. */
     JsonNode entities(String query) throws IOException, InterruptedException {
