@@ -10,6 +10,7 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Random;
+import java.util.stream.IntStream;
 
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
@@ -40,11 +41,7 @@ class JournalDamageTest extends QuietJournal {
     }
 
     private static List<String> expected(int from, int to) {
-        List<String> expected = new ArrayList<>();
-        for (int i = from; i < to; i++) {
-            expected.add(i + " " + text(i));
-        }
-        return expected;
+        return IntStream.range(from, to).mapToObj(i -> i + " " + text(i)).toList();
     }
 
     @Test

@@ -2,6 +2,7 @@ package io.furrow.connect.sink;
 
 import java.util.ArrayList;
 import java.util.List;
+import java.util.stream.IntStream;
 
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.record.TimestampType;
@@ -156,10 +157,7 @@ class NewestValueTest extends SinkFixture {
     void isolatesOneOfManyInFewRequests() {
         restart("batch.size", "1024");
         poison("\"e77\"", 400, "no");
-        List<SinkRecord> records = new ArrayList<>();
-        for (int i = 0; i < 1024; i++) {
-            records.add(record("e" + i, "x", i, i));
-        }
+        List<SinkRecord> records = IntStream.range(0, 1024).mapToObj(i -> record("e" + i, "x", i, i)).toList();
 
         task.put(records);
 

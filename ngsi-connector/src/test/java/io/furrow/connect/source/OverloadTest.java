@@ -11,6 +11,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
+import java.util.stream.IntStream;
 
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -173,10 +174,7 @@ class OverloadTest {
             CompletableFuture<Void> durable = new CompletableFuture<>();
             rig.recordLog.answer = Optional.of(durable);
             byte[] half = new byte[100_000];
-            List<CompletableFuture<HttpResponse<String>>> answers = new ArrayList<>();
-            for (int i = 0; i < 6; i++) {
-                answers.add(rig.post("/", BodyPublishers.ofByteArray(half)));
-            }
+            List<CompletableFuture<HttpResponse<String>>> answers = IntStream.range(0, 6).mapToObj(i -> rig.post("/", BodyPublishers.ofByteArray(half))).toList();
             await().until(() -> rig.recordLog.taken.size() == 2);
             assertThat(rig.ledger.requests.sum()).isEqualTo(2);
 
@@ -203,10 +201,7 @@ class OverloadTest {
             rig.recordLog.answer = Optional.of(new CompletableFuture<>());
             byte[] all = new byte[100_000];
 
-            List<CompletableFuture<HttpResponse<String>>> answers = new ArrayList<>();
-            for (int i = 0; i < 3; i++) {
-                answers.add(rig.post("/", BodyPublishers.ofByteArray(all)));
-            }
+            List<CompletableFuture<HttpResponse<String>>> answers = IntStream.range(0, 3).mapToObj(i -> rig.post("/", BodyPublishers.ofByteArray(all))).toList();
 
             assertThat(answers)
                     .allSatisfy(answer -> assertThat(answer.join().statusCode()).isEqualTo(503));
