@@ -30,6 +30,7 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.FreePort;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.unchecked.Unchecked;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -245,11 +246,7 @@ public final class ConnectRig implements AutoCloseable {
     }
 
     private static byte[] read(Path file) {
-        try {
-            return Files.readAllBytes(file);
-        } catch (IOException e) {
-            throw new UncheckedIOException(e);
-        }
+        return Unchecked.get(() -> Files.readAllBytes(file));
     }
 
     private static JsonNode json(byte[] bytes) {

@@ -1,6 +1,5 @@
 package io.furrow.connect.sink;
 
-import java.util.ArrayList;
 import java.util.List;
 import java.util.stream.IntStream;
 
@@ -15,6 +14,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import io.furrow.connect.sink.FakeContextBroker.Update;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.unchecked.Unchecked;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -222,10 +222,6 @@ class NewestValueTest extends SinkFixture {
     }
 
     private static com.fasterxml.jackson.databind.JsonNode json(String quoted) {
-        try {
-            return NgsiJson.mapper().readTree(quoted.replace('\'', '"'));
-        } catch (java.io.IOException e) {
-            throw new AssertionError(e);
-        }
+        return Unchecked.get(() -> NgsiJson.mapper().readTree(quoted.replace('\'', '"')));
     }
 }

@@ -34,6 +34,7 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.unchecked.Unchecked;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -211,19 +212,11 @@ class LimitRecordSizeIT {
     }
 
     private static int prepare(LimitRecordSize records, String topic) {
-        try {
-            return records.prepare(topic);
-        } catch (IOException | InterruptedException e) {
-            throw new IllegalStateException(e);
-        }
+        return Unchecked.get(() -> records.prepare(topic));
     }
 
     private static TopicRecord of(LimitRecordSize records, TopicRecord record) {
-        try {
-            return records.of(record);
-        } catch (IOException | InterruptedException e) {
-            throw new IllegalStateException(e);
-        }
+        return Unchecked.get(() -> records.of(record));
     }
 
     @Test
