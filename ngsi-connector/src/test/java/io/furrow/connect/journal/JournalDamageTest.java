@@ -15,8 +15,6 @@ import java.util.stream.IntStream;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.files.Folders;
-
 import static io.furrow.connect.journal.JournalTest.append;
 import static io.furrow.connect.journal.JournalTest.read;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -222,13 +220,6 @@ class JournalDamageTest extends QuietJournal {
         }
     }
 
-    private static void overwrite(Path file, long at, byte value) throws IOException {
-        try (RandomAccessFile bytes = new RandomAccessFile(file.toFile(), "rw")) {
-            bytes.seek(at);
-            bytes.write(value);
-        }
-    }
-
     private static boolean onlyZeros(byte[] bytes, int from, int to) {
         for (int i = from; i < to; i++) {
             if (bytes[i] != 0) {
@@ -246,12 +237,6 @@ class JournalDamageTest extends QuietJournal {
             end--;
         }
         return end;
-    }
-
-    private List<Path> segments() throws IOException {
-        return Folders.list(folder).stream()
-                .filter(file -> file.toString().endsWith(".segment"))
-                .toList();
     }
 
     private Journal open() {

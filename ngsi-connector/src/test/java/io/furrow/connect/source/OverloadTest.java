@@ -17,6 +17,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.source.journal.RecordLog;
+import io.furrow.process.Ports;
 
 import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -116,7 +117,7 @@ class OverloadTest {
             CompletableFuture<Void> stopped = CompletableFuture.runAsync(rig::close);
             await().pollInterval(Duration.ofMillis(1)).until(() -> {
                 kept.getOutputStream().write('x'); // one that says nothing is closed at once
-                return !accepts(port);
+                return !Ports.isListening(port);
             });
 
             assertThat(isAnswered(kept, "\r\nContent-Length: 10\r\n\r\n{\"id\":\"a\"}"))
@@ -134,14 +135,6 @@ class OverloadTest {
             return socket.getInputStream().read() >= 0;
         } catch (SocketException e) {
             return false; // reset
-        }
-    }
-
-    private static boolean accepts(int port) {
-        try (Socket probe = new Socket("127.0.0.1", port)) {
-            return probe.isConnected();
-        } catch (IOException e) {
-            return false;
         }
     }
 
