@@ -176,8 +176,7 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
         provisioning.refresh();
         assertThatThrownBy(provisioning::step)
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("/iot/devices")
-                .hasMessageContaining("is it an IoT Agent?");
+                .hasMessageContainingAll("/iot/devices", "is it an IoT Agent?");
 
         assertThat(agent.changes).isEmpty();
     }

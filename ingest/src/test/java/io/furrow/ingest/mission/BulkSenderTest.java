@@ -163,8 +163,7 @@ class BulkSenderTest {
                                 collections, MongoAccess.Waits.of(Duration.ofMillis(200)), retried::addAndGet)
                         .send(documents(0, 3)))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("MongoDB did not take documents")
-                .hasMessageContaining("--mongo");
+                .hasMessageContainingAll("MongoDB did not take documents", "--mongo");
     }
 
     @Test

@@ -223,9 +223,7 @@ class StateTest {
 
         assertThatThrownBy(this::start)
                 .isInstanceOf(IllegalStateException.class)
-                .hasMessageContaining(file().toString())
-                .hasMessageContaining("damaged")
-                .hasMessageContaining("move it away");
+                .hasMessageContainingAll(file().toString(), "damaged", "move it away");
         assertThat(Files.readAllBytes(file())).isEqualTo(damaged);
     }
 

@@ -168,8 +168,7 @@ class LimitRecordSizeIT {
             assertThatThrownBy(() -> records.of(record("hopeless.dead", new byte[10])
                             .with(new DeadLetter(Reason.NOT_JSON, "why", "ingest", "data.raw-0@1").headers())))
                     .isInstanceOf(IOException.class)
-                    .hasMessageContaining("hopeless.dead")
-                    .hasMessageContaining("raise its max.message.bytes");
+                    .hasMessageContainingAll("hopeless.dead", "raise its max.message.bytes");
         }
     }
 
