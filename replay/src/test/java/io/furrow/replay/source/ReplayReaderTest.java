@@ -2,6 +2,7 @@ package io.furrow.replay.source;
 
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.AtomicLong;
 import java.util.function.BooleanSupplier;
@@ -211,8 +212,7 @@ class ReplayReaderTest {
 
     private static void isOfEpochZero(TopicRecord end) {
         assertThat(end.headers())
-                .containsEntry(HeaderNames.REPLAY_EPOCH, "0")
-                .containsEntry(HeaderNames.REPLAY_SEQUENCE, "0");
+                .containsAllEntriesOf(Map.of(HeaderNames.REPLAY_EPOCH, "0", HeaderNames.REPLAY_SEQUENCE, "0"));
     }
 
     @Test
