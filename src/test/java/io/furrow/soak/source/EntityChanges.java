@@ -95,7 +95,9 @@ final class EntityChanges implements AutoCloseable {
 
     /** The newest state of each entity; {@link #hold} first. */
     List<NumberedChange> newest() {
-        return IntStream.range(0, newest.length()).mapToObj(i -> new NumberedChange(i, newest.get(i))).toList();
+        return IntStream.range(0, newest.length())
+                .mapToObj(i -> new NumberedChange(i, newest.get(i)))
+                .toList();
     }
 
     @Override
