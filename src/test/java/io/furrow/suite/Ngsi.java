@@ -14,7 +14,7 @@ import io.furrow.model.ngsi.NgsiJson;
 
 /** The context broker and the listener for notifications, as a client over HTTP sees them. */
 public record Ngsi(Suite suite) {
-    private final HttpClient http =
+    private static final HttpClient HTTP =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
 
     /** The entities that a query such as {@code type=Camera} finds. */
@@ -24,7 +24,7 @@ public record Ngsi(Suite suite) {
                 .header("fiware-servicepath", "/#")
                 .build();
         return NgsiJson.mapper()
-                .readTree(http.send(request, HttpResponse.BodyHandlers.ofByteArray())
+                .readTree(HTTP.send(request, HttpResponse.BodyHandlers.ofByteArray())
                         .body());
     }
 
@@ -61,6 +61,6 @@ public record Ngsi(Suite suite) {
                 .header("fiware-servicepath", "/")
                 .POST(BodyPublishers.ofByteArray(body))
                 .build();
-        return http.send(request, HttpResponse.BodyHandlers.discarding()).statusCode();
+        return HTTP.send(request, HttpResponse.BodyHandlers.discarding()).statusCode();
     }
 }
