@@ -132,7 +132,7 @@ public record Restarts(MiniCluster flink, Path folder) {
                     new org.apache.flink.core.fs.Path(releases.resolve(release).toUri()),
                     false);
         }
-        List<Path> stored = releasesIn(releases);
+        List<Path> stored = Folders.list(releases);
         assertThat(stored).isNotEmpty();
         for (Path savepoint : stored) {
             Written.beginWith(before);
@@ -141,10 +141,6 @@ public record Restarts(MiniCluster flink, Path folder) {
             end(run);
             assertThat(merged(job)).as("from %s", savepoint).isEqualTo(undisturbed);
         }
-    }
-
-    private static List<Path> releasesIn(Path folder) throws IOException {
-        return Folders.list(folder);
     }
 
     private Map<String, String> undisturbed(JobCase job) throws Exception {
