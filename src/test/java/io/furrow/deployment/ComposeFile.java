@@ -19,15 +19,9 @@ import com.fasterxml.jackson.databind.ObjectMapper;
 import org.yaml.snakeyaml.Yaml;
 
 /** A compose file, by default {@code docker/compose.yaml}, as Compose reads it, with its anchors resolved. */
-final class ComposeFile {
+record ComposeFile(JsonNode root) {
     static final Path FOLDER = Path.of("..", "docker");
     static final Pattern VARIABLE = Pattern.compile("\\$\\{(\\w+)[^}]*}");
-
-    private final JsonNode root;
-
-    private ComposeFile(JsonNode root) {
-        this.root = root;
-    }
 
     static ComposeFile read() throws IOException {
         return read(FOLDER.resolve("compose.yaml"));
@@ -37,10 +31,6 @@ final class ComposeFile {
         try (Reader reader = Files.newBufferedReader(file)) {
             return new ComposeFile(new ObjectMapper().valueToTree(new Yaml().load(reader)));
         }
-    }
-
-    JsonNode root() {
-        return root;
     }
 
     Map<String, JsonNode> services() {

@@ -11,18 +11,8 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** A program of the operating system, as a user would call it. */
-final class Command implements AutoCloseable {
+record Command(List<String> arguments, Process process, Path output) implements AutoCloseable {
     private static final long SECONDS = 120;
-
-    private final List<String> arguments;
-    private final Process process;
-    private final Path output;
-
-    private Command(List<String> arguments, Process process, Path output) {
-        this.arguments = arguments;
-        this.process = process;
-        this.output = output;
-    }
 
     /** Starts it and goes on; the words are its name and arguments. */
     static Command start(String... arguments) {

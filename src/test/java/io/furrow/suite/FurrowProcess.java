@@ -12,16 +12,8 @@ import io.furrow.process.TestProcess;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** A command of Furrow in a process of its own, with a temporary directory of its own. */
-final class FurrowProcess implements AutoCloseable {
+record FurrowProcess(Process process, Path output) implements AutoCloseable {
     static final Duration TIMEOUT = Duration.ofMinutes(3);
-
-    private final Process process;
-    private final Path output;
-
-    private FurrowProcess(Process process, Path output) {
-        this.process = process;
-        this.output = output;
-    }
 
     /** @param temporary where the process makes its temporary files; what it prints is beside it */
     static FurrowProcess start(Path temporary, String... arguments) throws IOException {

@@ -13,14 +13,9 @@ import io.furrow.launcher.suite.Suite;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** The context broker and the listener for notifications, as a client over HTTP sees them. */
-public final class Ngsi {
-    private final HttpClient http =
+public record Ngsi(Suite suite) {
+    private static final HttpClient HTTP =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
-    private final Suite suite;
-
-    Ngsi(Suite suite) {
-        this.suite = suite;
-    }
 
     /** The entities that a query such as {@code type=Camera} finds. */
     JsonNode entities(String query) throws IOException, InterruptedException {
@@ -29,7 +24,7 @@ public final class Ngsi {
                 .header("fiware-servicepath", "/#")
                 .build();
         return NgsiJson.mapper()
-                .readTree(http.send(request, HttpResponse.BodyHandlers.ofByteArray())
+                .readTree(HTTP.send(request, HttpResponse.BodyHandlers.ofByteArray())
                         .body());
     }
 
@@ -66,6 +61,6 @@ public final class Ngsi {
                 .header("fiware-servicepath", "/")
                 .POST(BodyPublishers.ofByteArray(body))
                 .build();
-        return http.send(request, HttpResponse.BodyHandlers.discarding()).statusCode();
+        return HTTP.send(request, HttpResponse.BodyHandlers.discarding()).statusCode();
     }
 }

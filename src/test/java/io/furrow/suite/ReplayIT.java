@@ -1,7 +1,5 @@
 package io.furrow.suite;
 
-import java.io.IOException;
-import java.io.UncheckedIOException;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -21,6 +19,7 @@ import io.furrow.mission.mongo.MongoRecordings;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
+import io.furrow.unchecked.Unchecked;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -125,14 +124,10 @@ class ReplayIT {
 
     /** Equal texts for equal entities. */
     private static String sorted(String json) {
-        try {
-            return json.isEmpty()
-                    ? ""
-                    : NgsiJson.mapper()
-                            .readValue(json, new TypeReference<TreeMap<String, Object>>() {})
-                            .toString();
-        } catch (IOException e) {
-            throw new UncheckedIOException(e);
-        }
+        return Unchecked.get(() -> json.isEmpty()
+                ? ""
+                : NgsiJson.mapper()
+                        .readValue(json, new TypeReference<TreeMap<String, Object>>() {})
+                        .toString());
     }
 }

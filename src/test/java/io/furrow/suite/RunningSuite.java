@@ -20,15 +20,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 /** A suite on free ports for the time of a test, with what a test asks of it. */
-public final class RunningSuite implements AutoCloseable {
-    private final RunDirectory directory;
-    private final Suite suite;
-
-    private RunningSuite(RunDirectory directory, Suite suite) {
-        this.directory = directory;
-        this.suite = suite;
-    }
-
+public record RunningSuite(RunDirectory directory, Suite suite) implements AutoCloseable {
     /** @param stored null for a temporary directory */
     public static RunningSuite start(Path stored) throws Exception {
         return start(stored, SuiteSettings.onFreePorts("2s"));
@@ -38,10 +30,6 @@ public final class RunningSuite implements AutoCloseable {
         RunDirectory directory = RunDirectory.open(stored);
         PrintWriter out = new PrintWriter(new OutputStreamWriter(System.out, UTF_8));
         return new RunningSuite(directory, Suite.start(settings, directory, new Progress(out)));
-    }
-
-    public Suite suite() {
-        return suite;
     }
 
     public Ngsi ngsi() {

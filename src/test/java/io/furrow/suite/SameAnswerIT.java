@@ -18,6 +18,7 @@ import org.junit.jupiter.api.Timeout;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
+import io.furrow.unchecked.Unchecked;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -151,10 +152,6 @@ class SameAnswerIT {
     }
 
     private static JsonNode entity(ConsumerRecord<byte[], byte[]> record) {
-        try {
-            return NgsiJson.read(record.value());
-        } catch (io.furrow.model.ngsi.UnreadableException e) {
-            throw new AssertionError(e);
-        }
+        return Unchecked.get(() -> NgsiJson.read(record.value()));
     }
 }

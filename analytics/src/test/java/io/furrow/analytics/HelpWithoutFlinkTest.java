@@ -1,7 +1,6 @@
 package io.furrow.analytics;
 
 import java.io.File;
-import java.net.URISyntaxException;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -15,6 +14,7 @@ import picocli.CommandLine;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.model.topic.Topics;
 import io.furrow.process.TestProcess;
+import io.furrow.unchecked.Unchecked;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -75,14 +75,10 @@ class HelpWithoutFlinkTest {
     }
 
     private static String origin(Class<?> type) {
-        try {
-            return Path.of(type.getProtectionDomain()
-                            .getCodeSource()
-                            .getLocation()
-                            .toURI())
-                    .toString();
-        } catch (URISyntaxException e) {
-            throw new AssertionError(e);
-        }
+        return Unchecked.get(() -> Path.of(type.getProtectionDomain()
+                        .getCodeSource()
+                        .getLocation()
+                        .toURI())
+                .toString());
     }
 }

@@ -10,6 +10,7 @@ import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CopyOnWriteArrayList;
 import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.atomic.AtomicInteger;
+import java.util.stream.IntStream;
 
 import org.eclipse.jetty.server.Handler;
 import org.eclipse.jetty.server.Request;
@@ -78,10 +79,7 @@ class RequestWorkersTest {
 
     @Test
     void answersTheOthersWhileRequestsWait() {
-        List<CompletableFuture<HttpResponse<String>>> waiting = new ArrayList<>();
-        for (int i = 0; i < RequestWorkers.THREADS + SERVER_THREADS; i++) {
-            waiting.add(request("/api/topics"));
-        }
+        List<CompletableFuture<HttpResponse<String>>> waiting = IntStream.range(0, RequestWorkers.THREADS + SERVER_THREADS).mapToObj(i -> request("/api/topics")).toList();
         await().until(() -> working.get() == RequestWorkers.THREADS);
 
         assertThat(request("/health").join().statusCode()).isEqualTo(200);
@@ -93,10 +91,7 @@ class RequestWorkersTest {
 
     @Test
     void rejectsMoreThanMayWait() {
-        List<CompletableFuture<HttpResponse<String>>> waiting = new ArrayList<>();
-        for (int i = 0; i < RequestWorkers.THREADS + RequestWorkers.WAITING + 1; i++) {
-            waiting.add(request("/api/topics"));
-        }
+        List<CompletableFuture<HttpResponse<String>>> waiting = IntStream.range(0, RequestWorkers.THREADS + RequestWorkers.WAITING + 1).mapToObj(i -> request("/api/topics")).toList();
         await().until(() -> waiting.stream().anyMatch(CompletableFuture::isDone));
 
         HttpResponse<String> answer = waiting.stream()

@@ -27,6 +27,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.topic.Topics;
+import io.furrow.unchecked.Unchecked;
 
 import static java.nio.charset.StandardCharsets.ISO_8859_1;
 import static java.nio.charset.StandardCharsets.UTF_8;
@@ -155,13 +156,7 @@ class DividedIngestTest {
     }
 
     private static List<byte[]> contents(Stream<Path> files) {
-        return files.map(file -> {
-                    try {
-                        return Files.readAllBytes(file);
-                    } catch (java.io.IOException e) {
-                        throw new java.io.UncheckedIOException(e);
-                    }
-                })
+        return files.map(file -> Unchecked.get(() -> Files.readAllBytes(file)))
                 .toList();
     }
 

@@ -1,7 +1,5 @@
 package io.furrow.ingest;
 
-import java.awt.image.BufferedImage;
-import java.io.ByteArrayOutputStream;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -12,8 +10,6 @@ import java.util.List;
 import java.util.Map;
 import java.util.Set;
 import java.util.stream.Stream;
-import javax.imageio.ImageIO;
-import javax.imageio.stream.MemoryCacheImageOutputStream;
 
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
@@ -22,6 +18,7 @@ import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine.ParameterException;
 
 import io.furrow.files.Folders;
+import io.furrow.files.RandomPicture;
 import io.furrow.flink.TestClusters;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.record.TopicRecord;
@@ -42,7 +39,7 @@ class ImageStageJobTest {
 
     @Test
     void sendsAReferenceToDomainAndMissionAndAManifest(@TempDir Path folder) throws Exception {
-        byte[] image = png();
+        byte[] image = RandomPicture.of("png", 1);
         TopicRecord camera = camera("c1", 0, image);
 
         List<TopicRecord> written = run(options("--images", folder.toString()), camera);
@@ -63,7 +60,7 @@ class ImageStageJobTest {
 
     @Test
     void leavesImagesInTheEventsWithoutAFolder() throws Exception {
-        TopicRecord camera = camera("c1", 0, png());
+        TopicRecord camera = camera("c1", 0, RandomPicture.of("png", 1));
 
         List<TopicRecord> written = run(options(), camera);
 
@@ -75,7 +72,7 @@ class ImageStageJobTest {
     @Test
     void storesEveryImageOfManyCameras(@TempDir Path folder) throws Exception {
         List<TopicRecord> records = new ArrayList<>();
-        byte[] image = png();
+        byte[] image = RandomPicture.of("png", 1);
         for (int i = 0; i < 500; i++) {
             records.add(camera("c" + i % 20, i, i % 50 == 7 ? new byte[] {1, 2, 3} : image));
         }
@@ -108,7 +105,7 @@ class ImageStageJobTest {
     @Test
     void keepsACatalogueOfWhatPassed(@TempDir Path folder) throws Exception {
         List<TopicRecord> records = new ArrayList<>();
-        byte[] image = png();
+        byte[] image = RandomPicture.of("png", 1);
         for (int i = 0; i < 60; i++) {
             records.add(camera("c" + i % 20, i * 1_000, image));
         }
@@ -171,13 +168,5 @@ class ImageStageJobTest {
                 id.getBytes(UTF_8),
                 entity.toBytes(),
                 new HashMap<>(Map.of(HeaderNames.CE_ID, "e" + i)));
-    }
-
-    private static byte[] png() throws Exception {
-        ByteArrayOutputStream bytes = new ByteArrayOutputStream();
-        try (MemoryCacheImageOutputStream out = new MemoryCacheImageOutputStream(bytes)) {
-            ImageIO.write(new BufferedImage(40, 30, BufferedImage.TYPE_INT_RGB), "png", out);
-        }
-        return bytes.toByteArray();
     }
 }

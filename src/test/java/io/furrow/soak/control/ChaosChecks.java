@@ -22,16 +22,8 @@ import io.furrow.model.topic.Topics;
 import io.furrow.soak.CommittedState;
 
 /** What differs between what was asked for and what there is. */
-final class ChaosChecks {
+record ChaosChecks(ChaosFarm farm, List<MissionActor> missions) {
     private static final String[] TENANT = {"fiware-service", "farm", "fiware-servicepath", "/"};
-
-    private final ChaosFarm farm;
-    private final List<MissionActor> missions;
-
-    ChaosChecks(ChaosFarm farm, List<MissionActor> missions) {
-        this.farm = farm;
-        this.missions = missions;
-    }
 
     /** Parts of the control planes that are not up. */
     List<String> parts() {

@@ -69,9 +69,7 @@ public final class ControlChaos {
     public static void main(String... args) throws Exception {
         Settings settings = new Settings(
                 Path.of(args[0]), Duration.ofMinutes(Long.parseLong(args[1])), false, Long.parseLong(args[2]));
-        Runtime.getRuntime()
-                .addShutdownHook(new Thread(
-                        () -> ProcessHandle.current().descendants().forEach(ProcessHandle::destroyForcibly), "stop"));
+        JavaProcess.endAllWithThisOne();
         List<String> faults = run(settings);
         faults.forEach(System.out::println);
         System.exit(faults.isEmpty() ? 0 : 1);

@@ -27,6 +27,12 @@ public final class JavaProcess implements AutoCloseable {
         command.addAll(arguments);
     }
 
+    /** Lets none of this process's outlive it. */
+    public static void endAllWithThisOne() {
+        Runnable end = () -> ProcessHandle.current().descendants().forEach(ProcessHandle::destroyForcibly);
+        Runtime.getRuntime().addShutdownHook(new Thread(end, "stop"));
+    }
+
     /** Further variables of its environment. */
     public JavaProcess with(Map<String, String> variables) {
         environment.putAll(variables);

@@ -7,6 +7,7 @@ import java.util.List;
 
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.FreePort;
+import io.furrow.process.Ports;
 
 /** A broker in a process of its own, on the same port and directory whenever it is started. */
 public final class KafkaProcess implements AutoCloseable {
@@ -36,7 +37,7 @@ public final class KafkaProcess implements AutoCloseable {
     /** Returns when it listens. */
     public void start() throws IOException {
         process.start();
-        Until.isTrue("Kafka listens", START_TIMEOUT, () -> Until.isListening(port));
+        Until.isTrue("Kafka listens", START_TIMEOUT, () -> Ports.isListening(port));
     }
 
     void kill() throws InterruptedException {

@@ -10,6 +10,7 @@ import java.util.Set;
 import java.util.TreeSet;
 
 import io.furrow.embedded.FreePort;
+import io.furrow.process.Ports;
 
 /** Eclipse Mosquitto on loopback, whose accounts are in files that somebody else may change. */
 public final class MosquittoProcess implements AutoCloseable {
@@ -86,7 +87,7 @@ public final class MosquittoProcess implements AutoCloseable {
                         folder.resolve("mosquitto.log").toFile()))
                 .start();
         Files.writeString(pidFile(), Long.toString(process.pid()));
-        Until.isTrue("Mosquitto listens", START_TIMEOUT, () -> Until.isListening(port));
+        Until.isTrue("Mosquitto listens", START_TIMEOUT, () -> Ports.isListening(port));
     }
 
     public void kill() throws IOException, InterruptedException {

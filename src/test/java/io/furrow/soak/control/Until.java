@@ -1,8 +1,5 @@
 package io.furrow.soak.control;
 
-import java.io.IOException;
-import java.net.InetAddress;
-import java.net.Socket;
 import java.time.Duration;
 import java.util.concurrent.locks.LockSupport;
 import java.util.function.BooleanSupplier;
@@ -30,14 +27,5 @@ public final class Until {
             LockSupport.parkNanos(POLL_NANOS);
         }
         return true;
-    }
-
-    /** Whether something listens on a port of this machine. */
-    static boolean isListening(int port) {
-        try (Socket socket = new Socket(InetAddress.getLoopbackAddress(), port)) {
-            return socket.isConnected();
-        } catch (IOException e) {
-            return false;
-        }
     }
 }

@@ -32,6 +32,7 @@ import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.kafka.Readiness;
 import io.furrow.model.topic.Topics;
+import io.furrow.soak.control.JavaProcess;
 import io.furrow.soak.control.KafkaProcess;
 import io.furrow.soak.control.Until;
 
@@ -94,9 +95,7 @@ public final class DashboardSockets implements AutoCloseable {
 
     /** Arguments: folder, seconds, sockets, slow, records per second, drops, p99 in ms. */
     public static void main(String... args) throws Exception {
-        Runtime.getRuntime()
-                .addShutdownHook(new Thread(
-                        () -> ProcessHandle.current().descendants().forEach(ProcessHandle::destroyForcibly), "stop"));
+        JavaProcess.endAllWithThisOne();
         List<String> faults = run(new Settings(
                 Path.of(args[0]),
                 Duration.ofSeconds(Long.parseLong(args[1])),

@@ -13,20 +13,10 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.soak.control.Until;
 
 /** What {@code ./furrow device show}, missions and alarms say of the devices. */
-final class DeviceViews {
+record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final long CLOCK_TOLERANCE_MILLIS = 5_000;
     private static final long SILENT_WITHOUT_A_PERIOD_MILLIS = 180_000;
-
-    private final UpProcess up;
-    private final ProgramPlan plan;
-    private final CheckResults verdicts;
-
-    DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
-        this.up = up;
-        this.plan = plan;
-        this.verdicts = verdicts;
-    }
 
     /** Each mission runs; of that of the faulty devices those are missing whose reports do not arrive. */
     void missions() {

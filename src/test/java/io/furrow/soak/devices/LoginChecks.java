@@ -19,21 +19,9 @@ import io.furrow.soak.control.Until;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Whether the programs are connected with the logins that they have, obey commands, and lose a login when it is rotated. */
-final class LoginChecks {
+record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResults verdicts) {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
     private static final long CUT_WITHIN_MILLIS = 2_000;
-
-    private final RealFarm farm;
-    private final ProgramPlan plan;
-    private final Programs programs;
-    private final CheckResults verdicts;
-
-    LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResults verdicts) {
-        this.farm = farm;
-        this.plan = plan;
-        this.programs = programs;
-        this.verdicts = verdicts;
-    }
 
     /** The newest login of each program that is connected, by device. */
     Map<String, String> connected() {

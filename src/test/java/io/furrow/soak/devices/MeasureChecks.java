@@ -16,22 +16,12 @@ import io.furrow.model.topic.Topics;
 import io.furrow.soak.TopicLog;
 
 /** Compares what the programs sent with what came of it on Kafka's topics. */
-final class MeasureChecks {
+record MeasureChecks(String kafka, ProgramPlan plan, CheckResults verdicts) {
     private static final Duration QUIET = Duration.ofMillis(200);
     /** A window is written when its end is the out-of-orderness ago, and the job has committed. */
     static final Duration VISIBLE_AFTER = Duration.ofSeconds(15);
 
     private static final ExpectedAverages AVERAGES = new ExpectedAverages(10_000);
-
-    private final String kafka;
-    private final ProgramPlan plan;
-    private final CheckResults verdicts;
-
-    MeasureChecks(String kafka, ProgramPlan plan, CheckResults verdicts) {
-        this.kafka = kafka;
-        this.plan = plan;
-        this.verdicts = verdicts;
-    }
 
     /**
      * Each measure that was sent in this time is on the topic of its mission, and on that of no other: once, unless devices were

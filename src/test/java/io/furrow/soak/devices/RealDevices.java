@@ -7,6 +7,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.stream.Stream;
 
+import io.furrow.soak.control.JavaProcess;
 import io.furrow.soak.control.Until;
 
 /** Two hundred devices on a farm of processes: first undisturbed, then while agent, control plane and broker are killed in turn. */
@@ -45,9 +46,7 @@ public final class RealDevices {
 
     /** Arguments: the checkout, a folder for data and logs, for how many seconds nothing is disturbed. */
     public static void main(String... args) throws Exception {
-        Runtime.getRuntime()
-                .addShutdownHook(new Thread(
-                        () -> ProcessHandle.current().descendants().forEach(ProcessHandle::destroyForcibly), "stop"));
+        JavaProcess.endAllWithThisOne();
         RealDevices soak = new RealDevices(
                 Path.of(args[0]).toAbsolutePath(),
                 Path.of(args[1]).toAbsolutePath(),

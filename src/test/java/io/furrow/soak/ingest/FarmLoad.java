@@ -1,19 +1,13 @@
 package io.furrow.soak.ingest;
 
-import java.awt.image.BufferedImage;
-import java.io.ByteArrayOutputStream;
-import java.io.IOException;
-import java.io.UncheckedIOException;
 import java.time.Instant;
 import java.util.Base64;
 import java.util.List;
-import java.util.Random;
 import java.util.stream.Stream;
-import javax.imageio.ImageIO;
-import javax.imageio.stream.MemoryCacheImageOutputStream;
 
 import org.apache.kafka.clients.producer.ProducerRecord;
 
+import io.furrow.files.RandomPicture;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
@@ -84,28 +78,13 @@ final class FarmLoad {
                 '"'
                         + (number % 101 == 100
                                 ? "bm8gaW1hZ2U="
-                                : Base64.getEncoder().encodeToString(png(number)))
+                                : Base64.getEncoder().encodeToString(RandomPicture.of("png", number)))
                         + '"');
     }
 
     /** Some have a number that no document of MongoDB can hold. */
     private static String oddity(int number) {
         return attribute("Odd" + number % 5, number % 83 == 82 ? "1234567890".repeat(4) : Integer.toString(number));
-    }
-
-    private static byte[] png(int number) {
-        BufferedImage image = new BufferedImage(24, 16, BufferedImage.TYPE_INT_RGB);
-        Random random = new Random(number);
-        for (int i = 0; i < 24 * 16; i++) {
-            image.setRGB(i % 24, i / 24, random.nextInt(1 << 24));
-        }
-        ByteArrayOutputStream bytes = new ByteArrayOutputStream();
-        try (MemoryCacheImageOutputStream out = new MemoryCacheImageOutputStream(bytes)) {
-            ImageIO.write(image, "png", out);
-        } catch (IOException e) {
-            throw new UncheckedIOException(e);
-        }
-        return bytes.toByteArray();
     }
 
     private static ProducerRecord<byte[], byte[]> report(int number, long time, String id, String attributes) {

@@ -6,6 +6,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.atomic.AtomicIntegerArray;
 import java.util.concurrent.locks.LockSupport;
+import java.util.stream.IntStream;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -94,11 +95,9 @@ final class EntityChanges implements AutoCloseable {
 
     /** The newest state of each entity; {@link #hold} first. */
     List<NumberedChange> newest() {
-        List<NumberedChange> all = new ArrayList<>();
-        for (int i = 0; i < newest.length(); i++) {
-            all.add(new NumberedChange(i, newest.get(i)));
-        }
-        return all;
+        return IntStream.range(0, newest.length())
+                .mapToObj(i -> new NumberedChange(i, newest.get(i)))
+                .toList();
     }
 
     @Override

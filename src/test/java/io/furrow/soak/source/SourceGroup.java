@@ -1,8 +1,6 @@
 package io.furrow.soak.source;
 
 import java.io.IOException;
-import java.net.InetAddress;
-import java.net.ServerSocket;
 import java.net.URI;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -18,6 +16,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.process.Ports;
 import io.furrow.soak.control.Http;
 import io.furrow.soak.control.Until;
 
@@ -185,17 +184,9 @@ final class SourceGroup implements AutoCloseable {
         while (true) {
             int first = ThreadLocalRandom.current().nextInt(20_000, 32_000);
             boolean others = members.stream().anyMatch(member -> Math.abs(member.port() - first) < TASKS);
-            if (!others && IntStream.range(first, first + TASKS).allMatch(SourceGroup::isFree)) {
+            if (!others && IntStream.range(first, first + TASKS).allMatch(Ports::isFree)) {
                 return first;
             }
-        }
-    }
-
-    private static boolean isFree(int port) {
-        try (ServerSocket socket = new ServerSocket(port, 1, InetAddress.getLoopbackAddress())) {
-            return socket.isBound();
-        } catch (IOException e) {
-            return false;
         }
     }
 

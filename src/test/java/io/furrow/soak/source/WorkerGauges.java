@@ -10,13 +10,7 @@ import javax.management.remote.JMXConnectorFactory;
 import javax.management.remote.JMXServiceURL;
 
 /** What a worker shows of the source over JMX. */
-final class WorkerGauges {
-    private final int jmxPort;
-
-    WorkerGauges(int jmxPort) {
-        this.jmxPort = jmxPort;
-    }
-
+record WorkerGauges(int jmxPort) {
     /** One look; zeros where nothing of the source is shown, empty tasks where nobody answers. */
     record Shown(
             int tasks, long pending, long adopted, long orphaned, long recovered, long leftRecords, long leftJournals) {

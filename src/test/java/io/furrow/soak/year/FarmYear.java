@@ -17,6 +17,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.topic.Topics;
+import io.furrow.soak.control.JavaProcess;
 import io.furrow.soak.devices.CheckResults;
 import io.furrow.soak.year.Accounts.DayMission;
 import io.furrow.soak.year.Accounts.Span;
@@ -73,9 +74,7 @@ public final class FarmYear implements AutoCloseable {
 
     /** Arguments: the checkout, a folder for data and logs, how many weeks, the seconds of a day. */
     public static void main(String... args) throws Exception {
-        Runtime.getRuntime()
-                .addShutdownHook(new Thread(
-                        () -> ProcessHandle.current().descendants().forEach(ProcessHandle::destroyForcibly), "stop"));
+        JavaProcess.endAllWithThisOne();
         FarmYear year = new FarmYear(
                 List.of(Path.of(args[0]).toAbsolutePath().resolve("furrow").toString()),
                 Path.of(args[1]).toAbsolutePath(),

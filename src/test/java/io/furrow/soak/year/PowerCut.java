@@ -15,18 +15,8 @@ import io.furrow.files.Folders;
  * second, each of another. Before the end the logs of Kafka are copied one after the other; after it half of them are put back.
  * What is synced with each batch, {@code data.raw} and Kafka's own metadata, is as it was.
  */
-final class PowerCut {
+record PowerCut(Path kafka, Path copies, Random random) {
     private static final List<String> SYNCED = List.of("data.raw-", "__cluster_metadata");
-
-    private final Path kafka;
-    private final Path copies;
-    private final Random random;
-
-    PowerCut(Path kafka, Path copies, Random random) {
-        this.kafka = kafka;
-        this.copies = copies;
-        this.random = random;
-    }
 
     /** Within the last second before the end. */
     void copy() throws IOException {

@@ -15,20 +15,12 @@ import io.furrow.soak.control.Until;
  * A mission of each week with a device that reports once and falls silent, and one that never reports. Of the first there is an
  * alarm {@code silent-device}, of the second {@code missing-devices}, as long as the mission runs.
  */
-final class SilentDevices {
+record SilentDevices(YearFarm farm, YearFleet fleet) {
     private static final String FALLS_SILENT = "urn:ngsi-ld:Thermometer:falls-silent";
     private static final String NEVER_REPORTS = "urn:ngsi-ld:Thermometer:never-reports";
     private static final Map<String, String> ALARMS =
             Map.of("silent-device", FALLS_SILENT, "missing-devices", NEVER_REPORTS);
     private static final Duration TIMEOUT = Duration.ofSeconds(30);
-
-    private final YearFarm farm;
-    private final YearFleet fleet;
-
-    SilentDevices(YearFarm farm, YearFleet fleet) {
-        this.farm = farm;
-        this.fleet = fleet;
-    }
 
     private static String mission(int week) {
         return "silent-" + week;

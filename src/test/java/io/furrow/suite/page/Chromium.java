@@ -12,15 +12,7 @@ import com.microsoft.playwright.BrowserType;
 import com.microsoft.playwright.Playwright;
 
 /** The machine's Chromium, steered by Playwright, which fetches no browser of its own. */
-final class Chromium implements AutoCloseable {
-    private final Playwright playwright;
-    private final Browser browser;
-
-    private Chromium(Playwright playwright, Browser browser) {
-        this.playwright = playwright;
-        this.browser = browser;
-    }
-
+record Chromium(Playwright playwright, Browser browser) implements AutoCloseable {
     static Chromium start(String... arguments) {
         Playwright playwright = Playwright.create(
                 new Playwright.CreateOptions().setEnv(Map.of("PLAYWRIGHT_SKIP_BROWSER_DOWNLOAD", "1")));
@@ -30,10 +22,6 @@ final class Chromium implements AutoCloseable {
                         .setExecutablePath(onPath())
                         .setArgs(List.of(arguments)));
         return new Chromium(playwright, browser);
-    }
-
-    Browser browser() {
-        return browser;
     }
 
     private static Path onPath() {

@@ -13,8 +13,9 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.SortedMap;
 import java.util.TreeMap;
-import java.util.zip.GZIPOutputStream;
 import javax.imageio.ImageIO;
+
+import io.furrow.files.Gzip;
 
 import static java.nio.charset.StandardCharsets.US_ASCII;
 import static java.nio.charset.StandardCharsets.UTF_8;
@@ -46,14 +47,14 @@ final class TileArchive {
         List<long[]> root = new ArrayList<>();
         for (int i = 0; i < entries.size(); i += entriesOfLeaf) {
             List<Entry> part = entries.subList(i, Math.min(entries.size(), i + entriesOfLeaf));
-            byte[] leaf = gzip(directory(part.stream()
+            byte[] leaf = Gzip.of(directory(part.stream()
                     .map(each -> new long[] {each.id(), each.run(), each.picture().length, each.offset()})
                     .toList()));
             root.add(new long[] {part.get(0).id(), 0, leaf.length, leaves.size()});
             leaves.writeBytes(leaf);
         }
-        byte[] first = gzip(directory(root));
-        byte[] metadata = gzip(("{\"attribution\":\"" + attribution + "\"}").getBytes(UTF_8));
+        byte[] first = Gzip.of(directory(root));
+        byte[] metadata = Gzip.of(("{\"attribution\":\"" + attribution + "\"}").getBytes(UTF_8));
         ByteBuffer header = ByteBuffer.allocate(HEADER).order(ByteOrder.LITTLE_ENDIAN);
         long at = HEADER;
         header.put("PMTiles".getBytes(US_ASCII)).put((byte) 3);
@@ -132,13 +133,5 @@ final class TileArchive {
             out.write((int) (rest & 127 | 128));
         }
         out.write((int) rest);
-    }
-
-    private static byte[] gzip(byte[] bytes) throws IOException {
-        ByteArrayOutputStream out = new ByteArrayOutputStream();
-        try (GZIPOutputStream gzip = new GZIPOutputStream(out)) {
-            gzip.write(bytes);
-        }
-        return out.toByteArray();
     }
 }

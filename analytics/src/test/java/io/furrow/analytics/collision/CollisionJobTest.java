@@ -3,6 +3,7 @@ package io.furrow.analytics.collision;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.Map;
 
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
@@ -71,8 +72,7 @@ class CollisionJobTest {
                 .hasValueSatisfying(d -> assertThat(d).isBetween(2.99, 3.01));
         assertThat(entity(end).text("Device2_Mission")).contains("hoeing");
         assertThat(end.headers())
-                .containsEntry(HeaderNames.SERVICE, "farm")
-                .containsEntry(HeaderNames.SERVICE_PATH, "/north")
+                .containsAllEntriesOf(Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/north"))
                 .containsKey(HeaderNames.CE_ID);
     }
 
@@ -158,8 +158,7 @@ class CollisionJobTest {
                 .filteredOn(record -> record.topic().equals("reports.dead"))
                 .singleElement()
                 .satisfies(dead -> assertThat(dead.headers())
-                        .containsEntry(DeadLetter.STAGE, "collision")
-                        .containsEntry(DeadLetter.REASON, "not-json"));
+                        .containsAllEntriesOf(Map.of(DeadLetter.STAGE, "collision", DeadLetter.REASON, "not-json")));
         assertThat(written)
                 .filteredOn(record -> record.topic().equals("data.collision.late"))
                 .singleElement()

@@ -11,8 +11,8 @@ import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
+import io.furrow.unchecked.Unchecked;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
@@ -64,10 +64,6 @@ public final class FieldRecords {
     }
 
     private static ObjectNode object(String json) {
-        try {
-            return (ObjectNode) NgsiJson.read(json.getBytes(UTF_8));
-        } catch (UnreadableException e) {
-            throw new AssertionError(e);
-        }
+        return Unchecked.get(() -> (ObjectNode) NgsiJson.read(json.getBytes(UTF_8)));
     }
 }

@@ -1,6 +1,7 @@
 package io.furrow.analytics.field;
 
 import java.util.List;
+import java.util.Map;
 
 import org.apache.flink.streaming.api.operators.ProcessOperator;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
@@ -71,8 +72,7 @@ class ParseFieldsTest {
         assertThat(dead.get(0).topic()).isEqualTo("service.fields.dead");
         assertThat(dead.get(0).value()).isEqualTo(bad.value());
         assertThat(dead.get(0).headers())
-                .containsEntry(DeadLetter.REASON, reason)
-                .containsEntry(DeadLetter.STAGE, "presence")
+                .containsAllEntriesOf(Map.of(DeadLetter.REASON, reason, DeadLetter.STAGE, "presence"))
                 .hasEntrySatisfying(
                         DeadLetter.MESSAGE, message -> assertThat(message).contains(why == null ? "" : why));
     }

@@ -2,6 +2,7 @@ package io.furrow.analytics.presence;
 
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
 import java.util.function.Predicate;
 import java.util.stream.LongStream;
 
@@ -95,8 +96,7 @@ class PresenceJobTest {
         assertThat(new String(written.get(1).key(), UTF_8)).isEqualTo("r1");
         assertThat(written.get(1).timestamp()).isEqualTo(4000);
         assertThat(written.get(1).headers())
-                .containsEntry(HeaderNames.SERVICE, "farm")
-                .containsEntry(HeaderNames.SERVICE_PATH, "/");
+                .containsAllEntriesOf(Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/"));
     }
 
     @Test

@@ -14,6 +14,7 @@ import org.junit.jupiter.api.Test;
 import io.furrow.analytics.field.Field;
 import io.furrow.files.Folders;
 import io.furrow.flink.record.TopicRecord;
+import io.furrow.unchecked.Unchecked;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -61,10 +62,6 @@ class FlowTypesTest {
     }
 
     private static Class<?> named(String name) {
-        try {
-            return Class.forName(name, false, FlowTypesTest.class.getClassLoader());
-        } catch (ClassNotFoundException e) {
-            throw new AssertionError(e);
-        }
+        return Unchecked.get(() -> Class.forName(name, false, FlowTypesTest.class.getClassLoader()));
     }
 }

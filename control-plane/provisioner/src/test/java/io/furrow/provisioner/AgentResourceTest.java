@@ -97,8 +97,7 @@ class AgentResourceTest {
 
         assertThatThrownBy(() -> settings.withResource("iot/json"))
                 .isInstanceOf(IllegalArgumentException.class)
-                .hasMessageContaining("must be empty or begin with '/'")
-                .hasMessageContaining("'iot/json'");
+                .hasMessageContainingAll("must be empty or begin with '/'", "'iot/json'");
         assertThatThrownBy(() -> settings.withInterval(Duration.ZERO))
                 .isInstanceOf(IllegalArgumentException.class)
                 .hasMessageContaining("at least a second");

@@ -1,8 +1,6 @@
 package io.furrow.provisioner;
 
 import java.io.IOException;
-import java.net.InetAddress;
-import java.net.Socket;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -13,6 +11,7 @@ import org.eclipse.paho.client.mqttv3.MqttException;
 
 import io.furrow.embedded.FreePort;
 import io.furrow.model.device.FarmSecret;
+import io.furrow.process.Ports;
 import io.furrow.provisioner.account.MosquittoFiles;
 import io.furrow.provisioner.account.MosquittoPassword;
 
@@ -56,7 +55,7 @@ final class ProvisionedMosquitto implements AutoCloseable {
                 .start();
         reload = "kill -HUP " + process.pid();
         stop = () -> stop(process);
-        await().until(this::isListening);
+        await().until(() -> Ports.isListening(port));
     }
 
     static void writeAgent(Path directory) throws IOException {
@@ -105,14 +104,6 @@ final class ProvisionedMosquitto implements AutoCloseable {
             }
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
-        }
-    }
-
-    private boolean isListening() {
-        try (Socket socket = new Socket(InetAddress.getLoopbackAddress(), port)) {
-            return socket.isConnected();
-        } catch (IOException e) {
-            return false;
         }
     }
 

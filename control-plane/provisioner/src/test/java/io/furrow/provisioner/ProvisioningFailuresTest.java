@@ -176,8 +176,7 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
         provisioning.refresh();
         assertThatThrownBy(provisioning::step)
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("/iot/devices")
-                .hasMessageContaining("is it an IoT Agent?");
+                .hasMessageContainingAll("/iot/devices", "is it an IoT Agent?");
 
         assertThat(agent.changes).isEmpty();
     }
@@ -211,8 +210,7 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
         assertThat(outcome.done()).isTrue();
         assertThat(outcome.refused()).containsOnlyKeys(version.key());
         assertThat(outcome.refused().get(version.key()))
-                .contains("needs a tenant")
-                .contains("--fiware-service");
+                .contains("needs a tenant", "--fiware-service");
         assertThat(agent.deviceIds()).containsExactly(id(1));
         assertThat(agent.services).containsExactly("farm");
     }

@@ -18,7 +18,7 @@ public final class ControlPlaneProcess {
         plane.close();
     }
 
-    static ControlSettings settings(String bootstrapServers, String directory) {
+    public static ControlSettings settings(String bootstrapServers, String directory) {
         Properties client = new Properties();
         client.setProperty("bootstrap.servers", bootstrapServers);
         client.setProperty("state.dir", directory);

@@ -4,6 +4,7 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Set;
+import java.util.stream.IntStream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -275,10 +276,7 @@ class ControlTopologyTest {
 
     @Test
     void startsNoReplayBeyondThoseThatMayPlayAtOneTime() {
-        List<String> replays = new ArrayList<>();
-        for (int number = 0; number < ReplaySettings.DEFAULT.max() - 1; number++) {
-            replays.add(startReplay(""));
-        }
+        List<String> replays = IntStream.range(0, ReplaySettings.DEFAULT.max() - 1).mapToObj(number -> startReplay("")).toList();
         String group = "{'type':'request','command':'start','missions':['a','b'],'from':1000,'to':9000}";
         farm.request(Topics.REPLAY_MANAGER, null, group);
         CommandResult refused = response(farm.only(Topics.REPLAY_MANAGER));

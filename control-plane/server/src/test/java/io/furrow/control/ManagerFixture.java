@@ -23,6 +23,7 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
+import io.furrow.unchecked.Unchecked;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -115,11 +116,7 @@ final class ManagerFixture implements AutoCloseable {
     }
 
     static CommandResult response(TestRecord<String, byte[]> record) {
-        try {
-            return CommandResult.read(record.value());
-        } catch (io.furrow.model.ngsi.UnreadableException e) {
-            throw new AssertionError(e);
-        }
+        return Unchecked.get(() -> CommandResult.read(record.value()));
     }
 
     static String text(byte[] bytes) {

@@ -138,8 +138,7 @@ class TileFileTest {
     void rejectsAFileThatIsNotThereOrHasNoHeader() throws Exception {
         assertThatThrownBy(() -> TileFile.handler(directory.resolve("missing")))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("There is no file of tiles")
-                .hasMessageContaining("Check --tiles");
+                .hasMessageContainingAll("There is no file of tiles", "Check --tiles");
         Path brief = Files.writeString(directory.resolve("brief"), "PMTiles");
         assertThatThrownBy(() -> TileFile.handler(brief))
                 .isInstanceOf(IOException.class)

@@ -89,8 +89,7 @@ class ImageOptionsTest {
 
         assertThatThrownBy(() -> options.settings(StorageMode.ALL))
                 .isInstanceOf(CommandLine.ParameterException.class)
-                .hasMessageContaining(message)
-                .hasMessageContaining(";");
+                .hasMessageContainingAll(message, ";");
     }
 
     private static ImageOptions parsed(String... args) {

@@ -1,16 +1,10 @@
 package io.furrow.ingest.image;
 
-import java.awt.image.BufferedImage;
-import java.io.ByteArrayOutputStream;
-import java.io.IOException;
-import java.io.UncheckedIOException;
 import java.util.Base64;
 import java.util.HashMap;
 import java.util.Map;
-import java.util.Random;
-import javax.imageio.ImageIO;
-import javax.imageio.stream.MemoryCacheImageOutputStream;
 
+import io.furrow.files.RandomPicture;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.HeaderNames;
@@ -24,26 +18,11 @@ public final class Pictures {
     private Pictures() {}
 
     public static byte[] png(int seed) {
-        return image("png", seed);
+        return RandomPicture.of("png", seed);
     }
 
     static byte[] jpeg(int seed) {
-        return image("jpg", seed);
-    }
-
-    private static byte[] image(String format, int seed) {
-        BufferedImage image = new BufferedImage(24, 16, BufferedImage.TYPE_INT_RGB);
-        Random random = new Random(seed);
-        for (int i = 0; i < 24 * 16; i++) {
-            image.setRGB(i % 24, i / 24, random.nextInt(1 << 24));
-        }
-        ByteArrayOutputStream bytes = new ByteArrayOutputStream();
-        try (MemoryCacheImageOutputStream out = new MemoryCacheImageOutputStream(bytes)) {
-            ImageIO.write(image, format, out);
-        } catch (IOException e) {
-            throw new UncheckedIOException(e);
-        }
-        return bytes.toByteArray();
+        return RandomPicture.of("jpg", seed);
     }
 
     public static String base64(byte[] bytes) {

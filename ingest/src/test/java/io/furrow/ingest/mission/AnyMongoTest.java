@@ -12,6 +12,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.UUID;
+import java.util.stream.IntStream;
 
 import com.mongodb.client.MongoClient;
 import com.mongodb.client.model.IndexOptions;
@@ -157,11 +158,7 @@ class AnyMongoTest {
     }
 
     private List<MissionDocument> readings(int number) {
-        List<MissionDocument> documents = new ArrayList<>();
-        for (int i = 0; i < number; i++) {
-            documents.add(Events.document(mission, i));
-        }
-        return documents;
+        return IntStream.range(0, number).mapToObj(i -> Events.document(mission, i)).toList();
     }
 
     private List<BulkSender.Refusal<MissionDocument>> send(List<MissionDocument> documents) throws Exception {

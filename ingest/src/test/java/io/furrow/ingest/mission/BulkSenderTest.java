@@ -27,6 +27,7 @@ import io.furrow.mission.bulk.BulkSender;
 import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.Retention;
+import io.furrow.unchecked.Unchecked;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -145,13 +146,7 @@ class BulkSenderTest {
         sender().send(documents(0, 10));
         int port = Integer.parseInt(mongo.uri().substring(mongo.uri().lastIndexOf(':') + 1));
         mongo.close();
-        CompletableFuture<List<BulkSender.Refusal<MissionDocument>>> sent = CompletableFuture.supplyAsync(() -> {
-            try {
-                return sender().send(documents(10, 20));
-            } catch (IOException | InterruptedException e) {
-                throw new AssertionError(e);
-            }
-        });
+        CompletableFuture<List<BulkSender.Refusal<MissionDocument>>> sent = CompletableFuture.supplyAsync(() -> Unchecked.get(() -> sender().send(documents(10, 20))));
         org.awaitility.Awaitility.await().until(() -> retried.get() > 0);
 
         mongo = EmbeddedMongo.start(directory, port);
@@ -168,8 +163,7 @@ class BulkSenderTest {
                                 collections, MongoAccess.Waits.of(Duration.ofMillis(200)), retried::addAndGet)
                         .send(documents(0, 3)))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("MongoDB did not take documents")
-                .hasMessageContaining("--mongo");
+                .hasMessageContainingAll("MongoDB did not take documents", "--mongo");
     }
 
     @Test

@@ -5,6 +5,7 @@ import java.util.Map;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
+import io.furrow.unchecked.Unchecked;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
@@ -45,10 +46,6 @@ final class Events {
     }
 
     static MissionDocument document(String mission, int number) {
-        try {
-            return ComposeDocuments.compose(reading(mission, number));
-        } catch (io.furrow.model.ngsi.UnreadableException e) {
-            throw new AssertionError(e);
-        }
+        return Unchecked.get(() -> ComposeDocuments.compose(reading(mission, number)));
     }
 }

@@ -60,8 +60,7 @@ class MissionOptionsTest {
     void refuseARetentionThatIsNone(String retention) {
         assertThatThrownBy(() -> parsed("--mission-retention", retention).retention())
                 .isInstanceOf(ParameterException.class)
-                .hasMessageContaining("--mission-retention")
-                .hasMessageContaining("write for instance");
+                .hasMessageContainingAll("--mission-retention", "write for instance");
     }
 
     @ParameterizedTest
@@ -69,8 +68,7 @@ class MissionOptionsTest {
     void refuseAnAddressThatIsNone(String uri) {
         assertThatThrownBy(() -> parsed("--mongo", uri).access())
                 .isInstanceOf(ParameterException.class)
-                .hasMessageContaining("--mongo")
-                .hasMessageContaining("mongodb://127.0.0.1:27017");
+                .hasMessageContainingAll("--mongo", "mongodb://127.0.0.1:27017");
     }
 
     @Test
@@ -88,8 +86,7 @@ class MissionOptionsTest {
 
         assertThatThrownBy(() -> parsed("--mongo", "@" + missing).access())
                 .isInstanceOf(ParameterException.class)
-                .hasMessageContaining("--mongo")
-                .hasMessageContaining(missing + " cannot be read");
+                .hasMessageContainingAll("--mongo", missing + " cannot be read");
     }
 
     private static MissionOptions parsed(String... args) {

@@ -118,9 +118,7 @@ class RefusalsTest {
 
         assertThatThrownBy(() -> sender(SHORT).send(documents(10)))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("took none of 10 documents of mission_m")
-                .hasMessageContaining("[777777]")
-                .hasMessageContaining("--mongo-refusal-timeout");
+                .hasMessageContainingAll("took none of 10 documents of mission_m", "[777777]", "--mongo-refusal-timeout");
     }
 
     @Test

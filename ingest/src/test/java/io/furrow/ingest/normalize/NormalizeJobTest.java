@@ -83,8 +83,7 @@ class NormalizeJobTest {
         assertThat(run(options(), notification("t", NORMALIZED, Map.of())))
                 .singleElement()
                 .satisfies(record -> assertThat(record.headers())
-                        .containsEntry(HeaderNames.SERVICE, "")
-                        .containsEntry(HeaderNames.SERVICE_PATH, "/"));
+                        .containsAllEntriesOf(Map.of(HeaderNames.SERVICE, "", HeaderNames.SERVICE_PATH, "/")));
     }
 
     @Test

@@ -175,8 +175,7 @@ class AssignMissionTest {
                 .hasSize(100 - (BUDGET - 1))
                 .first()
                 .satisfies(letter -> assertThat(letter.headers())
-                        .containsEntry("dead-reason", "unknown-mission")
-                        .containsEntry("dead-stage", "routes"));
+                        .containsAllEntriesOf(Map.of("dead-reason", "unknown-mission", "dead-stage", "routes")));
     }
 
     @Test

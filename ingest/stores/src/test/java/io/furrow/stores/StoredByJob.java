@@ -1,7 +1,5 @@
 package io.furrow.stores;
 
-import java.awt.image.BufferedImage;
-import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.util.ArrayList;
 import java.util.Base64;
@@ -9,8 +7,6 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
-import javax.imageio.ImageIO;
-import javax.imageio.stream.MemoryCacheImageOutputStream;
 
 import org.apache.flink.core.fs.FSDataInputStream;
 import org.apache.flink.core.fs.FileStatus;
@@ -22,6 +18,7 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 
+import io.furrow.files.RandomPicture;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.image.ImageOptions;
@@ -53,7 +50,7 @@ final class StoredByJob {
         Map<Long, byte[]> sent = new HashMap<>();
         List<ReportedEvent> events = new ArrayList<>();
         for (int i = 0; i < IMAGES; i++) {
-            sent.put(TIME + i, image(i));
+            sent.put(TIME + i, RandomPicture.of(i % 2 == 0 ? "png" : "jpg", i));
             events.add(camera("urn:ngsi-ld:Camera:" + i % 4, TIME + i, sent.get(TIME + i)));
         }
         StreamExecutionEnvironment env = StreamExecutionEnvironment.getExecutionEnvironment();
@@ -107,17 +104,5 @@ final class StoredByJob {
                 entity.toBytes(),
                 new HashMap<>(Map.of("ce_id", id + time)));
         return new ReportedEvent(id + time, "|/|" + id, id, "Camera", "north", "weeding", record);
-    }
-
-    private static byte[] image(int seed) throws IOException {
-        BufferedImage image = new BufferedImage(60, 40, BufferedImage.TYPE_INT_RGB);
-        for (int i = 0; i < 60 * 40; i++) {
-            image.setRGB(i % 60, i / 60, (i * 7919 + seed * 104729) & 0xFFFFFF);
-        }
-        ByteArrayOutputStream bytes = new ByteArrayOutputStream();
-        try (MemoryCacheImageOutputStream out = new MemoryCacheImageOutputStream(bytes)) {
-            ImageIO.write(image, seed % 2 == 0 ? "png" : "jpg", out);
-        }
-        return bytes.toByteArray();
     }
 }

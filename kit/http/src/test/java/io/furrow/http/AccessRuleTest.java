@@ -14,6 +14,8 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvFileSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import io.furrow.unchecked.Unchecked;
+
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -29,16 +31,12 @@ class AccessRuleTest {
 
     /** Addressed at 10.1.2.3, as where a server listens on every address. */
     private static HttpCall call(String method, String target, boolean secure, Map<String, List<String>> headers) {
-        try {
-            return new HttpCall(
-                    method,
-                    target,
-                    secure,
-                    InetAddress.getByName("10.1.2.3"),
-                    name -> headers.getOrDefault(name.toLowerCase(Locale.ROOT), List.of()));
-        } catch (UnknownHostException e) {
-            throw new AssertionError(e);
-        }
+        return Unchecked.get(() -> new HttpCall(
+                method,
+                target,
+                secure,
+                InetAddress.getByName("10.1.2.3"),
+                name -> headers.getOrDefault(name.toLowerCase(Locale.ROOT), List.of())));
     }
 
     /** Header lines are separated by {@code ;}, as in {@code Host: a; Origin: http://b}. */

@@ -1,7 +1,5 @@
 package io.furrow.connect.journal;
 
-import java.io.IOException;
-import java.io.RandomAccessFile;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Arrays;
@@ -76,13 +74,6 @@ class ForeignBytesTest extends QuietJournal {
 
         try (Journal journal = Journal.open(other, SMALL).orElseThrow()) {
             assertThat(read(journal.reader(0))).containsExactly("1 after");
-        }
-    }
-
-    private static void overwrite(Path file, long at, byte value) throws IOException {
-        try (RandomAccessFile bytes = new RandomAccessFile(file.toFile(), "rw")) {
-            bytes.seek(at);
-            bytes.write(value);
         }
     }
 

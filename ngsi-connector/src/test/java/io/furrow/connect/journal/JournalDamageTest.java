@@ -10,11 +10,10 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Random;
+import java.util.stream.IntStream;
 
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
-
-import io.furrow.files.Folders;
 
 import static io.furrow.connect.journal.JournalTest.append;
 import static io.furrow.connect.journal.JournalTest.read;
@@ -40,11 +39,7 @@ class JournalDamageTest extends QuietJournal {
     }
 
     private static List<String> expected(int from, int to) {
-        List<String> expected = new ArrayList<>();
-        for (int i = from; i < to; i++) {
-            expected.add(i + " " + text(i));
-        }
-        return expected;
+        return IntStream.range(from, to).mapToObj(i -> i + " " + text(i)).toList();
     }
 
     @Test
@@ -225,13 +220,6 @@ class JournalDamageTest extends QuietJournal {
         }
     }
 
-    private static void overwrite(Path file, long at, byte value) throws IOException {
-        try (RandomAccessFile bytes = new RandomAccessFile(file.toFile(), "rw")) {
-            bytes.seek(at);
-            bytes.write(value);
-        }
-    }
-
     private static boolean onlyZeros(byte[] bytes, int from, int to) {
         for (int i = from; i < to; i++) {
             if (bytes[i] != 0) {
@@ -249,12 +237,6 @@ class JournalDamageTest extends QuietJournal {
             end--;
         }
         return end;
-    }
-
-    private List<Path> segments() throws IOException {
-        return Folders.list(folder).stream()
-                .filter(file -> file.toString().endsWith(".segment"))
-                .toList();
     }
 
     private Journal open() {

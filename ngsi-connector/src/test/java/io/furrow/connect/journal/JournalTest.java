@@ -16,6 +16,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.files.Folders;
+import io.furrow.unchecked.Unchecked;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -119,13 +120,7 @@ class JournalTest {
     void wakesAReaderThatWaits() throws Exception {
         try (Journal journal = open(SMALL)) {
             JournalReader reader = journal.reader(0);
-            CompletableFuture<List<JournalRecord>> waiting = CompletableFuture.supplyAsync(() -> {
-                try {
-                    return reader.read(10, 1000, Duration.ofSeconds(30));
-                } catch (InterruptedException e) {
-                    throw new IllegalStateException(e);
-                }
-            });
+            CompletableFuture<List<JournalRecord>> waiting = CompletableFuture.supplyAsync(() -> Unchecked.get(() -> reader.read(10, 1000, Duration.ofSeconds(30))));
             append(journal, "news");
             assertThat(waiting.get(60, TimeUnit.SECONDS)).hasSize(1);
         }

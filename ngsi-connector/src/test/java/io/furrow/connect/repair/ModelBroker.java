@@ -22,6 +22,7 @@ import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.broker.ResponseHeaders;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.unchecked.Unchecked;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
@@ -237,11 +238,7 @@ final class ModelBroker implements Function<BrokerRequest, Outcome> {
     }
 
     private static JsonNode read(byte[] json) {
-        try {
-            return NgsiJson.read(json);
-        } catch (io.furrow.model.ngsi.UnreadableException e) {
-            throw new AssertionError(e);
-        }
+        return Unchecked.get(() -> NgsiJson.read(json));
     }
 
     private Outcome done(String json) {

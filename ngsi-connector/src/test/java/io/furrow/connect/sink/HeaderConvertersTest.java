@@ -75,8 +75,7 @@ class HeaderConvertersTest {
         if (converter instanceof SimpleHeaderConverter) {
             assertThatThrownBy(() -> reader.read(record, 0))
                     .isInstanceOf(UnreadableException.class)
-                    .hasMessageContaining("fiware-service")
-                    .hasMessageContaining("header.converter=org.apache.kafka.connect.storage.StringConverter");
+                    .hasMessageContainingAll("fiware-service", "header.converter=org.apache.kafka.connect.storage.StringConverter");
         } else {
             assertThat(reader.read(record, 0).key().scope().service()).isEqualTo("007");
         }

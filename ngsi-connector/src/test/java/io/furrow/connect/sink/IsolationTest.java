@@ -152,10 +152,6 @@ class IsolationTest extends SinkFixture {
     }
 
     private static List<SinkRecord> records(int from, int to) {
-        List<SinkRecord> records = new ArrayList<>();
-        for (int i = from; i < to; i++) {
-            records.add(record("e" + i, "x", i, i));
-        }
-        return records;
+        return IntStream.range(from, to).mapToObj(i -> record("e" + i, "x", i, i)).toList();
     }
 }

@@ -1,7 +1,7 @@
 package io.furrow.connect.sink;
 
-import java.util.ArrayList;
 import java.util.List;
+import java.util.stream.IntStream;
 
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.record.TimestampType;
@@ -14,6 +14,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import io.furrow.connect.sink.FakeContextBroker.Update;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.unchecked.Unchecked;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -156,10 +157,7 @@ class NewestValueTest extends SinkFixture {
     void isolatesOneOfManyInFewRequests() {
         restart("batch.size", "1024");
         poison("\"e77\"", 400, "no");
-        List<SinkRecord> records = new ArrayList<>();
-        for (int i = 0; i < 1024; i++) {
-            records.add(record("e" + i, "x", i, i));
-        }
+        List<SinkRecord> records = IntStream.range(0, 1024).mapToObj(i -> record("e" + i, "x", i, i)).toList();
 
         task.put(records);
 
@@ -167,7 +165,7 @@ class NewestValueTest extends SinkFixture {
         assertThat(broker.requests).hasSize(21);
         assertThat(context.reported).singleElement().satisfies(reported -> {
             assertThat(reported.record().key()).isEqualTo("e77");
-            assertThat(reported.cause()).hasMessageContaining("400").hasMessageContaining("no");
+            assertThat(reported.cause()).hasMessageContainingAll("400", "no");
         });
     }
 
@@ -224,10 +222,6 @@ class NewestValueTest extends SinkFixture {
     }
 
     private static com.fasterxml.jackson.databind.JsonNode json(String quoted) {
-        try {
-            return NgsiJson.mapper().readTree(quoted.replace('\'', '"'));
-        } catch (java.io.IOException e) {
-            throw new AssertionError(e);
-        }
+        return Unchecked.get(() -> NgsiJson.mapper().readTree(quoted.replace('\'', '"')));
     }
 }

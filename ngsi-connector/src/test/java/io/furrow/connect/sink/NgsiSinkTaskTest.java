@@ -148,8 +148,7 @@ class NgsiSinkTaskTest extends SinkFixture {
         assertThatThrownBy(() -> strict.put(List.of(record("a", entity("a", "x", 1)))))
                 .isInstanceOf(ConnectException.class)
                 .isNotInstanceOf(RetriableException.class)
-                .hasMessageContaining("results-0@0")
-                .hasMessageContaining("422 too odd");
+                .hasMessageContainingAll("results-0@0", "422 too odd");
     }
 
     @ParameterizedTest

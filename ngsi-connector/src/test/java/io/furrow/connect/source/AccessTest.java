@@ -82,8 +82,7 @@ class AccessTest {
     void refusesNamesThatAreNone(String option, String value, String why) {
         assertThatThrownBy(() -> new NgsiSourceConfig(Map.of("journal.dir", "/tmp/journal", option, value)))
                 .isInstanceOf(ConfigException.class)
-                .hasMessageContaining(option)
-                .hasMessageContaining("'" + value + "' " + why);
+                .hasMessageContainingAll(option, "'" + value + "' " + why);
     }
 
     private static String post(NotificationRig rig, String headers) throws IOException {

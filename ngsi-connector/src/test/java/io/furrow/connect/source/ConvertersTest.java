@@ -38,8 +38,7 @@ class ConvertersTest {
             assertThat(value.errorMessages())
                     .singleElement()
                     .asString()
-                    .contains(converter)
-                    .contains(remedy);
+                    .contains(converter, remedy);
         });
     }
 

@@ -1,18 +1,15 @@
 package io.furrow.connect.source;
 
-import java.io.ByteArrayOutputStream;
-import java.io.IOException;
-import java.io.UncheckedIOException;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
 import java.util.Arrays;
-import java.util.zip.GZIPOutputStream;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.connect.record.KafkaRecord;
+import io.furrow.files.Gzip;
 import io.furrow.model.event.DeadLetter;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
@@ -26,7 +23,7 @@ class EncodedBodiesTest {
     void areInflated(int length) {
         String body = "{\"id\": \"a\", \"x\": \"" + "x".repeat(length) + "\"}";
         try (NotificationRig rig = new NotificationRig("max.body.bytes", Integer.toString(LIMIT))) {
-            assertThat(post(rig, gzip(body), "gzip").statusCode()).isEqualTo(200);
+            assertThat(post(rig, Gzip.of(body.getBytes(UTF_8)), "gzip").statusCode()).isEqualTo(200);
 
             KafkaRecord record = rig.recordLog.taken.remove().get(0);
             assertThat(record.key()).isEqualTo("a");
@@ -36,7 +33,7 @@ class EncodedBodiesTest {
 
     @Test
     void areAsLongAsTheyAreInflated() {
-        byte[] bomb = gzip("x".repeat(50_000_000));
+        byte[] bomb = Gzip.of("x".repeat(50_000_000).getBytes(UTF_8));
         try (NotificationRig rig = new NotificationRig("max.body.bytes", Integer.toString(LIMIT))) {
             HttpResponse<String> answer = post(rig, bomb, "gzip");
 
@@ -63,7 +60,7 @@ class EncodedBodiesTest {
 
     @Test
     void areNoEntityWhereTheirEndIsMissing() {
-        byte[] whole = gzip("{\"id\": \"a\", \"x\": \"" + "xyz".repeat(1000) + "\"}");
+        byte[] whole = Gzip.of(("{\"id\": \"a\", \"x\": \"" + "xyz".repeat(1000) + "\"}").getBytes(UTF_8));
         try (NotificationRig rig = new NotificationRig()) {
             HttpResponse<String> answer = post(rig, Arrays.copyOf(whole, whole.length / 2), "gzip");
 
@@ -75,7 +72,7 @@ class EncodedBodiesTest {
     @ValueSource(strings = {"br", "deflate", "gzip, gzip"})
     void areRefusedInOtherEncodings(String encoding) {
         try (NotificationRig rig = new NotificationRig()) {
-            HttpResponse<String> answer = post(rig, gzip("{\"id\": \"a\"}"), encoding);
+            HttpResponse<String> answer = post(rig, Gzip.of("{\"id\": \"a\"}".getBytes(UTF_8)), encoding);
 
             assertThat(answer.statusCode()).isEqualTo(415);
             assertThat(answer.headers().firstValue("Accept-Encoding")).contains("gzip");
@@ -94,15 +91,5 @@ class EncodedBodiesTest {
     private static HttpResponse<String> post(NotificationRig rig, byte[] body, String encoding) {
         return rig.post("/v2/notify", BodyPublishers.ofByteArray(body), "Content-Encoding", encoding)
                 .join();
-    }
-
-    private static byte[] gzip(String text) {
-        ByteArrayOutputStream bytes = new ByteArrayOutputStream();
-        try (GZIPOutputStream out = new GZIPOutputStream(bytes)) {
-            out.write(text.getBytes(UTF_8));
-        } catch (IOException e) {
-            throw new UncheckedIOException(e);
-        }
-        return bytes.toByteArray();
     }
 }

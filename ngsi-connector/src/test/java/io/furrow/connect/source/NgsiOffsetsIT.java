@@ -27,6 +27,7 @@ import io.furrow.connect.TopicReader;
 import io.furrow.embedded.FreePort;
 import io.furrow.files.Folders;
 import io.furrow.model.event.HeaderNames;
+import io.furrow.process.Ports;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -240,7 +241,7 @@ class NgsiOffsetsIT {
 
     private static int twoFreePorts() {
         return Stream.generate(() -> FreePort.orFree(0))
-                .filter(port -> ConnectRig.isFree(port + 1))
+                .filter(port -> Ports.isFree(port + 1))
                 .findFirst()
                 .orElseThrow();
     }

@@ -22,7 +22,7 @@ import io.furrow.embedded.FreePort;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareSettings.Connections;
 import io.furrow.model.ngsi.Entity;
-import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.unchecked.Unchecked;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -174,13 +174,9 @@ class NgsiRepairIT {
     }
 
     private static int value(ConsumerRecord<String, byte[]> record) {
-        try {
-            return record.value() == null
-                    ? 0
-                    : Entity.parse(record.value()).value("t").orElseThrow().intValue();
-        } catch (UnreadableException e) {
-            throw new AssertionError(e);
-        }
+        return Unchecked.get(() -> record.value() == null
+                ? 0
+                : Entity.parse(record.value()).value("t").orElseThrow().intValue());
     }
 
     private static String header(ConsumerRecord<String, byte[]> record, String name) {

@@ -86,8 +86,7 @@ class NgsiSourceConfigTest {
 
         assertThatThrownBy(() -> config(large))
                 .isInstanceOf(ConfigException.class)
-                .hasMessageContaining("max.body.bytes")
-                .hasMessageContaining("journal.max.bytes");
+                .hasMessageContainingAll("max.body.bytes", "journal.max.bytes");
         assertThat(config(Map.of("journal.max.bytes", "67108864")).sizes().maxBodyBytes())
                 .isEqualTo(8 * 1024 * 1024);
     }

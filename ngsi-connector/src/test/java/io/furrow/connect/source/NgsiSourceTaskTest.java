@@ -9,8 +9,8 @@ import javax.management.ObjectName;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.connect.ConnectRig;
 import io.furrow.embedded.FreePort;
+import io.furrow.process.Ports;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -30,7 +30,7 @@ class NgsiSourceTaskTest {
 
         @Override
         public Map<String, ?> get(Object partition) {
-            listening = ConnectRig.isOpen(port);
+            listening = Ports.isListening(port);
             return super.get(partition);
         }
     }

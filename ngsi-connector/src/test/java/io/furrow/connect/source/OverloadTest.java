@@ -11,11 +11,13 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
+import java.util.stream.IntStream;
 
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.source.journal.RecordLog;
+import io.furrow.process.Ports;
 
 import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -115,7 +117,7 @@ class OverloadTest {
             CompletableFuture<Void> stopped = CompletableFuture.runAsync(rig::close);
             await().pollInterval(Duration.ofMillis(1)).until(() -> {
                 kept.getOutputStream().write('x'); // one that says nothing is closed at once
-                return !accepts(port);
+                return !Ports.isListening(port);
             });
 
             assertThat(isAnswered(kept, "\r\nContent-Length: 10\r\n\r\n{\"id\":\"a\"}"))
@@ -133,14 +135,6 @@ class OverloadTest {
             return socket.getInputStream().read() >= 0;
         } catch (SocketException e) {
             return false; // reset
-        }
-    }
-
-    private static boolean accepts(int port) {
-        try (Socket probe = new Socket("127.0.0.1", port)) {
-            return probe.isConnected();
-        } catch (IOException e) {
-            return false;
         }
     }
 
@@ -173,10 +167,7 @@ class OverloadTest {
             CompletableFuture<Void> durable = new CompletableFuture<>();
             rig.recordLog.answer = Optional.of(durable);
             byte[] half = new byte[100_000];
-            List<CompletableFuture<HttpResponse<String>>> answers = new ArrayList<>();
-            for (int i = 0; i < 6; i++) {
-                answers.add(rig.post("/", BodyPublishers.ofByteArray(half)));
-            }
+            List<CompletableFuture<HttpResponse<String>>> answers = IntStream.range(0, 6).mapToObj(i -> rig.post("/", BodyPublishers.ofByteArray(half))).toList();
             await().until(() -> rig.recordLog.taken.size() == 2);
             assertThat(rig.ledger.requests.sum()).isEqualTo(2);
 
@@ -203,10 +194,7 @@ class OverloadTest {
             rig.recordLog.answer = Optional.of(new CompletableFuture<>());
             byte[] all = new byte[100_000];
 
-            List<CompletableFuture<HttpResponse<String>>> answers = new ArrayList<>();
-            for (int i = 0; i < 3; i++) {
-                answers.add(rig.post("/", BodyPublishers.ofByteArray(all)));
-            }
+            List<CompletableFuture<HttpResponse<String>>> answers = IntStream.range(0, 3).mapToObj(i -> rig.post("/", BodyPublishers.ofByteArray(all))).toList();
 
             assertThat(answers)
                     .allSatisfy(answer -> assertThat(answer.join().statusCode()).isEqualTo(503));

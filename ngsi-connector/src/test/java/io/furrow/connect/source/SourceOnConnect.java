@@ -14,8 +14,8 @@ import com.fasterxml.jackson.databind.JsonNode;
 import org.awaitility.Awaitility;
 import org.awaitility.core.ConditionFactory;
 
-import io.furrow.connect.ConnectRig;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.process.Ports;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -72,7 +72,7 @@ public record SourceOnConnect(int port, HttpClient client) {
 
     /** Until nobody listens. */
     void awaitSilence() {
-        await().until(() -> !ConnectRig.isOpen(port));
+        await().until(() -> !Ports.isListening(port));
     }
 
     /** Until another task listens than the one that had counted so many requests. */

@@ -17,7 +17,6 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.connect.ConnectRig;
 import io.furrow.connect.journal.Journal;
 import io.furrow.connect.journal.JournalFolders;
 import io.furrow.connect.journal.JournalSettings;
@@ -25,6 +24,7 @@ import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.source.journal.JournalMaintenance;
 import io.furrow.connect.source.journal.TaskJournals;
 import io.furrow.embedded.FreePort;
+import io.furrow.process.Ports;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -60,7 +60,7 @@ class SourceRuntimeTest {
         } finally {
             next.stop();
         }
-        assertThat(ConnectRig.isOpen(port)).as("Kafka was there").isFalse();
+        assertThat(Ports.isListening(port)).as("Kafka was there").isFalse();
     }
 
     @Test
@@ -89,7 +89,7 @@ class SourceRuntimeTest {
         Map<String, String> others = options(LONG);
         others.put("topic", "another");
         assertThat(SourceRuntime.attach(new NgsiSourceConfig(others))).isEmpty();
-        assertThat(ConnectRig.isOpen(port)).isFalse();
+        assertThat(Ports.isListening(port)).isFalse();
         assertThat(isJournalFree()).isTrue();
     }
 
@@ -104,7 +104,7 @@ class SourceRuntimeTest {
         other.put(NgsiSourceConfig.TASK_INDEX, "1");
         other.put(NgsiSourceConfig.TASK_COUNT, "2");
         assertThat(SourceRuntime.attach(new NgsiSourceConfig(other))).isEmpty();
-        assertThat(ConnectRig.isOpen(port)).isTrue();
+        assertThat(Ports.isListening(port)).isTrue();
     }
 
     @Test

@@ -185,8 +185,7 @@ class TlsTest {
     void saysWhichFileCannotBeRead(String file) {
         assertThatThrownBy(() -> new NotificationRig(withKeys(file)).close())
                 .isInstanceOf(ConfigException.class)
-                .hasMessageContaining("ssl.keystore.location")
-                .hasMessageContaining(file)
+                .hasMessageContainingAll("ssl.keystore.location", file)
                 .hasMessageNotContaining(TlsKeys.PASSWORD);
     }
 

@@ -1,6 +1,5 @@
 package io.furrow.replay.playback;
 
-import java.io.IOException;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
@@ -18,6 +17,7 @@ import io.furrow.mission.RecordingExtent;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.replay.record.EventEncoder;
+import io.furrow.unchecked.Unchecked;
 
 /** Made-up recordings in memory. */
 final class Missions {
@@ -73,19 +73,11 @@ final class Missions {
     }
 
     static ReadyPage ready(EventPage eventPage, DesiredReplay desired, long epoch) {
-        try {
-            return new EventEncoder(desired, epoch, record -> record).page(eventPage);
-        } catch (IOException | InterruptedException e) {
-            throw new AssertionError(e);
-        }
+        return Unchecked.get(() -> new EventEncoder(desired, epoch, record -> record).page(eventPage));
     }
 
     private static List<ReadyEvent> primes(List<StoredEvent> known, ReadRequest.Begin begin, DesiredReplay desired) {
-        try {
-            return new EventEncoder(desired, begin.epoch(), record -> record).primes(known, begin.point());
-        } catch (IOException | InterruptedException e) {
-            throw new AssertionError(e);
-        }
+        return Unchecked.get(() -> new EventEncoder(desired, begin.epoch(), record -> record).primes(known, begin.point()));
     }
 
     /** What is asked, of these devices or of all. */

@@ -5,6 +5,7 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import java.util.Random;
+import java.util.stream.IntStream;
 
 import org.junit.jupiter.api.Test;
 
@@ -35,10 +36,7 @@ class PageBudgetTest {
     void holdsNoMoreOfAnyNumberOfReplaysThanIsStated() {
         long seed = System.nanoTime();
         Random random = new Random(seed);
-        List<PageBudget.Pages> replays = new ArrayList<>();
-        for (int i = 0; i < REPLAYS; i++) {
-            replays.add(budget.pages());
-        }
+        List<PageBudget.Pages> replays = IntStream.range(0, REPLAYS).mapToObj(i -> budget.pages()).toList();
         for (int turn = 0; turn < 20 * REPLAYS; turn++) {
             PageBudget.Pages pages = replays.get(turn < REPLAYS ? turn : random.nextInt(REPLAYS));
             PageLimits limits = pages.next(Integer.MAX_VALUE);

@@ -2,6 +2,7 @@ package io.furrow.replay.source;
 
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.AtomicLong;
 import java.util.function.BooleanSupplier;
@@ -25,6 +26,7 @@ import io.furrow.model.topic.Topics;
 import io.furrow.replay.playback.PlaybackState;
 import io.furrow.replay.recording.RecordingSources;
 import io.furrow.replay.topic.TopicEnd;
+import io.furrow.unchecked.Unchecked;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -94,13 +96,7 @@ class ReplayReaderTest {
                 .filter(record -> record.topic().equals(Topics.REPLAYS_STATUS))
                 .filter(record -> new String(record.key(), UTF_8).equals(mission + ".0a1b2c3d"))
                 .reduce((older, newer) -> newer)
-                .map(record -> {
-                    try {
-                        return ReplayStatus.read(record.value());
-                    } catch (io.furrow.model.ngsi.UnreadableException e) {
-                        throw new AssertionError(e);
-                    }
-                })
+                .map(record -> Unchecked.get(() -> ReplayStatus.read(record.value())))
                 .orElse(null);
     }
 
@@ -216,8 +212,7 @@ class ReplayReaderTest {
 
     private static void isOfEpochZero(TopicRecord end) {
         assertThat(end.headers())
-                .containsEntry(HeaderNames.REPLAY_EPOCH, "0")
-                .containsEntry(HeaderNames.REPLAY_SEQUENCE, "0");
+                .containsAllEntriesOf(Map.of(HeaderNames.REPLAY_EPOCH, "0", HeaderNames.REPLAY_SEQUENCE, "0"));
     }
 
     @Test

@@ -1,13 +1,11 @@
 package io.furrow.fiware;
 
-import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.attribute.BasicFileAttributes;
 import java.util.Arrays;
-import java.util.zip.GZIPOutputStream;
 
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -15,6 +13,7 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import io.furrow.files.Gzip;
 import io.furrow.model.ngsi.NgsiJson;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
@@ -224,9 +223,7 @@ class StateTest {
 
         assertThatThrownBy(this::start)
                 .isInstanceOf(IllegalStateException.class)
-                .hasMessageContaining(file().toString())
-                .hasMessageContaining("damaged")
-                .hasMessageContaining("move it away");
+                .hasMessageContainingAll(file().toString(), "damaged", "move it away");
         assertThat(Files.readAllBytes(file())).isEqualTo(damaged);
     }
 
@@ -241,23 +238,15 @@ class StateTest {
             }
             case "empty" -> new byte[0];
             case "no gzip" -> "{\"fiwareState\":1}\n{\"end\":0}".getBytes(UTF_8);
-            case "other version" -> gzip("{\"fiwareState\":2}\n{\"end\":0}");
-            case "no end" -> gzip("{\"fiwareState\":1}");
-            default -> gzip("{\"fiwareState\":1}\n{\"what\":{}}\n{\"end\":1}");
+            case "other version" -> Gzip.of("{\"fiwareState\":2}\n{\"end\":0}".getBytes(UTF_8));
+            case "no end" -> Gzip.of("{\"fiwareState\":1}".getBytes(UTF_8));
+            default -> Gzip.of("{\"fiwareState\":1}\n{\"what\":{}}\n{\"end\":1}".getBytes(UTF_8));
         };
     }
 
     private byte[] half() throws IOException {
         byte[] whole = Files.readAllBytes(file());
         return Arrays.copyOf(whole, whole.length / 2);
-    }
-
-    private static byte[] gzip(String text) throws IOException {
-        ByteArrayOutputStream bytes = new ByteArrayOutputStream();
-        try (GZIPOutputStream gzip = new GZIPOutputStream(bytes)) {
-            gzip.write(text.getBytes(UTF_8));
-        }
-        return bytes.toByteArray();
     }
 
     /** Another one after each write, because the file is replaced. */

@@ -135,8 +135,7 @@ class CatalogIT {
     @Test
     void reportsThatKafkaDoesNotAnswer() {
         assertThat(output("catalog", "--kafka", "127.0.0.1:" + FreePort.orFree(0)))
-                .contains("cannot be read")
-                .contains("Check the address given with --kafka");
+                .contains("cannot be read", "Check the address given with --kafka");
     }
 
     private static void write(String key, String mission, int events) throws Exception {

@@ -29,9 +29,7 @@ class DebounceEncountersTest {
     void leaveNothing() throws Exception {
         stage.receive(seen(Phase.ENDED, 1, 90_000));
         stage.advance(Long.MAX_VALUE);
-        assertThat(stage.stateEntries()).isZero();
-        assertThat(stage.timers()).isZero();
-        stage.stop();
+        stage.stopEmpty();
     }
 
     @Test

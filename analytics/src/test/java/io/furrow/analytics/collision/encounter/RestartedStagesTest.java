@@ -69,9 +69,7 @@ class RestartedStagesTest {
         encounters.addAll(steadied(exact, Long.MAX_VALUE, rules, steady));
         assertThat(track.side(TrackDevices.LATE)).isEmpty();
         for (Stage<?, ?, ?> stage : stages) {
-            assertThat(stage.stateEntries()).isZero();
-            assertThat(stage.timers()).isZero();
-            stage.stop();
+            stage.stopEmpty();
         }
 
         encounters.sort(CollisionOracle.ORDER);

@@ -25,6 +25,8 @@ import io.furrow.analytics.eventtime.HasEventTime;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
 
+import static org.assertj.core.api.Assertions.assertThat;
+
 /** One keyed stage alone, with time as data; can be stopped with a snapshot and continue from it. */
 public final class Stage<K, I, O> {
     private final ToLongFunction<I> time;
@@ -126,10 +128,6 @@ public final class Stage<K, I, O> {
         return harness.numKeyedStateEntries();
     }
 
-    public int timers() {
-        return harness.numEventTimeTimers();
-    }
-
     public void restart() throws Exception {
         OperatorSubtaskState snapshot = harness.snapshot(1, 1);
         harness.close();
@@ -152,5 +150,12 @@ public final class Stage<K, I, O> {
 
     public void stop() throws Exception {
         harness.close();
+    }
+
+    /** Stops it where it knows nothing any more. */
+    public void stopEmpty() throws Exception {
+        assertThat(stateEntries()).isZero();
+        assertThat(harness.numEventTimeTimers()).isZero();
+        stop();
     }
 }

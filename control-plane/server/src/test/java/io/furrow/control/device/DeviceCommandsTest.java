@@ -124,8 +124,7 @@ class DeviceCommandsTest {
 
         assertThatThrownBy(() -> commands().send("urn:x", "Thermometer", "on", ""))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("has no entity urn:x of type Thermometer")
-                .hasMessageContaining("once it has reported");
+                .hasMessageContainingAll("has no entity urn:x of type Thermometer", "once it has reported");
     }
 
     @Test

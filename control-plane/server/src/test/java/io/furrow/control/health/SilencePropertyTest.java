@@ -30,6 +30,7 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.topic.Topics;
+import io.furrow.unchecked.Unchecked;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -214,11 +215,7 @@ class SilencePropertyTest {
         }
 
         private static DeviceVersion version(byte[] value) {
-            try {
-                return DeviceVersion.read(value);
-            } catch (io.furrow.model.ngsi.UnreadableException e) {
-                throw new IllegalStateException(e);
-            }
+            return Unchecked.get(() -> DeviceVersion.read(value));
         }
 
         private void addDesired(int number, String mission) {

@@ -194,7 +194,6 @@ class MissionDevicesTest {
         area.put("more", "x".repeat(Limits.RECORD_BYTES));
         assertThatThrownBy(
                         () -> farm.request(new DomainCommand.Change("d20", new DomainDetails(null, null, area, null))))
-                .hasMessageContaining("d20")
-                .hasMessageContaining("900000");
+                .hasMessageContainingAll("d20", "900000");
     }
 }

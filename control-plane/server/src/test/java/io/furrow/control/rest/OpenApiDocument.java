@@ -17,23 +17,13 @@ import io.furrow.model.ngsi.NgsiJson;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** The description of the API, and whether an answer is as it says: no member more, none less, each of its type. */
-final class OpenApiDocument {
+record OpenApiDocument(ObjectNode json) {
     private static final Set<String> METHODS = Set.of("get", "post", "patch", "put", "delete", "head");
-
-    private final ObjectNode json;
-
-    private OpenApiDocument(ObjectNode json) {
-        this.json = json;
-    }
 
     static OpenApiDocument read() throws IOException {
         try (InputStream in = RestApi.class.getResourceAsStream("openapi.yaml")) {
             return new OpenApiDocument((ObjectNode) new YAMLMapper().readTree(in));
         }
-    }
-
-    ObjectNode json() {
-        return json;
     }
 
     /** For instance {@code GET /api/domains}. */

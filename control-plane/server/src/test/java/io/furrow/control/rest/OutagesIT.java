@@ -9,7 +9,6 @@ import java.time.Clock;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Properties;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.TimeUnit;
@@ -22,6 +21,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.control.ControlPlane;
+import io.furrow.control.ControlPlaneProcess;
 import io.furrow.control.ControlSettings;
 import io.furrow.control.readiness.HealthServer;
 import io.furrow.embedded.EmbeddedKafka;
@@ -159,8 +159,7 @@ class OutagesIT {
     }
 
     private ControlSettings settings() {
-        Properties settings = kafka.client();
-        settings.setProperty("state.dir", directory.resolve("state").toString());
-        return ControlSettings.of(settings);
+        return ControlPlaneProcess.settings(
+                kafka.bootstrapServers(), directory.resolve("state").toString());
     }
 }

@@ -4,7 +4,6 @@ import java.net.http.HttpResponse;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
-import java.util.Properties;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.producer.KafkaProducer;
@@ -18,6 +17,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.control.ControlPlane;
+import io.furrow.control.ControlPlaneProcess;
 import io.furrow.control.ControlSettings;
 import io.furrow.control.FarmWatch;
 import io.furrow.control.WatchOptions;
@@ -143,8 +143,7 @@ class RestApiPartsIT {
     }
 
     private ControlSettings settings() {
-        Properties settings = kafka.client();
-        settings.setProperty("state.dir", directory.resolve("state").toString());
-        return ControlSettings.of(settings);
+        return ControlPlaneProcess.settings(
+                kafka.bootstrapServers(), directory.resolve("state").toString());
     }
 }

@@ -4,7 +4,6 @@ import java.net.http.HttpResponse;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
-import java.util.Properties;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.producer.KafkaProducer;
@@ -13,6 +12,7 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 
 import io.furrow.control.ControlPlane;
+import io.furrow.control.ControlPlaneProcess;
 import io.furrow.control.ControlSettings;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.fields.FieldFiles;
@@ -84,9 +84,8 @@ public final class RunningApi implements AutoCloseable {
     }
 
     public ControlSettings settings() {
-        Properties settings = kafka.client();
-        settings.setProperty("state.dir", directory.resolve("state").toString());
-        return ControlSettings.of(settings);
+        return ControlPlaneProcess.settings(
+                kafka.bootstrapServers(), directory.resolve("state").toString());
     }
 
     @Override

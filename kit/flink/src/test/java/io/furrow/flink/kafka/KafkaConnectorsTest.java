@@ -2,6 +2,7 @@ package io.furrow.flink.kafka;
 
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.Map;
 import java.util.concurrent.atomic.AtomicReference;
 
 import org.apache.flink.api.common.eventtime.WatermarkAlignmentParams;
@@ -29,8 +30,7 @@ class KafkaConnectorsTest {
                 "max.in.flight.requests.per.connection=5\nbatch.size=1\npartition.discovery.interval.ms=7\n");
 
         assertThat(KafkaConnectors.producerProperties(parsed("copy", "--kafka-properties", file.toString())))
-                .containsEntry("max.in.flight.requests.per.connection", "5")
-                .containsEntry("batch.size", "1")
+                .containsAllEntriesOf(Map.of("max.in.flight.requests.per.connection", "5", "batch.size", "1"))
                 .containsKey("max.request.size");
         assertThat(KafkaConnectors.consumerProperties(parsed("copy", "--kafka-properties", file.toString())))
                 .containsEntry("partition.discovery.interval.ms", "7")

@@ -35,8 +35,7 @@ class KafkaTopicSnapshotTest {
 
             assertThatThrownBy(topic::read)
                     .isInstanceOf(IOException.class)
-                    .hasMessageContaining("topic service.devices could not be read")
-                    .hasMessageContaining("default.api.timeout.ms in --kafka-properties");
+                    .hasMessageContainingAll("topic service.devices could not be read", "default.api.timeout.ms in --kafka-properties");
             assertThat(silent.isClosed()).isFalse();
         }
     }

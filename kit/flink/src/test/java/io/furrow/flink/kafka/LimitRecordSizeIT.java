@@ -34,6 +34,7 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.unchecked.Unchecked;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -167,8 +168,7 @@ class LimitRecordSizeIT {
             assertThatThrownBy(() -> records.of(record("hopeless.dead", new byte[10])
                             .with(new DeadLetter(Reason.NOT_JSON, "why", "ingest", "data.raw-0@1").headers())))
                     .isInstanceOf(IOException.class)
-                    .hasMessageContaining("hopeless.dead")
-                    .hasMessageContaining("raise its max.message.bytes");
+                    .hasMessageContainingAll("hopeless.dead", "raise its max.message.bytes");
         }
     }
 
@@ -211,19 +211,11 @@ class LimitRecordSizeIT {
     }
 
     private static int prepare(LimitRecordSize records, String topic) {
-        try {
-            return records.prepare(topic);
-        } catch (IOException | InterruptedException e) {
-            throw new IllegalStateException(e);
-        }
+        return Unchecked.get(() -> records.prepare(topic));
     }
 
     private static TopicRecord of(LimitRecordSize records, TopicRecord record) {
-        try {
-            return records.of(record);
-        } catch (IOException | InterruptedException e) {
-            throw new IllegalStateException(e);
-        }
+        return Unchecked.get(() -> records.of(record));
     }
 
     @Test

@@ -54,7 +54,7 @@ import static org.assertj.core.api.Assertions.assertThat;
  * unaligned, at random records, the first and none among them, and continued at another parallelism: what is written is equal.
  * {@code -Dfurrow.restarts.cases} says how many inputs, {@code -Dfurrow.restarts.seed} with which they begin.
  */
-public final class Restarts {
+public record Restarts(MiniCluster flink, Path folder) {
     private static final Logger LOG = LoggerFactory.getLogger(Restarts.class);
     /** At most so many records are on their way when a checkpoint begins. */
     public static final int ON_THEIR_WAY = 20;
@@ -67,14 +67,6 @@ public final class Restarts {
 
     /** Of the newest cluster: closed with its cluster, a reporter sees nothing of another. */
     private static volatile InMemoryReporter metrics;
-
-    private final MiniCluster flink;
-    private final Path folder;
-
-    public Restarts(MiniCluster flink, Path folder) {
-        this.flink = flink;
-        this.folder = folder;
-    }
 
     /** With the metrics that the runs look at. */
     public static MiniClusterExtension cluster() {
@@ -140,7 +132,7 @@ public final class Restarts {
                     new org.apache.flink.core.fs.Path(releases.resolve(release).toUri()),
                     false);
         }
-        List<Path> stored = releasesIn(releases);
+        List<Path> stored = Folders.list(releases);
         assertThat(stored).isNotEmpty();
         for (Path savepoint : stored) {
             Written.beginWith(before);
@@ -149,10 +141,6 @@ public final class Restarts {
             end(run);
             assertThat(merged(job)).as("from %s", savepoint).isEqualTo(undisturbed);
         }
-    }
-
-    private static List<Path> releasesIn(Path folder) throws IOException {
-        return Folders.list(folder);
     }
 
     private Map<String, String> undisturbed(JobCase job) throws Exception {

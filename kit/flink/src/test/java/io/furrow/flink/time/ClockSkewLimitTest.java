@@ -29,8 +29,7 @@ class ClockSkewLimitTest {
         assertThatThrownBy(() -> LIMIT.check(record(NOW + HOUR + 1, null), NOW))
                 .isInstanceOfSatisfying(
                         UnreadableException.class, e -> assertThat(e.reason()).isEqualTo(Reason.FROM_THE_FUTURE))
-                .hasMessageContaining("1970-01-12T14:46:40.001Z")
-                .hasMessageContaining("--max-ahead PT1H");
+                .hasMessageContainingAll("1970-01-12T14:46:40.001Z", "--max-ahead PT1H");
         refuses(record(NOW - HOUR, Long.toString(NOW - 2 * HOUR - 1)));
         accepts(record(NOW - HOUR, Long.toString(NOW - 2 * HOUR)));
         refuses(record(NOW + HOUR + 10_001, Long.toString(Long.MAX_VALUE)));

@@ -11,13 +11,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /** Commands of every kind, with and without what they may leave out. */
-public final class MadeUpCommands {
-    private final Random random;
-
-    public MadeUpCommands(Random random) {
-        this.random = random;
-    }
-
+public record MadeUpCommands(Random random) {
     public DomainCommand domain() {
         return switch (random.nextInt(3)) {
             case 0 -> new DomainCommand.Create(name(), details());

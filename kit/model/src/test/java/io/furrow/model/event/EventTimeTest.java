@@ -48,8 +48,7 @@ class EventTimeTest {
                     .isInstanceOf(IllegalArgumentException.class);
         }
         assertThatThrownBy(() -> EventTimeRule.of(List.of("clock"), Duration.ZERO))
-                .hasMessageContaining("'clock'")
-                .hasMessageContaining("device, attributes, entity");
+                .hasMessageContainingAll("'clock'", "device, attributes, entity");
     }
 
     private static EventTime time(String json, String order) throws Exception {

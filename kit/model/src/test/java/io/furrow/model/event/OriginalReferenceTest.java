@@ -1,5 +1,7 @@
 package io.furrow.model.event;
 
+import java.util.Map;
+
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.NullSource;
@@ -13,8 +15,7 @@ class OriginalReferenceTest {
         OriginalReference originalReference = new OriginalReference("data.north-2.realtime", 3, 17, 2_097_152);
 
         assertThat(originalReference.headers())
-                .containsEntry("original", "data.north-2.realtime-3@17")
-                .containsEntry("original-bytes", "2097152");
+                .containsAllEntriesOf(Map.of("original", "data.north-2.realtime-3@17", "original-bytes", "2097152"));
         assertThat(OriginalReference.of(
                         originalReference.headers().get(OriginalReference.POSITION),
                         originalReference.headers().get(OriginalReference.BYTES)))

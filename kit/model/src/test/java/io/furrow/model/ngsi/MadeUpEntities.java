@@ -6,7 +6,7 @@ import java.util.List;
 import java.util.Random;
 
 /** Entities with everything that devices, brokers and robots write, and much that none should; mostly well-formed. */
-public final class MadeUpEntities {
+public record MadeUpEntities(Random random) {
     private static final String[] NAMES = {
         "location", "Latitude", "Longitude", "gnss", "pose", "temperature", "Mission", "TimeInstant",
         "Time", "speed", "other", "Image", "id", "type", "na\\u006de", "\\ud83d\\ude9c",
@@ -47,12 +47,6 @@ public final class MadeUpEntities {
         "%27",
         "{%27latitude%27:null,%27longitude%27:true}"
     };
-
-    private final Random random;
-
-    public MadeUpEntities(Random random) {
-        this.random = random;
-    }
 
     public String next() {
         List<String> members = new ArrayList<>();

@@ -7,7 +7,7 @@ import java.util.Random;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Breaks JSON at random: values and names become others, the end is cut off, a byte is replaced. */
-public final class Mutations {
+public record Mutations(Random random) {
     private static final String[] SPLICES = {
         "null", "{}", "[]",
         "1e999", "-1e999999999", "1000e2147483647",
@@ -21,12 +21,6 @@ public final class Mutations {
     private static final String[] NAMES = """
             id type data value metadata location Time TimeInstant dateObserved dateModified Latitude Longitude gnss
             coordinates""".split("\\s+");
-
-    private final Random random;
-
-    public Mutations(Random random) {
-        this.random = random;
-    }
 
     public byte[] of(byte[] body) {
         String text = new String(body, UTF_8);

@@ -61,7 +61,7 @@ class NotificationTest {
             UnreadableException refused = unreadable(new String(recorded.body(), UTF_8), header);
 
             assertThat(refused.reason()).isEqualTo(Reason.UNSUPPORTED_FORM);
-            assertThat(refused).hasMessageContaining("attrsFormat").hasMessageContaining("normalized");
+            assertThat(refused).hasMessageContainingAll("attrsFormat", "normalized");
         }
     }
 
@@ -76,8 +76,7 @@ class NotificationTest {
 
         assertThat(refused.reason()).isEqualTo(Reason.UNSUPPORTED_FORM);
         assertThat(refused)
-                .hasMessageContaining("NGSIv1")
-                .hasMessageContaining("set the subscription's attrsFormat to normalized");
+                .hasMessageContainingAll("NGSIv1", "set the subscription's attrsFormat to normalized");
     }
 
     @ParameterizedTest

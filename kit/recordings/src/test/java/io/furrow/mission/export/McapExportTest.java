@@ -7,6 +7,7 @@ import java.nio.file.StandardCopyOption;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Optional;
+import java.util.stream.IntStream;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -58,12 +59,8 @@ class McapExportTest {
 
     @Test
     void indexesAMissionOfManyChunks() throws Exception {
-        List<String> lines = new ArrayList<>();
-        for (int i = 0; i < 9_000; i++) {
-            lines.add(
-                    "{\"id\":\"e%05d\",\"time\":%d,\"headers\":{},\"entity\":{\"id\":\"t%d\",\"type\":\"T\",\"n\":{\"value\":\"%s\"}}}"
-                            .formatted(i, 1_000 + i / 7, i % 11, "x".repeat(i % 700)));
-        }
+        List<String> lines = IntStream.range(0, 9_000).mapToObj(i -> "{\"id\":\"e%05d\",\"time\":%d,\"headers\":{},\"entity\":{\"id\":\"t%d\",\"type\":\"T\",\"n\":{\"value\":\"%s\"}}}"
+                            .formatted(i, 1_000 + i / 7, i % 11, "x".repeat(i % 700))).toList();
         Path mission = folder.resolve("mission.ndjson");
         Files.write(mission, lines);
 

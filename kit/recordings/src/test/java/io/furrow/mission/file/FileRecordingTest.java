@@ -11,11 +11,11 @@ import java.util.Arrays;
 import java.util.List;
 import java.util.Random;
 import java.util.TreeMap;
-import java.util.zip.GZIPOutputStream;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.files.Gzip;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.EventOrder;
 import io.furrow.mission.EventPage;
@@ -53,7 +53,7 @@ class FileRecordingTest extends RecordingContract {
 
     @Test
     void findsTheFileOfAMissionAndReadsWhatIsCompressed() throws Exception {
-        Files.write(folder.resolve("hoeing.ndjson.gz"), compressed(lines(List.of(RandomEvents.event("a", 1, 0)))));
+        Files.write(folder.resolve("hoeing.ndjson.gz"), Gzip.of(lines(List.of(RandomEvents.event("a", 1, 0)))));
         Files.write(folder.resolve("_x-a-2Eb.jsonl"), lines(List.of(RandomEvents.event("b", 1, 0))));
         FileRecordings recordings = new FileRecordings(folder.toString());
 
@@ -101,7 +101,7 @@ class FileRecordingTest extends RecordingContract {
         }
         Path archive = Files.createDirectory(folder.resolve("mission_hoeing"));
         for (String part : parts.keySet()) {
-            Files.write(archive.resolve(part + ".ndjson.gz"), compressed(lines(ordered(parts.get(part)))));
+            Files.write(archive.resolve(part + ".ndjson.gz"), Gzip.of(lines(ordered(parts.get(part)))));
         }
         List<StoredEvent> ordered = ordered(all);
         try (Recording recording =
@@ -219,7 +219,7 @@ class FileRecordingTest extends RecordingContract {
     @Test
     void refusesFilesThatAreNotWholeOrGone() throws Exception {
         Path file = folder.resolve("hoeing.ndjson.gz");
-        byte[] whole = compressed(lines(ordered(RandomEvents.of(new Random(1), 500))));
+        byte[] whole = Gzip.of(lines(ordered(RandomEvents.of(new Random(1), 500))));
         Files.write(file, Arrays.copyOf(whole, whole.length / 2));
         try (Recording recording =
                 new FileRecordings(file.toString()).open("any").orElseThrow()) {
@@ -245,14 +245,6 @@ class FileRecordingTest extends RecordingContract {
         for (StoredEvent event : events) {
             out.writeBytes(ArchiveLine.write(event));
             out.write('\n');
-        }
-        return out.toByteArray();
-    }
-
-    private static byte[] compressed(byte[] bytes) throws IOException {
-        ByteArrayOutputStream out = new ByteArrayOutputStream();
-        try (GZIPOutputStream gzip = new GZIPOutputStream(out)) {
-            gzip.write(bytes);
         }
         return out.toByteArray();
     }

@@ -6,6 +6,7 @@ import java.util.List;
 import java.util.Optional;
 import java.util.UUID;
 import java.util.concurrent.TimeUnit;
+import java.util.stream.IntStream;
 
 import com.mongodb.ConnectionString;
 import com.mongodb.MongoClientSettings;
@@ -120,10 +121,7 @@ class MongoRecordingTest extends RecordingContract {
 
     @Test
     void asksForTwiceAsManyDocumentsAsLongAsTheyAreSmall() throws Exception {
-        List<StoredEvent> events = new ArrayList<>();
-        for (int i = 0; i < 60; i++) {
-            events.add(RandomEvents.event("e" + i, i, 0));
-        }
+        List<StoredEvent> events = IntStream.range(0, 60).mapToObj(i -> RandomEvents.event("e" + i, i, 0)).toList();
         MongoCollection<RawBsonDocument> collection = stored("mission_" + UUID.randomUUID(), events);
         int size = bytes(events.get(0));
 
@@ -180,10 +178,7 @@ class MongoRecordingTest extends RecordingContract {
 
     @Test
     void holdsNoMoreOfACrowdedMillisecondThanItMay() throws Exception {
-        List<StoredEvent> events = new ArrayList<>();
-        for (int i = 0; i < 200; i++) {
-            events.add(RandomEvents.event("e" + i, 1, i % 50 == 0 ? 4_000 : i % 7 * 100));
-        }
+        List<StoredEvent> events = IntStream.range(0, 200).mapToObj(i -> RandomEvents.event("e" + i, 1, i % 50 == 0 ? 4_000 : i % 7 * 100)).toList();
         MongoCollection<RawBsonDocument> collection = stored("mission_crowded", events);
         SameTimeCursor crowd = new SameTimeCursor(collection, 1, Cursor.START, 2_000);
         List<StoredEvent> read = new ArrayList<>();

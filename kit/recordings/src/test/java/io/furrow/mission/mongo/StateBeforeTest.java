@@ -7,6 +7,7 @@ import java.util.Optional;
 import java.util.Random;
 import java.util.Set;
 import java.util.UUID;
+import java.util.stream.IntStream;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -122,10 +123,7 @@ class StateBeforeTest {
 
     @Test
     void readsTheNewestDocumentsAloneWhereAllEntitiesHaveReported() throws Exception {
-        List<StoredEvent> events = new ArrayList<>();
-        for (int number = 0; number < 1_000; number++) {
-            events.add(event(number, 10 + number, "d" + number % 4, "x", "y"));
-        }
+        List<StoredEvent> events = IntStream.range(0, 1_000).mapToObj(number -> event(number, 10 + number, "d" + number % 4, "x", "y")).toList();
         store(events);
 
         assertThat(before(900, ALL, FEW)).contains(scanned(events, 900, ALL));
@@ -171,10 +169,7 @@ class StateBeforeTest {
 
     @Test
     void givesUpOnWhatReportsChangesAloneAndOnTooManySilentEntities() throws Exception {
-        List<StoredEvent> events = new ArrayList<>();
-        for (int number = 0; number < 300; number++) {
-            events.add(event(number, 10 + number, "d", number == 0 ? "battery" : "x"));
-        }
+        List<StoredEvent> events = IntStream.range(0, 300).mapToObj(number -> event(number, 10 + number, "d", number == 0 ? "battery" : "x")).toList();
         store(events);
         assertThat(before(305, ALL, FEW)).isEmpty();
 

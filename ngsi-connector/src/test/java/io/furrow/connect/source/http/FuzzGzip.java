@@ -1,7 +1,6 @@
 package io.furrow.connect.source.http;
 
 import java.io.ByteArrayOutputStream;
-import java.io.IOException;
 import java.nio.ByteBuffer;
 import java.util.Arrays;
 import java.util.List;
@@ -10,7 +9,6 @@ import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ConcurrentLinkedQueue;
 import java.util.concurrent.TimeUnit;
-import java.util.zip.GZIPOutputStream;
 
 import org.eclipse.jetty.server.LocalConnector;
 import org.eclipse.jetty.server.Server;
@@ -22,6 +20,7 @@ import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.source.NgsiSourceConfig;
 import io.furrow.connect.source.journal.RecordLog;
 import io.furrow.connect.source.notification.NotificationTranslator;
+import io.furrow.files.Gzip;
 
 import static java.nio.charset.StandardCharsets.US_ASCII;
 import static java.nio.charset.StandardCharsets.UTF_8;
@@ -121,13 +120,13 @@ public final class FuzzGzip {
             case 0 -> post(rest, "Content-Encoding: gzip\r\n", inChunks);
             case 2 -> {
                 int half = content.length / 2;
-                byte[] first = gzip(Arrays.copyOf(content, half));
-                byte[] second = gzip(Arrays.copyOfRange(content, half, content.length));
+                byte[] first = Gzip.of(Arrays.copyOf(content, half));
+                byte[] second = Gzip.of(Arrays.copyOfRange(content, half, content.length));
                 byte[] both = Arrays.copyOf(first, first.length + second.length);
                 System.arraycopy(second, 0, both, first.length, second.length);
                 yield post(both, "Content-Encoding: gzip\r\n", inChunks);
             }
-            default -> post(gzip(content), "Content-Encoding: gzip\r\n", inChunks);
+            default -> post(Gzip.of(content), "Content-Encoding: gzip\r\n", inChunks);
         };
         check(outcome);
         if (how == 1 || how == 3) {
@@ -188,14 +187,6 @@ public final class FuzzGzip {
             System.arraycopy(content, 0, many, i * content.length, content.length);
         }
         return many;
-    }
-
-    private static byte[] gzip(byte[] content) throws IOException {
-        ByteArrayOutputStream bytes = new ByteArrayOutputStream();
-        try (GZIPOutputStream out = new GZIPOutputStream(bytes)) {
-            out.write(content);
-        }
-        return bytes.toByteArray();
     }
 
     private static void require(boolean right, String message) {

@@ -146,8 +146,7 @@ class NotificationServerTest {
     void saysWhichAddressIsTakenAndWhichOptionsNameIt() {
         assertThatThrownBy(() -> rig.open(rig.port(), java.time.Duration.ZERO))
                 .isInstanceOf(ConnectException.class)
-                .hasMessageContaining("127.0.0.1:" + rig.port())
-                .hasMessageContaining("listen.port");
+                .hasMessageContainingAll("127.0.0.1:" + rig.port(), "listen.port");
     }
 
     @Test

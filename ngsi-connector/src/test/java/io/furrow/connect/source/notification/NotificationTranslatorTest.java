@@ -136,8 +136,7 @@ class NotificationTranslatorTest {
 
         assertThat(translation.refusal()).map(Translation.Refusal::reason).contains(Reason.TOO_LARGE);
         assertThat(translation.records().get(0).headers().get(DeadLetter.MESSAGE))
-                .contains("17 bytes")
-                .contains("truncated");
+                .contains("17 bytes", "truncated");
     }
 
     @Test
@@ -195,8 +194,7 @@ class NotificationTranslatorTest {
         Translation translation = translate("{\"id\": \"a\", \"name\\udfff\": \"" + text + "\"}");
 
         assertThat(text(translation.records().get(0)).toLowerCase(java.util.Locale.ROOT))
-                .contains(text)
-                .contains("\"name\\udfff\"");
+                .contains(text, "\"name\\udfff\"");
     }
 
     @Test

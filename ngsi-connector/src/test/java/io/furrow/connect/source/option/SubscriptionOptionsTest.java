@@ -53,8 +53,7 @@ class SubscriptionOptionsTest {
 
         assertThatThrownBy(() -> config(given))
                 .isInstanceOf(ConfigException.class)
-                .hasMessageContaining(option)
-                .hasMessageContaining(words);
+                .hasMessageContainingAll(option, words);
     }
 
     @ParameterizedTest

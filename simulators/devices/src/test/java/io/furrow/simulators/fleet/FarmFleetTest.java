@@ -206,8 +206,7 @@ class FarmFleetTest {
     void isRefusedWithAWrongPasswordAndLeavesNothingBehind() {
         assertThatThrownBy(() -> FarmFleet.start(farm(), access("harrow"), 500, Clock.systemUTC()))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("refuses user 'farmer'")
-                .hasMessageContaining(mqtt.uri().toString())
+                .hasMessageContainingAll("refuses user 'farmer'", mqtt.uri().toString())
                 .hasMessageNotContaining("harrow");
         assertThat(access("harrow").toString()).doesNotContain("harrow");
     }

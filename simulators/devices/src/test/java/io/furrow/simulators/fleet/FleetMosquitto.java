@@ -1,8 +1,6 @@
 package io.furrow.simulators.fleet;
 
 import java.io.IOException;
-import java.net.InetAddress;
-import java.net.Socket;
 import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -13,6 +11,7 @@ import java.util.concurrent.TimeUnit;
 import org.awaitility.Awaitility;
 
 import io.furrow.embedded.FreePort;
+import io.furrow.process.Ports;
 import io.furrow.process.TestProcess;
 
 /** Eclipse Mosquitto as Debian packs it, on loopback, with a password file and TLS. */
@@ -89,13 +88,7 @@ final class FleetMosquitto {
                 .redirectOutput(ProcessBuilder.Redirect.appendTo(
                         directory.resolve("mosquitto.log").toFile()))
                 .start();
-        Awaitility.await().until(() -> {
-            try (Socket socket = new Socket(InetAddress.getLoopbackAddress(), port)) {
-                return socket.isConnected();
-            } catch (IOException e) {
-                return false;
-            }
-        });
+        Awaitility.await().until(() -> Ports.isListening(port));
     }
 
     /** A key and its certificate, which nobody has signed but itself. */

@@ -54,8 +54,7 @@ class MqttConnectionTest {
                 }
             });
             assertThatThrownBy(() -> opening.get(1, TimeUnit.MINUTES))
-                    .hasMessageContaining("does not answer user 'farmer'")
-                    .hasMessageContaining(uri.toString());
+                    .hasMessageContainingAll("does not answer user 'farmer'", uri.toString());
         }
     }
 

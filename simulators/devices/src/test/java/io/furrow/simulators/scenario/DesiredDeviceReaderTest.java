@@ -1,6 +1,5 @@
 package io.furrow.simulators.scenario;
 
-import java.io.IOException;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -19,6 +18,7 @@ import io.furrow.simulators.robot.WorkField;
 import io.furrow.simulators.scenario.SimulatedDevice.Camera;
 import io.furrow.simulators.scenario.SimulatedDevice.Robot;
 import io.furrow.simulators.scenario.SimulatedDevice.Sensor;
+import io.furrow.unchecked.Unchecked;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -143,11 +143,7 @@ class DesiredDeviceReaderTest {
     }
 
     private static WorkField orchard() {
-        try {
-            return WorkField.largestOf(
-                    "orchard", NgsiJson.mapper().readTree("{\"type\": \"Polygon\", \"coordinates\": " + SQUARE + "}"));
-        } catch (IOException e) {
-            throw new IllegalStateException(e);
-        }
+        return Unchecked.get(() -> WorkField.largestOf(
+                "orchard", NgsiJson.mapper().readTree("{\"type\": \"Polygon\", \"coordinates\": " + SQUARE + "}")));
     }
 }

@@ -26,8 +26,7 @@ class MqttBridgeTest {
         try (EmbeddedMqtt broker = EmbeddedMqtt.start(PASSWORDS)) {
             assertThatThrownBy(() -> FiwareStandIn.start(new FiwareSettings(0, 0, broker.uri(), "agent", "wrong")))
                     .isInstanceOf(IllegalStateException.class)
-                    .hasMessageContaining(broker.uri().toString())
-                    .hasMessageContaining("password");
+                    .hasMessageContainingAll(broker.uri().toString(), "password");
         }
     }
 

@@ -46,9 +46,7 @@ class HttpUriConverterTest {
     void rejectsAllElseAndReportsWhy(String text, String reason) {
         assertThatThrownBy(() -> converter.convert(text))
                 .isInstanceOf(TypeConversionException.class)
-                .hasMessageContaining("'" + text + "'")
-                .hasMessageContaining(reason)
-                .hasMessageContaining("https://example.com/path");
+                .hasMessageContainingAll("'" + text + "'", reason, "https://example.com/path");
     }
 
     @Test

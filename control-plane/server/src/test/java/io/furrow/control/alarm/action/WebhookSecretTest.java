@@ -52,8 +52,7 @@ class WebhookSecretTest {
     void rejectsAFileWithoutASecret(String content) {
         assertThatThrownBy(() -> secret(content))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("holds no secret for the webhook")
-                .hasMessageContaining("openssl rand");
+                .hasMessageContainingAll("holds no secret for the webhook", "openssl rand");
     }
 
     private WebhookSecret secret(String content) throws IOException {

@@ -48,8 +48,7 @@ class ApiTokenTest {
     void namesTheLineThatIsWrong(String lines, String message) {
         assertThatThrownBy(() -> ApiToken.read(file(lines.replace(';', '\n'))))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining(directory.toString())
-                .hasMessageContaining(message);
+                .hasMessageContainingAll(directory.toString(), message);
     }
 
     @Test
