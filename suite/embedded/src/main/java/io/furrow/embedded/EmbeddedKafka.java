@@ -174,10 +174,12 @@ public final class EmbeddedKafka implements AutoCloseable {
                 Map.entry("log.flush.scheduler.interval.ms", 1_000),
                 Map.entry("offsets.topic.num.partitions", PARTITIONS),
                 Map.entry("offsets.topic.replication.factor", 1),
-                // A single node loses and regains its own leadership at each start. A load begun before may then be taken for that of the
+                // A single node loses and regains its own leadership at each start. A load begun before may then be
+                // taken for that of the
                 // new state, and groups get old offsets; with small reads it notices and stops.
                 Map.entry("offsets.load.buffer.size", 64 * 1024),
-                // How long the broker waits for the markers of a transaction before it refuses the first batch of the next.
+                // How long the broker waits for the markers of a transaction before it refuses the first batch of the
+                // next.
                 Map.entry("add.partitions.to.txn.retry.backoff.max.ms", 10_000),
                 Map.entry("transaction.state.log.num.partitions", PARTITIONS),
                 Map.entry("transaction.state.log.replication.factor", 1),
