@@ -11,11 +11,11 @@ import io.furrow.analytics.temperature.TemperatureOptions;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.model.result.AnalyticsKind;
 
-/** The options and the job of each kind. */
+/** Maps each kind of job to its options and its pipeline. */
 public final class AnalyticsRegistry {
     private AnalyticsRegistry() {}
 
-    /** Options to be parsed. */
+    /** The options to parse. */
     public static JobOptions options(AnalyticsKind kind) {
         return switch (kind) {
             case COLLISION -> new CollisionOptions();
@@ -24,7 +24,9 @@ public final class AnalyticsRegistry {
         };
     }
 
-    /** @param options of one of the kinds, parsed */
+    /**
+     * @param options the parsed options of one of the kinds
+     */
     public static StreamExecutionEnvironment assemble(JobOptions options) {
         if (options instanceof CollisionOptions collision) {
             return CollisionJob.assemble(collision);

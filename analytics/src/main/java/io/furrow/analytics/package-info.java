@@ -1,5 +1,5 @@
 /**
- * The analytics jobs: one package is one job is one question.
+ * The analytics jobs; each package is one job.
  *
  * <p><b>In</b>: {@code data.raw} or the topic of a replay, {@code service.fields}, {@code service.devices}.
  *

@@ -1,5 +1,5 @@
 /**
- * Measurements, each beside a peer that does the least that the same work needs.
+ * Measurements, each beside a minimal peer that does the same work.
  *
  * <p><b>In</b>: sizes, rates and durations.
  *

@@ -5,7 +5,7 @@ import java.io.InputStream;
 import java.io.UncheckedIOException;
 import java.util.Properties;
 
-/** The version that the plugin was built as, for instance {@code 0.1.0}. */
+/** The version of the plugin, for instance {@code 0.1.0}. */
 public final class PluginVersion {
     private static final String RESOURCE = "/furrow-ngsi-connector.properties";
 

@@ -72,7 +72,7 @@ public final class Validators {
         return each(match(pattern, expected), expected);
     }
 
-    /** Whatever the type of the option accepts. */
+    /** Accepts any value that the type of the option allows. */
     public static Validator any(String expected) {
         return LambdaValidator.with((name, value) -> {}, () -> expected);
     }

@@ -11,14 +11,14 @@ import io.furrow.model.result.ClockResult;
 import io.furrow.model.topic.Topics;
 
 /**
- * Describes what was found out about clocks as entities of their devices: {@code Analytics:ClockBehind:<device>} and {@code
- * Analytics:ClockOffset:<device>}.
+ * Describes clock reports as entities of their devices: {@code Analytics:ClockBehind:<device>} and
+ * {@code Analytics:ClockOffset:<device>}.
  *
- * @param job that found it out
- * @param topic of the entities; those of a replay go to its own
+ * @param job that made the reports
+ * @param topic of the entities; those of a replay go to its output topic
  */
 record ClockEntity(String job, String topic) implements Serializable {
-    /** Key = device id; timestamp = event time when it was found. */
+    /** Key = device id; timestamp = event time of the report. */
     TopicRecord of(ClockReport report) {
         String type = report.kind() == ClockReport.Kind.OFFSET ? ClockResult.OFFSET_TYPE : ClockResult.BEHIND_TYPE;
         EntityBuilder entity = Entity.builder(type + ":" + report.id(), type)

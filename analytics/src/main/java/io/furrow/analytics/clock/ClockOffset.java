@@ -4,36 +4,36 @@ import java.time.Duration;
 import java.util.Arrays;
 
 /**
- * By how much the clock of a device is off, learned from its delays: receipt less event time. The delay of a message that came
- * at once is the offset; most come later, none earlier. So the offset is a least delay: the third least, that two wrong times
- * do not matter, of the span that is over and of the current one. It falls at once, and rises only with the end of a span in
- * which every message but two was that late, and no three after it were earlier: what a gateway stored for a while and then sends at
- * once has no effect, unless that takes longer than a span.
+ * The offset of a device's clock, estimated from its delays: receipt less event time. The delay of a message without latency is the
+ * offset; no message can arrive earlier. The offset is therefore a minimum: the third least delay, which tolerates two wrong times,
+ * of the previous and the current span. It falls at once, and rises only at the end of a span in which every message but two was
+ * that late and no three later ones were earlier: a backlog that a gateway sends at once has no effect unless that takes longer than
+ * a span.
  *
  * @param millis the offset in force, which is added to the device's times; 0 for none
- * @param since the receipt with which the current span began
- * @param before the three least delays of the span before, ascending; {@link #UNKNOWN} for those that are missing
- * @param least of the current span
+ * @param since the receipt that began the current span
+ * @param before the three least delays of the previous span, ascending; {@link #UNKNOWN} for missing ones
+ * @param least the same of the current span
  */
 public record ClockOffset(long millis, long since, long[] before, long[] least) {
     static final long SPAN = Duration.ofMinutes(2).toMillis();
-    /** A smaller offset is what messages take, not a clock. */
+    /** A smaller offset is attributed to latency, not to the clock. */
     static final long MIN = Duration.ofSeconds(1).toMillis();
-    /** A greater one is not a clock that drifts: a wrong time zone or date. */
+    /** A greater one is attributed to a wrong time zone or date, not to drift. */
     static final long GREATEST = Duration.ofMinutes(10).toMillis();
-    /** The offset in force stays while a new one differs by less. */
+    /** A new offset must differ by this much to replace the one in force. */
     static final long STEP = 250;
 
     private static final long UNKNOWN = Long.MAX_VALUE;
     private static final long[] NONE = {UNKNOWN, UNKNOWN, UNKNOWN};
 
-    /** After the first message of a device. */
+    /** The offset after the first message of a device. */
     static ClockOffset first(long time, long receipt) {
         return new ClockOffset(0, receipt, NONE, with(NONE, receipt - time));
     }
 
     /**
-     * After another message.
+     * The offset after another message.
      *
      * @param time its event time by the device's clock, epoch ms
      * @param receipt epoch ms
@@ -46,7 +46,7 @@ public record ClockOffset(long millis, long since, long[] before, long[] least) 
         return new ClockOffset(newMillis, over ? receipt : since, last, now);
     }
 
-    /** A time of the device as it is with a clock that is right; not after its receipt, unless it is corrected backwards. */
+    /** The device's time as a correct clock shows it; not after its receipt, unless it is corrected backwards. */
     long corrected(long time, long receipt) {
         return millis <= 0 ? time + millis : Math.min(time + millis, Math.max(time, receipt));
     }

@@ -3,16 +3,16 @@ package io.furrow.analytics.clock;
 import io.furrow.model.event.FiwareScope;
 
 /**
- * What was found out about the clock of a device.
+ * A finding about the clock of a device.
  *
  * @param topic the topic that reports the device
  * @param identity begins with tenant and service path
  * @param id the entity id
- * @param type of the entity; empty if that is not known
- * @param mission the mission it works for; empty if that is not known
- * @param millis of {@link Kind#BEHIND} how much too late the newest position came, of {@link Kind#DELAYED} how long after its time the
- *     newest record was received, of {@link Kind#OFFSET} what is added to its times
- * @param positions of {@link Kind#BEHIND} how many came too late in a row, of {@link Kind#DELAYED} how many records
+ * @param type of the entity; empty if unknown
+ * @param mission of the device; empty if unknown
+ * @param millis {@link Kind#BEHIND}: lateness of the newest position; {@link Kind#DELAYED}: delay of the newest record, from event
+ *     time to receipt; {@link Kind#OFFSET}: the offset added to the device's times
+ * @param positions {@link Kind#BEHIND}: number of late positions in a row; {@link Kind#DELAYED}: number of records
  * @param time event time of the report, epoch ms
  */
 public record ClockReport(
@@ -25,13 +25,13 @@ public record ClockReport(
         long millis,
         int positions,
         long time) {
-    /** What it reports. */
+    /** The kind of finding. */
     public enum Kind {
-        /** The device's positions come too late to count. */
+        /** The device's positions are late. */
         BEHIND,
-        /** The device's records come long after their time. */
+        /** The device's records arrive long after their time. */
         DELAYED,
-        /** The device's times are corrected by another offset from now on. */
+        /** The device's times are corrected by a new offset from now on. */
         OFFSET
     }
 
@@ -57,7 +57,7 @@ public record ClockReport(
                 position.reached());
     }
 
-    /** The tenant and service path that the identity begins with. */
+    /** The tenant and service path from the identity. */
     FiwareScope scope() {
         return FiwareScope.ofIdentity(identity);
     }

@@ -2,7 +2,7 @@ package io.furrow.analytics.clock;
 
 import picocli.CommandLine.Option;
 
-/** What a job does about the clocks of devices. Holds no Flink type, as the options of every job. */
+/** Options for the clocks of devices. Holds no Flink type, like the options of every job. */
 public final class ClockSettings {
     /** Whether times are corrected. */
     public enum Correction {

@@ -9,20 +9,22 @@ import io.furrow.analytics.job.AnalyticsOptions;
 import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
 
-/** The clocks of devices in a job that follows positions. */
+/** The stages for the clocks of devices in a job that follows positions. */
 public final class ClockStage {
     private final ClockEntity entities;
     private final ReceiptTime receiptTime;
     private final Duration maxBehind;
 
-    /** @param job its name, for instance {@code collision} */
+    /**
+     * @param job its name, for instance {@code collision}
+     */
     public ClockStage(String job, AnalyticsOptions options) {
         this.entities = new ClockEntity(job, options.clockOutput());
         this.receiptTime = ReceiptTime.of(options);
         this.maxBehind = options.clocks().maxBehind();
     }
 
-    /** Reports the devices of which all is received long after its time, as entities. */
+    /** Reports devices whose records are all received long after their time, as entities. */
     public DataStream<TopicRecord> delays(DataStream<TopicRecord> records) {
         return records.process(new ReportDelayedDevices(receiptTime, maxBehind))
                 .uid("report-delayed-devices")
@@ -32,7 +34,7 @@ public final class ClockStage {
                 .name("Describe delayed devices as entities");
     }
 
-    /** Reports the devices that are behind by less, as entities. */
+    /** Reports devices with a smaller lag, as entities. */
     public DataStream<TopicRecord> watch(DataStream<LaggingPosition> lagging) {
         return lagging.keyBy(LaggingPosition::key)
                 .process(new DetectClockLag(maxBehind))
@@ -43,7 +45,7 @@ public final class ClockStage {
                 .name("Describe clocks as entities");
     }
 
-    /** The records at corrected times. */
+    /** Returns the records at corrected times. */
     public SingleOutputStreamOperator<TopicRecord> correct(DataStream<TopicRecord> records) {
         return records.keyBy(CorrectClocks::deviceOf)
                 .process(new CorrectClocks(receiptTime))
@@ -51,7 +53,7 @@ public final class ClockStage {
                 .name("Correct the clocks of devices");
     }
 
-    /** The changes of offsets that {@link #correct} found, as entities. */
+    /** Returns the changes of offsets that {@link #correct} found, as entities. */
     public DataStream<TopicRecord> offsets(SingleOutputStreamOperator<TopicRecord> corrected) {
         return corrected
                 .getSideOutput(CorrectClocks.REPORTS)

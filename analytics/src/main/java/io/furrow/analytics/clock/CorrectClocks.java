@@ -19,25 +19,25 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.result.ResultTypes;
 
 /**
- * Gives the records of each device the times of a clock that is right, before anything judges them late. Key: the device of a
- * topic, see {@link #deviceOf}. Event time itself continues by the times that the devices reported.
+ * Corrects the event times of each device's records by the offset of its clock, before lateness is decided. Key: the device of a topic,
+ * see {@link #deviceOf}. Watermarks still follow the times that the devices reported.
  *
- * <p><b>State</b>: the offset learned of the device's clock, see {@link ClockOffset}. It depends on the device's records alone, in
- * their order, and not on the wall clock, so that a restart and a second pass give the same.
+ * <p><b>State</b>: the estimated offset of the device's clock, see {@link ClockOffset}. It depends only on the device's records in their
+ * order, not on the wall clock, so that a restart and a second pass give the same.
  *
- * <p><b>Cleared</b>: a day of event time after the receipt with which the current span began.
+ * <p><b>Cleared</b>: a day of event time after the receipt that began the current span.
  *
- * <p><b>Late</b>: nothing is.
+ * <p><b>Late</b>: no record.
  *
- * <p><b>Emits</b>: every record once; of a corrected one the timestamp is the corrected time, and the header {@value #HEADER} says by how
- * much. Records of replays, without a stamp of their receipt or with one that cannot be right, and results of Furrow stay as they are. To
- * {@link #REPORTS} each change of a device's offset. {@code corrected} counts records.
+ * <p><b>Emits</b>: every record once; a corrected one has the corrected timestamp, and the correction in the header {@value #HEADER}.
+ * Records of replays, records with a missing or impossible receipt time, and results of Furrow stay unchanged. Each change of a device's
+ * offset goes to {@link #REPORTS}. {@code corrected} counts records.
  */
 public final class CorrectClocks extends KeyedProcessFunction<String, TopicRecord, TopicRecord> {
     static final OutputTag<ClockReport> REPORTS = new OutputTag<>("clock-reports") {
         private static final long serialVersionUID = 1L;
     };
-    /** Milliseconds that were added to the device's time. */
+    /** The milliseconds added to the device's time. */
     static final String HEADER = "clock-offset";
 
     private static final long serialVersionUID = 1L;
@@ -52,7 +52,7 @@ public final class CorrectClocks extends KeyedProcessFunction<String, TopicRecor
         this.receiptTime = receiptTime;
     }
 
-    /** Topic, tenant, service path and key of the record, which is the id of its entity. */
+    /** Topic, tenant, service path and key of the record, the key being the id of its entity. */
     static String deviceOf(TopicRecord record) {
         return record.topic() + '|' + identity(record);
     }

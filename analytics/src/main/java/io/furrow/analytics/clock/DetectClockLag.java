@@ -12,13 +12,13 @@ import io.furrow.analytics.eventtime.SingleTimer;
 import io.furrow.model.topic.Topics;
 
 /**
- * Reports devices whose positions come too late, one after the other. Key: the device of a topic.
+ * Reports devices with a streak of late positions. Key: the device of a topic.
  *
- * <p><b>State</b>: the positions in a row, see {@link LagStreak}.
+ * <p><b>State</b>: the streak, see {@link LagStreak}.
  *
- * <p><b>Cleared</b>: when none has come for 10 min of event time.
+ * <p><b>Cleared</b>: after 10 min of event time without a late position.
  *
- * <p><b>Late</b>: all that comes is.
+ * <p><b>Late</b>: every input.
  *
  * <p><b>Emits</b>: that the device is behind, and once a minute of event time that it still is.
  */
@@ -29,7 +29,9 @@ public final class DetectClockLag extends KeyedProcessFunction<String, LaggingPo
     private transient SingleTimer timer;
     private transient ValueState<LagStreak> streak;
 
-    /** @param maxBehind devices that are further behind are reported by {@link ReportDelayedDevices}, except those of replays */
+    /**
+     * @param maxBehind {@link ReportDelayedDevices} reports devices that are further behind, except those of replays
+     */
     DetectClockLag(Duration maxBehind) {
         this.maxBehindMillis = maxBehind.toMillis();
     }

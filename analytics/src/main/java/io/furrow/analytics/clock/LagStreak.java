@@ -3,19 +3,19 @@ package io.furrow.analytics.clock;
 import java.time.Duration;
 
 /**
- * Positions of a device that came too late in a row. A device is behind after {@value #MIN} of them that came within no less than 30 s
- * of event time: what a gateway stored and sends all at once is late too, but soon over.
+ * A streak of late positions of a device. A device is behind after {@value #MIN} of them that came over at least 30 s of event time:
+ * the backlog that a gateway sends at once is late too, but soon over.
  *
- * @param first the time of the first position, epoch ms
- * @param since how far event time had come with the first
- * @param reached how far with the newest
- * @param positions how many
- * @param emitted how far event time had come when this was last reported; {@link Long#MIN_VALUE} where it was not
+ * @param first time of the first position, epoch ms
+ * @param since event time when the first arrived
+ * @param reached event time when the newest arrived
+ * @param positions number of positions
+ * @param emitted event time of the last report; {@link Long#MIN_VALUE} before the first
  */
 public record LagStreak(long first, long since, long reached, int positions, long emitted) {
     static final int MIN = 10;
     static final long MIN_TIME = Duration.ofSeconds(30).toMillis();
-    /** Between two reports of a streak. */
+    /** Least event time between two reports of a streak. */
     static final long AGAIN = Duration.ofMinutes(1).toMillis();
     /** A longer silence ends a streak. */
     static final long MAX_GAP = Duration.ofMinutes(10).toMillis();
@@ -23,7 +23,7 @@ public record LagStreak(long first, long since, long reached, int positions, lon
     private static final long NEVER = Long.MIN_VALUE;
 
     /**
-     * The streak with another position, which begins a new one where a position counted since the first.
+     * The streak with another position; a new one if a position counted since the first.
      *
      * @param streak null for none
      */
@@ -47,7 +47,7 @@ public record LagStreak(long first, long since, long reached, int positions, lon
         return new LagStreak(first, since, reached, positions, reached);
     }
 
-    /** The event time at which the streak is over where nothing comes any more. */
+    /** The event time at which the streak ends if no late position follows. */
     long end() {
         return reached + MAX_GAP;
     }

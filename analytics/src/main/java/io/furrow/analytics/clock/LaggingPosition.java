@@ -1,19 +1,19 @@
 package io.furrow.analytics.clock;
 
 /**
- * A position that arrived too late to count although it is the newest of its device: its clock or its link is behind.
+ * A late position that is nevertheless the newest of its device: the device's clock or link is behind.
  *
  * @param topic the topic that reports the device
- * @param identity tenant, service path, type where it is known, and id
+ * @param identity tenant, service path, type if known, and id
  * @param id the entity id
- * @param mission the mission it works for; empty if it names none
+ * @param mission of the device; empty if it names none
  * @param time of the position, epoch ms
- * @param reached how far event time had come, epoch ms; not before {@code time}
- * @param counted the time of the device's newest position that counted; {@link Long#MIN_VALUE} where none is known
+ * @param reached event time at its arrival, epoch ms; not before {@code time}
+ * @param counted time of the device's newest accepted position; {@link Long#MIN_VALUE} if there is none
  */
 public record LaggingPosition(
         String topic, String identity, String id, String mission, long time, long reached, long counted) {
-    /** One text per device of a topic. A topic's name has no {@code |}. */
+    /** Unique per device of a topic. A topic's name has no {@code |}. */
     public String key() {
         return topic + '|' + identity;
     }

@@ -19,20 +19,20 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /**
- * Reports devices of any kind whose records are behind their {@link ReceiptTime}, one after the other, by more than a limit. It goes by
- * receipts, whatever has become of event time. A record that is on time ends a run; one that is not newer than the last is not a report
- * of the device. Of a device all records pass the same subtask.
+ * Reports devices of any kind with a streak of records that are behind their {@link ReceiptTime} by more than a limit, independently of
+ * watermarks. A record on time ends the streak; a record no newer than the last is ignored. All records of a device pass through the
+ * same subtask.
  *
- * <p><b>State</b>: none that lasts; after a restart runs begin anew.
+ * <p><b>State</b>: in memory only; streaks begin again after a restart.
  *
- * <p><b>Late</b>: nothing is.
+ * <p><b>Late</b>: no record.
  *
- * <p><b>Emits</b>: that the device is delayed, and once a minute that it still is. What is replayed or repaired does not count, nor
- * does what catches up: a gateway sends what it stored faster than it came about.
+ * <p><b>Emits</b>: that the device is delayed, and once a minute that it still is. Replayed and repaired records do not count, nor does
+ * a backlog, which a gateway sends faster than it came about.
  */
 final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockReport> {
     private static final long serialVersionUID = 1L;
-    /** As of a clock's offset, two wrong times do not matter. */
+    /** Two wrong times are tolerated, as in a clock's offset. */
     private static final int MIN_RECORDS = 3;
 
     private static final int MAX_DEVICES = 10_000;

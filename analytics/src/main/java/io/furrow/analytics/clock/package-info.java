@@ -1,5 +1,5 @@
 /**
- * The clocks of devices, as positions show them: which are so far behind that their positions come too late to count, and, where asked
- * for, by how much each is off, so that its positions count.
+ * Clocks of devices, judged by their positions: detects devices that are so far behind that their positions are late and, optionally,
+ * corrects their times.
  */
 package io.furrow.analytics.clock;

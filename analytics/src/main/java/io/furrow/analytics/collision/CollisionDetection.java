@@ -21,12 +21,12 @@ import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
 
 /**
- * The encounters among positions, as defined for this package.
+ * Detects encounters among positions, as defined for this package.
  *
- * @param encounters every start and end, and what lies between at a limited rate; a pair's in order of time
- * @param late positions that came after the watermark had passed them and were not counted
- * @param lagging those of them that are the newest of their device
- * @param overflows cells in which more pairs were close than the rules let be followed
+ * @param encounters every start and end, and updates between at a limited rate; a pair's in order of time
+ * @param late positions that arrived after the watermark and were not counted
+ * @param lagging the late positions that are the newest of their device
+ * @param overflows cells with more close pairs than the rules allow to follow
  */
 public record CollisionDetection(
         DataStream<Encounter> encounters,
@@ -60,7 +60,7 @@ public record CollisionDetection(
                 observations.getSideOutput(MatchPairs.OVERFLOWS));
     }
 
-    /** A pair's records stay where they are: the key is that of the stage before. */
+    /** A pair's records keep their partition: the key is that of the previous stage. */
     private static DataStream<Encounter> steady(DataStream<Encounter> encounters, CollisionRules rules) {
         return DataStreamUtils.reinterpretAsKeyedStream(encounters, Encounter::pair, TypeInformation.of(Pair.class))
                 .process(new DebounceEncounters(rules))

@@ -9,8 +9,8 @@ import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.result.CollisionResult;
 
 /**
- * An encounter as an entity: {@code Analytics:Collision:<pair>} of type {@code Analytics:Collision}, one per pair, so that
- * the context broker keeps a pair's newest encounter and does not grow forever.
+ * Describes an encounter as an entity {@code Analytics:Collision:<pair>} of type {@code Analytics:Collision}: one per
+ * pair, so that the context broker stores a pair's newest encounter and does not grow forever.
  */
 public final class CollisionEntity {
     private CollisionEntity() {}
@@ -28,7 +28,7 @@ public final class CollisionEntity {
                 .integer(CollisionResult.START_TIME, Epochs.original(encounter.startTime()));
     }
 
-    /** An entity of its own, {@code Analytics:Collision:<pair>:<phase>}: the pair's encounter stays as it is. */
+    /** A separate entity, {@code Analytics:Collision:<pair>:<phase>}, so that the pair's encounter is not overwritten. */
     public static EntityBuilder of(Approach approach) {
         String phase = approach.phase().code();
         EntityBuilder entity = Entity.builder(

@@ -24,10 +24,10 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.ClockSkewLimit;
 import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
 
-/** The job {@code collision}: encounters of devices, from the first instant at which they are close to the last. */
+/** The job {@code collision}: detects encounters of devices, from the first instant at which they are close to the last. */
 public final class CollisionJob {
     /**
-     * What comes in.
+     * The inputs of the job.
      *
      * @param records entities with event time as their timestamp
      */
@@ -35,7 +35,7 @@ public final class CollisionJob {
 
     private CollisionJob() {}
 
-    /** The job between its Kafka topics, ready to be executed. */
+    /** Returns the job between its Kafka topics, ready to be executed. */
     public static StreamExecutionEnvironment assemble(CollisionOptions options) {
         return AnalyticsJob.assemble(
                 options,
@@ -43,9 +43,7 @@ public final class CollisionJob {
                         define(new Inputs(records, DeviceInput.of(env, options, options.devices())), options));
     }
 
-    /**
-     * @return encounters, late positions, crowded cells, what is wrong with clocks, and dead letters; each record names its topic
-     */
+    /** @return encounters, late positions, crowded cells, clock reports and dead letters; each record names its topic */
     static DataStream<TopicRecord> define(Inputs in, CollisionOptions options) {
         if (!options.clockSettings().correct()) {
             return detect(in, options);
@@ -79,7 +77,7 @@ public final class CollisionJob {
                                         options.inputTopics().replay().isPresent()),
                                 List.of(AssignCarriers.DEVICES)))
                 .uid("assign-carriers");
-        // A device's positions stay where they are.
+        // A device's positions keep their partition.
         KeyedStream<PositionFix, Device> fixes = DataStreamUtils.reinterpretAsKeyedStream(
                 carried, PositionFix::device, TypeInformation.of(Device.class));
 
@@ -121,7 +119,7 @@ public final class CollisionJob {
         return new ClockStage("collision", options);
     }
 
-    /** Beside the encounters, and only where asked for. */
+    /** In addition to the encounters, if enabled. */
     private static DataStream<TopicRecord> approaches(DataStream<PositionFix> fixes, CollisionOptions options) {
         String output = options.output();
         return MotionDetection.define(fixes, options.motionRules())

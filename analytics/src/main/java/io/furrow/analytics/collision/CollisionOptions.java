@@ -11,7 +11,7 @@ import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.job.AnalyticsOptions;
 import io.furrow.model.topic.Topics;
 
-/** The options of the job {@code collision}. An accessor refuses a value that no job could start with. */
+/** The options of the job {@code collision}. An accessor rejects an invalid value. */
 @Command(
         name = "collision",
         sortOptions = false,
@@ -61,7 +61,7 @@ public final class CollisionOptions extends AnalyticsOptions {
         return devices;
     }
 
-    /** What is predicted and crossed; nothing unless asked for. */
+    /** The rules of predictions and crossings, both off by default. */
     public MotionRules motionRules() {
         try {
             return motion.rules(rules());
@@ -70,7 +70,6 @@ public final class CollisionOptions extends AnalyticsOptions {
         }
     }
 
-    /** What is done about the clocks of devices. */
     public ClockSettings clockSettings() {
         return clocks;
     }

@@ -16,8 +16,8 @@ import io.furrow.model.result.ResultTypes;
 import io.furrow.model.topic.Topics;
 
 /**
- * What the job writes about encounters, about crowded cells and about positions that it could not count: to the given topic,
- * or to the replay's own of what was found in a replay.
+ * Records of encounters, crowded cells and late positions: for the given topic, or for the output topic of the replay that
+ * they come from.
  */
 final class CollisionRecord {
     private static final String SOURCE = "/analytics/collision";
@@ -35,7 +35,7 @@ final class CollisionRecord {
                 SOURCE);
     }
 
-    /** One entity per cell; timestamp = when. */
+    /** One entity per cell; timestamp = the overflow's time. */
     static TopicRecord overflow(CellOverflow overflow, String topic) {
         String cell = HexFormat.of().toHexDigits(overflow.cell());
         EntityBuilder entity = Entity.builder(CollisionResult.OVERFLOW_TYPE + ":" + cell, CollisionResult.OVERFLOW_TYPE)
@@ -51,7 +51,7 @@ final class CollisionRecord {
         return ResultRecord.of(output, entity.id(), entity, overflow.witness().scope(), overflow.time(), SOURCE);
     }
 
-    /** In the same scope. */
+    /** In the scope of the device with the lesser id. */
     static TopicRecord of(Approach approach, String topic) {
         return ResultRecord.of(
                 Topics.resultOf(approach.first().topic(), topic),

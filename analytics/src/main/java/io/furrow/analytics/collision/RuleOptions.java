@@ -15,7 +15,7 @@ import io.furrow.analytics.collision.rules.PositionRules;
 import io.furrow.analytics.collision.rules.Thresholds;
 import io.furrow.analytics.collision.rules.ZoneFile;
 
-/** The options of {@link CollisionRules}. An accessor refuses, with its argument's name, what no job could start with. */
+/** The options of {@link CollisionRules}. An accessor rejects an invalid value, with its argument's name. */
 final class RuleOptions {
     @Option(
             names = "--threshold",
@@ -103,9 +103,7 @@ final class RuleOptions {
                             + "with the square of their number. Default: ${DEFAULT-VALUE}.")
     private int crowd;
 
-    /**
-     * @throws IllegalArgumentException if no job could go by them; the message names what is wrong
-     */
+    /** @throws IllegalArgumentException if the rules are invalid; the message names the mistake */
     CollisionRules rules() {
         Thresholds thresholds = new Thresholds(threshold, thresholdOf);
         DebounceRules steadiness = new DebounceRules(leaveFactor, dwell);

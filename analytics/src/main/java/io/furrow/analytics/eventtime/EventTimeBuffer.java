@@ -12,7 +12,7 @@ import org.apache.flink.api.java.typeutils.ListTypeInfo;
 import org.apache.flink.streaming.api.TimerService;
 
 /**
- * What came in for a key and waits for the watermark; the key's timer is set to the earliest of it. State: the value
+ * Buffers a key's messages until the watermark passes them; sets the key's timer to the earliest. State: the value
  * {@code waiting}, one list, empty while nothing waits.
  */
 public final class EventTimeBuffer<T extends HasEventTime> {
@@ -36,9 +36,9 @@ public final class EventTimeBuffer<T extends HasEventTime> {
     }
 
     /**
-     * The same, unless so many wait already.
+     * The same, up to a maximum number of messages.
      *
-     * @return whether it waits
+     * @return whether the message was buffered
      */
     public boolean offer(T message, int most, TimerService timers) throws Exception {
         List<T> before = waiting.value();
@@ -49,7 +49,7 @@ public final class EventTimeBuffer<T extends HasEventTime> {
         return true;
     }
 
-    /** The newest time of what waits; {@link Long#MIN_VALUE} where nothing does. */
+    /** The newest time of the buffered messages; {@link Long#MIN_VALUE} without any. */
     public long newest() throws Exception {
         List<T> all = waiting.value();
         long newest = Long.MIN_VALUE;
@@ -63,7 +63,7 @@ public final class EventTimeBuffer<T extends HasEventTime> {
         return waiting.value() == null;
     }
 
-    /** Removes what the watermark has passed and returns it in sequence. */
+    /** Removes the messages that the watermark has passed and returns them in sequence. */
     public List<T> takeDue(TimerService timers) throws Exception {
         List<T> all = waiting.value();
         if (all == null) {

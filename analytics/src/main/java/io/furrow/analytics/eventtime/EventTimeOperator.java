@@ -31,22 +31,22 @@ import io.furrow.flink.format.VersionedTypeInfo;
 
 /**
  * A keyed stage that acts in event time: messages wait until the watermark has passed them and are then applied in sequence
- * to what is remembered of their key, before the watermark continues. It holds its keys in plain maps and goes through those
- * that have something to do once per watermark, because a timer per key and an access to keyed state per message cost several
- * times what is done with the message. Keyed state, the value {@code keyState}, has all of it as of the last checkpoint.
+ * to their key's state, before the watermark is forwarded. Keys live in plain maps, and once per watermark those that are due
+ * are processed, because a timer per key and an access to keyed state per message cost several times the processing itself.
+ * Keyed state, the value {@code pending}, holds them as of the last checkpoint.
  *
  * @param <K> the keys
  * @param <M> the messages
- * @param <S> what is remembered between them
- * @param <O> what comes out, without a timestamp
+ * @param <S> the state of a key
+ * @param <O> the output, without a timestamp
  */
 public abstract class EventTimeOperator<K, M extends HasEventTime, S, O> extends AbstractStreamOperator<O>
         implements OneInputStreamOperator<M, O> {
-    /** For what is remembered until a message ends it. */
+    /** The expiry of state that only a message ends. */
     protected static final long NEVER = Long.MAX_VALUE;
 
     private static final long serialVersionUID = 1L;
-    /** Of a millisecond: a key is looked at when the watermark comes to within 64 ms of its next message. */
+    /** Steps of 64 ms: a key is processed when the watermark reaches the step of its next message. */
     private static final int STEP_BITS = 6;
 
     private final KeyStateSerializer<M, S> format;
@@ -55,21 +55,21 @@ public abstract class EventTimeOperator<K, M extends HasEventTime, S, O> extends
     private transient KeySelector<M, K> keyOf;
     private transient ValueState<KeyState<M, S>> saved;
     private transient Map<K, Slot<K, M, S>> slots;
-    /** What was saved and is no more. */
+    /** Saved keys that have no state any more. */
     private transient Set<K> gone;
-    /** Those with messages, by the time of the earliest in steps of {@link #STEP_BITS}. */
+    /** Slots with messages, by the time of the earliest in steps of {@link #STEP_BITS}. */
     private transient TreeMap<Long, List<Slot<K, M, S>>> awaited;
 
     private transient PriorityQueue<Deadline<K, M, S>> deadlines;
     private transient List<M> due;
     private transient Collector<O> out;
 
-    /** A key and what it has. */
+    /** A key with its state. */
     private static final class Slot<K, M extends HasEventTime, S> extends KeyState<M, S> {
         private final K key;
-        /** In which it is awaited; where an earlier message came, it also stands in later ones, which are skipped. */
+        /** Step in which it is awaited; it may also be listed in later ones, which are then skipped. */
         private long step = NEVER;
-        /** Of the earliest deadline set. */
+        /** Earliest deadline set. */
         private long expiry = NEVER;
 
         private boolean changed;
@@ -80,32 +80,32 @@ public abstract class EventTimeOperator<K, M extends HasEventTime, S, O> extends
         }
     }
 
-    /** Is left where it is when the end moves away, and set again when it has passed. */
+    /** Not moved when the expiry moves to later; set again once it has passed. */
     private record Deadline<K, M extends HasEventTime, S>(long time, Slot<K, M, S> slot) {}
 
     protected EventTimeOperator(KeyStateSerializer<M, S> format) {
         this.format = format;
     }
 
-    /** In which the messages of a key are applied. */
+    /** The order in which the messages of a key are applied. */
     protected abstract Comparator<M> sequence();
 
     /**
-     * What messages do to what is remembered.
+     * Applies messages to the state of a key.
      *
-     * @param before null if nothing is remembered
-     * @param due in sequence; may be empty; must not be kept
+     * @param before null if there is no state
+     * @param due in sequence; may be empty; must not be retained
      * @param until the watermark
-     * @return null if nothing is remembered from now on
+     * @return the new state, or null for none
      */
     protected abstract S apply(K key, S before, List<M> due, long until, Collector<O> out) throws Exception;
 
-    /** When what is remembered ends without a message, in epoch milliseconds, or {@link #NEVER}. */
+    /** When the state ends without a message, in epoch milliseconds, or {@link #NEVER}. */
     protected long expiry(S remembered) {
         return NEVER;
     }
 
-    /** None per message: keyed state is only written for a checkpoint. */
+    /** No key context per message: keyed state is only written for a checkpoint. */
     @Override
     public final boolean hasKeyContext1() {
         return false;
@@ -147,10 +147,10 @@ public abstract class EventTimeOperator<K, M extends HasEventTime, S, O> extends
     }
 
     /**
-     * Forgets what is remembered of each key; before the first message.
+     * Clears the state of each key; call it before the first message.
      *
-     * @param waiting whether messages that wait are forgotten too
-     * @param last takes what was remembered and what takes records
+     * @param waiting whether waiting messages are dropped too
+     * @param last receives each former state, and the output
      */
     protected final void forget(boolean waiting, BiConsumer<S, Collector<O>> last) {
         for (Slot<K, M, S> slot : List.copyOf(slots.values())) {
@@ -182,9 +182,9 @@ public abstract class EventTimeOperator<K, M extends HasEventTime, S, O> extends
     }
 
     /**
-     * Lets a message wait for the watermark, unless so many of its key do.
+     * Buffers a message until the watermark, unless its key has the maximum number of them.
      *
-     * @return whether it waits
+     * @return whether it was buffered
      */
     protected final boolean offer(M message, int most) throws Exception {
         Slot<K, M, S> slot = slots.computeIfAbsent(keyOf.getKey(message), Slot::new);
@@ -198,9 +198,9 @@ public abstract class EventTimeOperator<K, M extends HasEventTime, S, O> extends
     }
 
     /**
-     * The newest time of what waits of a key and of what is remembered of it; {@link Long#MIN_VALUE} where there is neither.
+     * The newest time of a key's waiting messages and of its state; {@link Long#MIN_VALUE} if it has neither.
      *
-     * @param time of what is remembered
+     * @param time of the state
      */
     protected final long newest(K key, ToLongFunction<S> time) {
         Slot<K, M, S> slot = slots.get(key);
@@ -259,7 +259,7 @@ public abstract class EventTimeOperator<K, M extends HasEventTime, S, O> extends
         settle(slot);
     }
 
-    /** Forgets a key without anything, and sees to it that one with something is looked at in time. */
+    /** Removes an empty key, or schedules when it is next due. */
     private void settle(Slot<K, M, S> slot) {
         if (slot.isEmpty()) {
             slots.remove(slot.key, slot);

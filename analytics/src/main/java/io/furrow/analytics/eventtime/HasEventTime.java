@@ -1,6 +1,6 @@
 package io.furrow.analytics.eventtime;
 
-/** What happened at an instant of event time. */
+/** An event that happened at an instant of event time. */
 public interface HasEventTime {
     /** Epoch milliseconds. */
     long time();

@@ -4,10 +4,10 @@ import java.util.ArrayList;
 import java.util.List;
 
 /**
- * All that a key has: messages that wait for the watermark, and what is remembered. Changed in place.
+ * The messages of a key that wait for the watermark, and its state. Changed in place.
  *
  * @param <M> the messages
- * @param <S> what is remembered between them
+ * @param <S> the state
  */
 public class KeyState<M extends HasEventTime, S> {
     List<M> waiting = new ArrayList<>(1);
@@ -20,7 +20,7 @@ public class KeyState<M extends HasEventTime, S> {
         remembered = other.remembered;
     }
 
-    /** Moves what the watermark has passed to {@code due}, in no order. */
+    /** Moves the messages that the watermark has passed to {@code due}, unordered. */
     final void takeDue(long watermark, List<M> due) {
         int left = 0;
         for (int i = 0; i < waiting.size(); i++) {
@@ -34,7 +34,7 @@ public class KeyState<M extends HasEventTime, S> {
         waiting.subList(left, waiting.size()).clear();
     }
 
-    /** Of the messages, of which there is one at least. */
+    /** The earliest time of its messages, of which there is at least one. */
     final long earliest() {
         long earliest = Long.MAX_VALUE;
         for (M message : waiting) {

@@ -7,10 +7,10 @@ import org.apache.flink.core.memory.DataOutputView;
 
 import io.furrow.flink.format.VersionedSerializer;
 
-/** How a {@link KeyState} is written; a subclass says what its messages and its remembered value are. */
+/** Serializes a {@link KeyState}; a subclass provides the serializers of its messages and its state. */
 public abstract class KeyStateSerializer<M extends HasEventTime, S> extends VersionedSerializer<KeyState<M, S>> {
     private static final long serialVersionUID = 1L;
-    /** Number of messages, messages as parts, whether something is remembered, what it is as a part. */
+    /** Number of messages, messages as parts, whether there is state, the state as a part. */
     private static final int VERSION = 3;
 
     private final VersionedSerializer<M> messages;

@@ -9,8 +9,8 @@ import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.streaming.api.TimerService;
 
 /**
- * The only event-time timer of a key: it rings at the earliest instant that was asked for since it last rang. State: the
- * value {@code timer}, empty while none is set.
+ * The only event-time timer of a key: it fires at the earliest instant set since it last fired. State: the value
+ * {@code timer}, empty while none is set.
  */
 public final class SingleTimer {
     private final ValueState<Long> set;
@@ -31,7 +31,7 @@ public final class SingleTimer {
         set.update(time);
     }
 
-    /** To be called first when it rings. */
+    /** Must be called first when it fires. */
     public void rang() {
         set.clear();
     }

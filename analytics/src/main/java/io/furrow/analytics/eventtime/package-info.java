@@ -1,2 +1,2 @@
-/** What keyed functions that act in event time share: messages that wait for the watermark, one timer per key. */
+/** Shared parts of keyed functions that act in event time: buffered messages, one timer per key. */
 package io.furrow.analytics.eventtime;

@@ -15,13 +15,13 @@ import io.furrow.model.position.Position;
 /**
  * Finds the fields that cover a position at a time; a position on the border, also on that of a hole, is covered.
  *
- * <p>Edges are straight in the plane of longitude and latitude, as RFC 7946 has them. The side of an edge is decided in
- * double-double arithmetic on the coordinates as they are, without tolerance: a position is on the border exactly when its
- * doubles are. Between two corners that are not on one parallel or meridian rounding puts most positions meant to be on the
- * border beside it, by less than a nanometer.
+ * <p>Edges are straight in the plane of longitude and latitude, as in RFC 7946. The side of an edge is decided in
+ * double-double arithmetic on the exact coordinates, without tolerance: a position is on the border exactly when its
+ * doubles are. Between two corners that are not on one parallel or meridian, rounding moves most positions on the border
+ * off it, by less than a nanometer.
  */
 final class FieldIndex {
-    /** A field with the index of its inside; that is made once, however often the index is. */
+    /** A field with an index of its interior, which is built once and outlives rebuilds of the field index. */
     static final class Located {
         private final Field field;
         private final IndexedPointInAreaLocator locator;
@@ -41,7 +41,7 @@ final class FieldIndex {
     }
 
     /**
-     * A field for as long as it is as it is.
+     * A version of a field and its end.
      *
      * @param until epoch ms of the next version, exclusive
      */
@@ -60,7 +60,7 @@ final class FieldIndex {
         tree.build();
     }
 
-    /** The fields that cover the position at an event time in epoch ms, in no order. */
+    /** The fields that cover the position at an event time in epoch ms, unordered. */
     List<Field> covering(Position position, long time) {
         Coordinate point = new Coordinate(position.longitude(), position.latitude());
         List<Field> covering = new ArrayList<>();

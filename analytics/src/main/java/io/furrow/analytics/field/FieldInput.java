@@ -14,13 +14,13 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.field.FieldVersion;
 
 /**
- * How a job learns of the fields.
+ * The fields as input of a job.
  *
- * @param topic {@code service.fields}, from its beginning and all that come; empty for fields that never change
- * @param atStart those that are known before the first event
+ * @param topic {@code service.fields} from its beginning, unbounded; empty for fields that never change
+ * @param atStart fields that exist before the first event
  */
 public record FieldInput(Optional<DataStream<TopicRecord>> topic, TopicSnapshot atStart) {
-    /** Fields of a topic that is read beside the events. */
+    /** The fields of a topic that is read beside the events. */
     public FieldInput(DataStream<TopicRecord> topic, TopicSnapshot atStart) {
         this(Optional.of(topic), atStart);
     }
@@ -39,9 +39,9 @@ public record FieldInput(Optional<DataStream<TopicRecord>> topic, TopicSnapshot 
     }
 
     /**
-     * The records of the fields, for an operator that joins them with the events. Fields that never change have none: a stream
-     * without records whose event time is that of the events. A source of their own would end, and where a job is restored, a
-     * source that has ended moves event time to its end as soon as the events are idle, whatever stands behind it.
+     * The records of the fields, for an operator that joins them with the events. For fields that never change it is an empty
+     * stream with the event time of the events: a separate source would end, and in a restored job an ended source moves event
+     * time to its end as soon as the events are idle, even with a backlog.
      */
     public DataStream<TopicRecord> recordsBeside(DataStream<TopicRecord> events) {
         return topic.orElseGet(

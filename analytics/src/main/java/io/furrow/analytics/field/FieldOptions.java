@@ -12,7 +12,7 @@ import picocli.CommandLine.Spec;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.topic.Topics;
 
-/** Where a job learns of the fields. Holds no Flink type, as the options of every job. */
+/** The options for the fields of a job. Holds no Flink type, like the options of every job. */
 public final class FieldOptions {
     @Spec(Spec.Target.MIXEE)
     private CommandSpec spec;
@@ -36,7 +36,7 @@ public final class FieldOptions {
     private String topic;
 
     /**
-     * The fields of the file; empty if none was named.
+     * The fields of the file; empty if no file is configured.
      *
      * @throws ParameterException if the file cannot be used
      */

@@ -9,15 +9,15 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * What a record of {@code service.fields} says of a version.
+ * A record of {@code service.fields}: a change of a version.
  *
  * @param isTaken whether the version is removed
- * @param field null if the version is removed or says that the field ends
+ * @param field null if the version is removed or ends the field
  */
 record FieldVersionChange(FieldVersion.Key key, boolean isTaken, Field field) {
     /**
-     * @throws UnreadableException if the record is not a version of a field, its area is not valid, or its key is that of another:
-     *     compaction would then keep the wrong one
+     * @throws UnreadableException if the record is not a version of a field, its area is invalid, or its key belongs to another
+     *     version: compaction would then retain the wrong one
      */
     static FieldVersionChange read(TopicRecord record) throws UnreadableException {
         if (record.key() == null) {

@@ -23,14 +23,14 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.position.Position;
 
 /**
- * The fields as one subtask knows them: all versions of all fields, asked for as of an event time, whose original time counts. A version holds from its
- * {@code validFrom} until that of the field's next version. For one thread.
+ * All versions of all fields, as known to one subtask; queries are as of the original time of an event time. A version holds from its
+ * {@code validFrom} until that of the field's next version. Not thread-safe.
  *
- * <p>Needs no state of Flink's: the topic is compacted and keeps every version, and is read to its end whenever the subtask
- * opens. The stream that follows repeats what was read; that is skipped by its offset.
+ * <p>Needs no Flink state: the topic is compacted, retains every version, and is read to its end whenever the subtask opens. The stream
+ * that follows repeats those records; they are skipped by offset.
  */
 public final class FieldVersions {
-    /** What Flink wants to know of broadcast state; there is none. */
+    /** Flink requires a descriptor of broadcast state; it stays empty. */
     public static final MapStateDescriptor<String, String> BROADCAST =
             new MapStateDescriptor<>("fields", Types.STRING, Types.STRING);
 
@@ -42,7 +42,7 @@ public final class FieldVersions {
 
     private FieldVersions() {}
 
-    /** To be called in {@code open}, before the first event, after restarts too. */
+    /** Must be called in {@code open}, before the first event, also after restarts. */
     public static FieldVersions read(TopicSnapshot atStart) throws IOException {
         FieldVersions known = new FieldVersions();
         for (TopicRecord record : atStart.read()) {
@@ -52,10 +52,10 @@ public final class FieldVersions {
     }
 
     /**
-     * Takes a record of the broadcast stream in. What is not a version of a field is skipped: {@link ParseFields} has made
-     * a dead letter of it.
+     * Applies a record of the broadcast stream. A record that is not a version of a field is skipped: {@link ParseFields} has made a dead
+     * letter of it.
      *
-     * @return whether it changes anything that was known
+     * @return whether it changed anything
      */
     public boolean take(TopicRecord record) {
         if (record.offset() <= passed.getOrDefault(record.partition(), -1L)) {
@@ -86,7 +86,7 @@ public final class FieldVersions {
         }
     }
 
-    /** The index is made again when it is asked after changes, so that a thousand fields at the start make it once. */
+    /** Rebuilds the index lazily, so that a thousand fields at the start need one rebuild. */
     private void refresh() {
         if (!stale) {
             return;
@@ -104,20 +104,20 @@ public final class FieldVersions {
         stale = false;
     }
 
-    /** The fields that cover a position at an event time in epoch ms, in no order. The border counts, also that of a hole. */
+    /** The fields that cover a position at an event time in epoch ms, unordered. The border counts, also that of a hole. */
     public List<Field> covering(Position position, long time) {
         refresh();
         return index.covering(position, Epochs.original(time));
     }
 
-    /** The field as it is at an event time; empty if there is none of that id at that time. */
+    /** The field as of an event time; empty if none of that id exists at that time. */
     public Optional<Field> at(String id, long time) {
         NavigableMap<Long, Optional<Located>> ofField = versions.get(id);
         Map.Entry<Long, Optional<Located>> last = ofField == null ? null : ofField.floorEntry(Epochs.original(time));
         return last == null ? Optional.empty() : last.getValue().map(Located::field);
     }
 
-    /** When, after an event time and in its epoch, any field begins, changes or ends as far as is known. */
+    /** The next time, after an event time and in its epoch, at which any field begins, changes or ends. */
     public OptionalLong nextChange(long after) {
         refresh();
         Long next = changes.higher(Epochs.original(after));

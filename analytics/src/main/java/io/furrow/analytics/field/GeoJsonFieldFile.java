@@ -17,9 +17,9 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Fields from a GeoJSON FeatureCollection (RFC 7946) of Polygons and MultiPolygons. A field's id is the feature's {@code id},
- * else its property {@code id}; its domain is the property {@code Domain}, its name the property {@code name}. It is there
- * from 1970 on, forever. A field that crosses the antimeridian is cut there into a MultiPolygon, as the RFC asks.
+ * Reads fields from a GeoJSON FeatureCollection (RFC 7946) of Polygons and MultiPolygons. A field's id is the feature's
+ * {@code id}, else its property {@code id}; its domain is the property {@code Domain}, its name the property {@code name}. It
+ * is valid from 1970 on, forever. A field that crosses the antimeridian is cut there into a MultiPolygon, as the RFC demands.
  */
 final class GeoJsonFieldFile {
     private final Path file;
@@ -29,9 +29,7 @@ final class GeoJsonFieldFile {
         this.file = file;
     }
 
-    /**
-     * @throws InvalidFieldsException if a single feature cannot be used: a field that is silently missing would be worse
-     */
+    /** @throws InvalidFieldsException if a single feature is invalid: a field that is silently missing would be worse */
     static List<FieldVersion> read(Path file) throws InvalidFieldsException {
         GeoJsonFieldFile reader = new GeoJsonFieldFile(file);
         JsonNode features = reader.json().path("features");

@@ -10,7 +10,7 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.topic.Topics;
 
-/** Fields that travel with the job, as if they were all that is on {@code service.fields}. */
+/** Fields that are part of the job, instead of those on {@code service.fields}. */
 final class InitialFields implements TopicSnapshot {
     private static final long serialVersionUID = 1L;
 

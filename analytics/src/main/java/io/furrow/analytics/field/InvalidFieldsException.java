@@ -1,6 +1,6 @@
 package io.furrow.analytics.field;
 
-/** A file of fields that a job cannot start with; the message names the file, the feature and the remedy. */
+/** Reports an invalid file of fields; the message names the file, the feature and the remedy. */
 final class InvalidFieldsException extends Exception {
     private static final long serialVersionUID = 1L;
 

@@ -7,13 +7,15 @@ import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Passes the records of {@code service.fields} on that are versions of fields; the others become dead letters. */
+/** Forwards the records of {@code service.fields} that are versions of fields; the others become dead letters. */
 public final class ParseFields extends ProcessFunction<TopicRecord, TopicRecord> {
     private static final long serialVersionUID = 1L;
 
     private final String stage;
 
-    /** @param stage what dead letters call the job */
+    /**
+     * @param stage name of the job in dead letters
+     */
     public ParseFields(String stage) {
         this.stage = stage;
     }

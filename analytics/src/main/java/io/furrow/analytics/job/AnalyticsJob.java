@@ -11,7 +11,7 @@ import io.furrow.flink.kafka.KafkaInput;
 import io.furrow.flink.kafka.KafkaOutput;
 import io.furrow.flink.record.TopicRecord;
 
-/** Puts an analytics job between its Kafka topics. */
+/** Connects an analytics job with its Kafka topics. */
 public final class AnalyticsJob {
     private AnalyticsJob() {}
 

@@ -9,7 +9,7 @@ import io.furrow.flink.job.AlignmentOptions;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.kafka.TopicOptions;
 
-/** Options of every analytics job. An accessor rejects a value that no job could start with. */
+/** Options of every analytics job. An accessor rejects an invalid value. */
 public abstract class AnalyticsOptions extends JobOptions {
     @Mixin
     private final TopicOptions topics = new TopicOptions();
@@ -20,7 +20,7 @@ public abstract class AnalyticsOptions extends JobOptions {
     @Mixin
     private final ResultTopics results;
 
-    /** The arguments are default topics. */
+    /** Takes the default topics. */
     protected AnalyticsOptions(String output, String lateOutput) {
         results = new ResultTopics(output, lateOutput);
     }
@@ -30,7 +30,7 @@ public abstract class AnalyticsOptions extends JobOptions {
         return topics;
     }
 
-    /** How far partitions may be apart in event time; empty for any distance. */
+    /** The maximum drift of event time between partitions; empty for no limit. */
     public Optional<Duration> maxDrift() {
         return alignment.maxDrift();
     }

@@ -1,2 +1,2 @@
-/** The frame of the analytics jobs: common options, and how a job is put between its topics. */
+/** The common frame of the analytics jobs: options, and the connection of a job with its topics. */
 package io.furrow.analytics.job;

@@ -2,7 +2,7 @@ package io.furrow.analytics.position;
 
 import org.apache.flink.api.common.typeinfo.TypeInfo;
 
-/** A device of a topic, as a key. What a record has for equality of its own is slower by the cost of a whole lookup. */
+/** A device of a topic, as a key. Not a record, because a record's own equality is slower by the cost of a whole lookup. */
 @TypeInfo(DeviceSerializer.class)
 public final class Device {
     private final String topic;

@@ -14,14 +14,14 @@ import io.furrow.flink.format.StringCodec;
 import io.furrow.model.event.FiwareScope;
 
 /**
- * What the positions of a device have in common. Texts are empty, never null, where nothing is known.
+ * The common part of a device's positions. Unknown texts are empty, never null.
  *
- * <p>It is written as one block of bytes and read by comparing that with what was read before: the same devices come again
- * and again, and to make their texts again each time costs more than all that is done with a position.
+ * <p>It is written as one block of bytes and read by comparing that with recently read blocks: the same devices recur, and
+ * decoding their texts each time costs more than all processing of a position.
  */
 public final class DeviceInfo {
     private static final int SLOT_BITS = 19;
-    /** Places for those of one slot: of 100,000 devices one in 1,000 finds them all taken. */
+    /** Ways of a slot: of 100,000 devices one in 1,000 finds all of them taken. */
     private static final int WAYS = 4;
 
     private static final int SPREAD = 0x9E3779B9;
@@ -75,7 +75,7 @@ public final class DeviceInfo {
                 && this.carrier.equals(carrier);
     }
 
-    /** In an empty place, else in the first. Of two threads that take one place the later is remembered; either is right. */
+    /** Uses an empty way, else the first. If two threads race for one, the later wins; either is right. */
     private static DeviceInfo keep(DeviceInfo reporter, int slot, DeviceInfo[] all) {
         int way = WAYS - 1;
         while (way > 0 && all[slot ^ way] != null) {
@@ -89,7 +89,7 @@ public final class DeviceInfo {
         return hash * SPREAD >>> Integer.SIZE - SLOT_BITS;
     }
 
-    /** The texts in their order; of an id that the identity ends with only its length, else -1 before it. */
+    /** The texts in their order; an id at the end of the identity is written as its length, any other after a -1. */
     private static byte[] block(Device device, String id, String type, String mission, String carrier) {
         DataOutputSerializer out = new DataOutputSerializer(Byte.MAX_VALUE);
         try {

@@ -8,7 +8,7 @@ import org.apache.flink.core.memory.DataOutputView;
 import io.furrow.flink.format.StringCodec;
 import io.furrow.flink.format.VersionedSerializer;
 
-/** How a {@link Device} is written. */
+/** Serializes {@link Device}. */
 public final class DeviceSerializer extends VersionedSerializer<Device> {
     private static final long serialVersionUID = 1L;
     /** Topic, identity. */

@@ -9,24 +9,24 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.position.Position;
 
 /**
- * Where a device was at an instant.
+ * The position of a device at an instant.
  *
- * @param reporter whose position it is
+ * @param reporter the device
  * @param latitude degrees, −90 to 90
  * @param longitude degrees, −180 to 180
- * @param speed meters per second as reported; NaN if nothing is known
- * @param heading degrees clockwise from north as reported, 0 to 360; NaN if nothing is known
+ * @param speed meters per second as reported; NaN if unknown
+ * @param heading degrees clockwise from north as reported, 0 to 360; NaN if unknown
  * @param time epoch milliseconds
  */
 @TypeInfo(PositionFixSerializer.class)
 public record PositionFix(
         DeviceInfo reporter, double latitude, double longitude, double speed, double heading, long time)
         implements HasEventTime {
-    /** The order in which a pair is named: by id, then by identity. */
+    /** The order of the devices of a pair: by id, then by identity. */
     public static final Comparator<PositionFix> NAMING =
             Comparator.comparing(PositionFix::id).thenComparing(PositionFix::identity);
 
-    /** By time; of two fixes of one device and instant the later in this order counts. */
+    /** By time; of two fixes of one device and instant the last in this order counts. */
     public static final Comparator<PositionFix> SEQUENCE = Comparator.comparingLong(PositionFix::time)
             .thenComparingDouble(PositionFix::latitude)
             .thenComparingDouble(PositionFix::longitude)
@@ -36,7 +36,7 @@ public record PositionFix(
             .thenComparingDouble(PositionFix::speed)
             .thenComparingDouble(PositionFix::heading);
 
-    /** Texts are empty, never null, where nothing is known. */
+    /** Unknown texts are empty, never null. */
     public PositionFix(
             String topic,
             String identity,
@@ -63,7 +63,7 @@ public record PositionFix(
         return reporter.device().topic();
     }
 
-    /** Tenant, service path, type and id: what makes the device unique within the topic. */
+    /** Tenant, service path, type and id, unique within the topic. */
     public String identity() {
         return reporter.device().identity();
     }
@@ -88,12 +88,12 @@ public record PositionFix(
         return reporter.carrier();
     }
 
-    /** One text per device of a topic. A topic's name has no {@code |}. */
+    /** Unique per device of a topic. A topic's name has no {@code |}. */
     public String key() {
         return topic() + '|' + identity();
     }
 
-    /** The same without a text to be made. */
+    /** The same without creating a text. */
     public Device device() {
         return reporter.device();
     }
@@ -102,23 +102,23 @@ public record PositionFix(
         return device().equals(other.device());
     }
 
-    /** The tenant and service path that the identity begins with. */
+    /** The tenant and service path from the identity. */
     public FiwareScope scope() {
         return FiwareScope.ofIdentity(identity());
     }
 
-    /** The same device at the same place, carried by another. */
+    /** The same device at the same place, with another carrier. */
     public PositionFix carriedBy(String other) {
         return new PositionFix(
                 DeviceInfo.of(device(), id(), type(), mission(), other), latitude, longitude, speed, heading, time);
     }
 
-    /** Tenant, service path and id: as what others name the device, and {@code service.devices}. */
+    /** Tenant, service path and id: the name used by other devices and {@code service.devices}. */
     public String name() {
         return reporter.name();
     }
 
-    /** Whether both are parts of one aggregate: they have one id, one carries the other, or a third carries both. */
+    /** Whether both are parts of one aggregate: they have the same id, one carries the other, or a third carries both. */
     public boolean sharesAggregateWith(PositionFix other) {
         return name().equals(other.name())
                 || !carrier().isEmpty()

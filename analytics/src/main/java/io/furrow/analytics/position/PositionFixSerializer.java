@@ -7,7 +7,7 @@ import org.apache.flink.core.memory.DataOutputView;
 
 import io.furrow.flink.format.VersionedSerializer;
 
-/** How a {@link PositionFix} is written. */
+/** Serializes {@link PositionFix}. */
 public final class PositionFixSerializer extends VersionedSerializer<PositionFix> {
     public static final PositionFixSerializer INSTANCE = new PositionFixSerializer();
 

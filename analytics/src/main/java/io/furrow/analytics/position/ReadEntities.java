@@ -17,12 +17,12 @@ import io.furrow.model.position.EntityReader;
 import io.furrow.model.result.ResultTypes;
 
 /**
- * Frame of the functions that extract values from reported entities, at the event time of their record. Unreadable records and
- * those from the future, counted as {@code rejected}, become dead letters, except those of {@code data.raw}, for which
- * {@code ingest} writes them. Records without a value for this job are counted as {@code skipped}: deletions, results, marks of a
- * replay, and what the subclass skips.
+ * Base of functions that extract values from reported entities, at the event time of their record. Unreadable records and those
+ * from the future, counted as {@code rejected}, become dead letters, except those of {@code data.raw}, for which {@code ingest}
+ * writes them. Records without a value for this job are counted as {@code skipped}: deletions, results, marks of a replay, and
+ * what the subclass skips.
  *
- * @param <T> what is extracted
+ * @param <T> the extracted values
  */
 public abstract class ReadEntities<T> extends ProcessFunction<TopicRecord, T> {
     private static final long serialVersionUID = 1L;
@@ -48,9 +48,9 @@ public abstract class ReadEntities<T> extends ProcessFunction<TopicRecord, T> {
     }
 
     /**
-     * Extracts from the entity that was read.
+     * Extracts from the parsed entity.
      *
-     * @return whether the entity has what this job reads
+     * @return whether the entity has a value for this job
      * @throws UnreadableException if the record is to become a dead letter
      */
     protected abstract boolean extract(EntityReader entity, TopicRecord record, Collector<T> out)

@@ -18,7 +18,7 @@ import io.furrow.model.position.EntityReader;
 import io.furrow.model.position.Position;
 import io.furrow.model.position.PositionReading;
 
-/** Extracts positions. Those that cannot be right are counted as {@code positionsFaulty}; entities without one are skipped. */
+/** Extracts positions. Impossible ones are counted as {@code positionsFaulty}; entities without one are skipped. */
 public final class ReadPositions extends ReadEntities<PositionFix> {
     private static final long serialVersionUID = 1L;
 

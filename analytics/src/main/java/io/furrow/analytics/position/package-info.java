@@ -1,2 +1,2 @@
-/** Positions of devices, extracted from reported entities: what all analytics jobs begin with. */
+/** Positions of devices, extracted from reported entities: the input of all analytics jobs. */
 package io.furrow.analytics.position;

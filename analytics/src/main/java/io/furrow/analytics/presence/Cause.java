@@ -1,14 +1,14 @@
 package io.furrow.analytics.presence;
 
-/** Why a device entered or left a field at an instant. */
+/** The cause of a device's entry into or exit from a field. */
 public enum Cause {
     /** It reported another position at that instant. */
     MOVED("moved"),
     /** A version of the field has another area from then on; the device reported nothing at that instant. */
     FIELD_CHANGED("field-changed"),
-    /** There is no field of that id from then on. */
+    /** No field of that id exists from then on. */
     FIELD_REMOVED("field-removed"),
-    /** Its position was as old as the time-to-live. */
+    /** Its position reached the time-to-live. */
     SILENT("silent");
 
     private final String code;
@@ -17,7 +17,7 @@ public enum Cause {
         this.code = code;
     }
 
-    /** As messages have it. */
+    /** The code in messages. */
     public String code() {
         return code;
     }

@@ -19,10 +19,10 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.BroadcastLatenessOperator;
 import io.furrow.flink.time.ClockSkewLimit;
 
-/** The job {@code presence}: which device entered and left which field, and how long it stayed. */
+/** The job {@code presence}: detects which device entered and left which field, and how long it stayed. */
 public final class PresenceJob {
     /**
-     * What comes in.
+     * The inputs of the job.
      *
      * @param records entities with event time as their timestamp
      */
@@ -30,14 +30,14 @@ public final class PresenceJob {
 
     private PresenceJob() {}
 
-    /** The job between its Kafka topics, ready to be executed. */
+    /** Returns the job between its Kafka topics, ready to be executed. */
     public static StreamExecutionEnvironment assemble(PresenceOptions options) {
         return AnalyticsJob.assemble(
                 options,
                 (env, records) -> define(new Inputs(records, FieldInput.of(env, options, options.fields())), options));
     }
 
-    /** Passages, late positions, what is wrong with clocks, and dead letters; each record names its topic. */
+    /** Returns transitions, late positions, clock reports and dead letters; each record names its topic. */
     static DataStream<TopicRecord> define(Inputs in, PresenceOptions options) {
         if (!options.clockSettings().correct()) {
             return follow(in, options);

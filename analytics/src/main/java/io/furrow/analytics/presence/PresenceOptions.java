@@ -11,7 +11,7 @@ import io.furrow.analytics.field.FieldOptions;
 import io.furrow.analytics.job.AnalyticsOptions;
 import io.furrow.model.topic.Topics;
 
-/** The options of the job {@code presence}. An accessor refuses a value that no job could start with. */
+/** The options of the job {@code presence}. An accessor rejects an invalid value. */
 @Command(
         name = "presence",
         sortOptions = false,
@@ -57,12 +57,10 @@ public final class PresenceOptions extends AnalyticsOptions {
         }
     }
 
-    /** Where the job learns of the fields. */
     public FieldOptions fields() {
         return fields;
     }
 
-    /** What is done about the clocks of devices. */
     public ClockSettings clockSettings() {
         return clocks;
     }

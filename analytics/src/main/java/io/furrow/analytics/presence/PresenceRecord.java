@@ -14,10 +14,7 @@ import io.furrow.model.result.ResultTypes;
 import io.furrow.model.text.Sha256;
 import io.furrow.model.topic.Topics;
 
-/**
- * What the job writes about passages and about positions that it could not count: to the given topic, or to the replay's own of
- * what was found in a replay.
- */
+/** Records of transitions and late positions: for the given topic, or for the output topic of the replay that they come from. */
 final class PresenceRecord {
     private static final String SOURCE = "/analytics/presence";
     private static final int ID_BYTES = 16;
@@ -25,8 +22,8 @@ final class PresenceRecord {
     private PresenceRecord() {}
 
     /**
-     * An entity per device and field, so that the context broker keeps the newest passage and does not grow forever; key = device id,
-     * timestamp = when it was certain.
+     * An entity per device and field, so that the context broker stores the newest transition and does not grow forever; key = device
+     * id, timestamp = when it was certain.
      */
     static TopicRecord of(PresenceTransition passage, String topic) {
         Visit stay = passage.stay();

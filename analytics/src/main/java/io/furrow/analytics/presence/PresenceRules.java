@@ -4,9 +4,9 @@ import java.io.Serializable;
 import java.time.Duration;
 
 /**
- * What counts as being in a field.
+ * The rules by which a device counts as inside a field.
  *
- * @param timeToLive how long a position counts when no newer one comes
+ * @param timeToLive how long a position is valid if no newer one arrives
  * @param dwell how long a device must be in before it has entered, and out before it has left
  */
 public record PresenceRules(Duration timeToLive, Duration dwell) implements Serializable {

@@ -5,16 +5,16 @@ import java.util.List;
 import io.furrow.analytics.position.PositionFix;
 
 /**
- * What is kept of a device.
+ * The state of a device.
  *
- * @param last the newest position, as long as it counts; null if there is none
- * @param judged up to when changes of fields are taken into account, epoch ms
- * @param stays by field, at most one of each
+ * @param last the newest valid position; null if there is none
+ * @param judged up to when changes of fields have been applied, epoch ms
+ * @param stays at most one per field
  */
 public record PresenceState(PositionFix last, long judged, List<Visit> stays) {
     static final PresenceState NOWHERE = new PresenceState(null, Long.MIN_VALUE, List.of());
 
-    /** Whether nothing can come of it any more. */
+    /** Whether the state is empty. */
     boolean isNowhere() {
         return last == null && stays.isEmpty();
     }

@@ -15,8 +15,8 @@ import io.furrow.analytics.field.FieldVersions;
 import io.furrow.analytics.position.PositionFix;
 
 /**
- * Follows one device through the fields: at each instant at which it reports, falls silent, or any field changes, it is seen which
- * fields cover it. Going in and going out count after the dwell, {@code [t, t + dwell)} without interruption.
+ * Follows one device through the fields: whenever it reports, falls silent, or any field changes, determines which fields cover
+ * it. Entering and leaving count after the dwell, {@code [t, t + dwell)} without interruption.
  */
 final class PresenceTracker implements Serializable {
     private static final long serialVersionUID = 1L;
@@ -34,7 +34,7 @@ final class PresenceTracker implements Serializable {
      * The presence after all positions of one device up to an instant.
      *
      * @param due in the order of {@link PositionFix#SEQUENCE}, none later than {@code until}
-     * @param out takes the passages in the order of the times at which they are certain
+     * @param out receives the transitions in the order of the times at which they are certain
      */
     PresenceState advance(
             PresenceState from,
@@ -58,7 +58,7 @@ final class PresenceTracker implements Serializable {
         }
     }
 
-    /** The next instant, after those judged, that can bring something without a new position. */
+    /** The next instant, after those evaluated, that can cause a transition without a new position. */
     long nextInstant(PresenceState now, FieldVersions fields) {
         long next = now.stays().stream()
                 .mapToLong(stay -> stay.deadline(dwell))
@@ -71,7 +71,7 @@ final class PresenceTracker implements Serializable {
         return Math.min(Math.min(next, change), now.last().time() + timeToLive);
     }
 
-    /** Looks at the device once more, at an instant not before the last: a version that came late shows now. */
+    /** Evaluates the device again, at an instant not before the last: a late version takes effect now. */
     PresenceState again(PresenceState now, long time, FieldVersions fields, Consumer<PresenceTransition> out) {
         return now.last() == null ? now : at(now, time, null, fields, out);
     }
@@ -114,7 +114,7 @@ final class PresenceTracker implements Serializable {
         return moved ? Cause.MOVED : Cause.FIELD_CHANGED;
     }
 
-    /** Returns what is certain at an instant; stays that are over fall away. */
+    /** Emits the transitions that are certain at an instant; returns the visits that are not over. */
     private List<Visit> emitted(List<Visit> stays, long time, Consumer<PresenceTransition> out) {
         List<Visit> kept = new ArrayList<>();
         for (Visit stay : stays) {

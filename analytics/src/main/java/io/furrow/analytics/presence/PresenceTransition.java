@@ -1,14 +1,14 @@
 package io.furrow.analytics.presence;
 
 /**
- * A device went into a field or out of it, and stayed so for the dwell.
+ * The entry of a device into a field, or its exit, certain after the dwell.
  *
- * @param phase which of both
- * @param stay with its {@code since}, and {@code left} where it is over
+ * @param phase entry or exit
+ * @param stay with its {@code since}, and {@code left} if it is over
  * @param emitted when it was certain: the dwell after the device went in or out, epoch ms
  */
 public record PresenceTransition(Phase phase, Visit stay, long emitted) {
-    /** In or out. */
+    /** Entry or exit. */
     public enum Phase {
         ENTERED("entered"),
         LEFT("left");
@@ -19,7 +19,7 @@ public record PresenceTransition(Phase phase, Visit stay, long emitted) {
             this.code = code;
         }
 
-        /** As messages have it. */
+        /** The code in messages. */
         public String code() {
             return code;
         }

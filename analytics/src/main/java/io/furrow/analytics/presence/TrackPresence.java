@@ -25,16 +25,17 @@ import io.furrow.flink.time.LatenessAware;
 /**
  * Emits when devices enter and leave fields. Key: the device of a topic.
  *
- * <p><b>State</b>: positions that wait for the watermark, the presence; how far event time has come, because a restored job
- * starts without a watermark and must not go back behind what it has emitted. Fields: see {@link FieldVersions}.
+ * <p><b>State</b>: positions that wait for the watermark, the presence; the event time reached, because a restored job starts without a
+ * watermark and must not fall behind its output. Fields: see {@link FieldVersions}.
  *
  * <p><b>Cleared</b>: when the position's time-to-live has ended, the last {@code left} is emitted and no position waits.
  *
- * <p><b>Late</b>: a position not after the watermark goes to {@link #LATE}, and to {@link #LAGGING} if the device has reported no newer one.
- * So does, to {@code LATE}, a position of which {@value #MAX_WAITING} wait, counted as {@code rejectedCrowded}. A version of a field that comes after its time has passed for a
- * device shows when the device is next looked at: with its next position, or within {@link #AGAIN} of event time.
+ * <p><b>Late</b>: a position not after the watermark goes to {@link #LATE}, and to {@link #LAGGING} if the device has reported no newer
+ * one. A position beyond the {@value #MAX_WAITING} waiting ones goes to {@code LATE} too, counted as {@code rejectedCrowded}. A version of a
+ * field that arrives too late for a device takes effect when the device is next evaluated: with its next position, or within {@link #AGAIN}
+ * of event time.
  *
- * <p><b>Emits</b>: passages, a device's in the order of the times at which they are certain, before the watermark of that time.
+ * <p><b>Emits</b>: transitions, a device's in the order of the times at which they are certain, before the watermark of that time.
  */
 public final class TrackPresence
         extends KeyedBroadcastProcessFunction<String, PositionFix, TopicRecord, PresenceTransition>
@@ -45,9 +46,9 @@ public final class TrackPresence
     static final OutputTag<LaggingPosition> LAGGING = new OutputTag<>("lagging") {
         private static final long serialVersionUID = 1L;
     };
-    /** Positions of a device. */
+    /** Maximum per device. */
     static final int MAX_WAITING = 100_000;
-    /** How long a device that says nothing is left alone, ms. A new version reaches no timer of a key by itself. */
+    /** Interval, in ms, at which a silent device is evaluated: a new version fires no timer of a key. */
     static final long AGAIN = 5_000;
 
     private static final long serialVersionUID = 1L;

@@ -9,10 +9,10 @@ import io.furrow.analytics.position.PositionFix;
  * @param name the field's name at the entry; empty if it has none
  * @param domain the field's domain at the entry; empty if it has none
  * @param since when the device came in, epoch ms
- * @param emitted whether the stay was as long as the dwell, and {@code entered} said
- * @param left since when the device is out, epoch ms; {@link #INSIDE} while it is in
- * @param cause of the last going in or out
- * @param fix the position with which it went in or out
+ * @param emitted whether the stay reached the dwell and {@code entered} was emitted
+ * @param left when the device went out, epoch ms; {@link #INSIDE} while it is in
+ * @param cause of the last entry or exit
+ * @param fix the position at the last entry or exit
  */
 public record Visit(
         String field,
@@ -29,7 +29,7 @@ public record Visit(
         return left == INSIDE;
     }
 
-    /** The instant at which there is something to emit unless the device goes in or out before; none where that is done. */
+    /** When the next transition is emitted unless the device goes in or out before; {@link Long#MAX_VALUE} for never. */
     long deadline(long dwell) {
         if (!isInside()) {
             return left + dwell;

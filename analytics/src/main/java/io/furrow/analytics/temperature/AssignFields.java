@@ -15,11 +15,11 @@ import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 
 /**
- * Gives a reading to every field that covers its position at its time.
+ * Emits a reading once for each field that covers its position at its time.
  *
- * <p>State: none of Flink's, see {@link FieldVersions}. Late: a version that comes after a reading of its time does not change
- * where that went. Emits: a reading once per field; counted are {@code inside} and {@code outside} of all fields, and {@code
- * fieldChanges}.
+ * <p>State: none in Flink, see {@link FieldVersions}. Late: a version that arrives after a reading of its time does not change
+ * that reading's fields. Emits: a reading once per field; counts readings {@code inside} and {@code outside} of all fields,
+ * and {@code fieldChanges}.
  */
 public final class AssignFields extends BroadcastProcessFunction<Reading, TopicRecord, FieldReading> {
     private static final long serialVersionUID = 1L;

@@ -12,7 +12,7 @@ import org.apache.flink.util.Collector;
  * Computes a field's result from the votes of its devices.
  *
  * <p>State: the votes of each field and window. Cleared: with the window, when the watermark passes its end and the allowed
- * lateness. Late: a vote cast again replaces the device's earlier one, and the result is made again. Emits: one result per
+ * lateness. Late: a repeated vote replaces the device's earlier one, and the result is emitted again. Emits: one result per
  * field and window in which a device voted, when the watermark passes the end of the window.
  */
 final class AverageVotes extends ProcessWindowFunction<DeviceVote, FieldAverage, String, TimeWindow> {

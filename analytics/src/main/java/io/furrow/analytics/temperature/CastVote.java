@@ -5,11 +5,11 @@ import org.apache.flink.streaming.api.windowing.windows.TimeWindow;
 import org.apache.flink.util.Collector;
 
 /**
- * Gives a device its one vote in a field's window: a device that reports often counts no more than one that reports rarely.
+ * Gives a device one vote in a field's window: a device that reports often counts no more than one that reports rarely.
  *
- * <p>State: the values of each device, field and window and how often each came ({@link DeviceReadings}). Cleared: with the window, when the watermark
- * passes its end and the allowed lateness. Late: within the allowed lateness the vote is cast again; after it the reading
- * goes to the side output. Emits: the median, when the watermark passes the end of the window.
+ * <p>State: the values of each device, field and window with their counts ({@link DeviceReadings}). Cleared: with the window, when the
+ * watermark passes its end and the allowed lateness. Late: within the allowed lateness the vote is cast again; after it the reading goes to
+ * the side output. Emits: the median, when the watermark passes the end of the window.
  */
 final class CastVote implements WindowFunction<DeviceReadings, DeviceVote, String, TimeWindow> {
     private static final long serialVersionUID = 1L;

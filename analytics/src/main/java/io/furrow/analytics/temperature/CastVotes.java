@@ -19,18 +19,18 @@ import org.apache.flink.util.OutputTag;
 import io.furrow.flink.time.EventTimeProgress;
 
 /**
- * Flink's windows with {@link CollectReadings} and {@link CastVote}, in which a window that an earlier run has closed stays
- * closed: Flink's own would open it again for what comes before the first watermark after a restart.
+ * Flink's windows with {@link CollectReadings} and {@link CastVote}, except that a window closed by an earlier run stays
+ * closed: Flink would reopen it for elements that arrive before the first watermark after a restart.
  */
 final class CastVotes extends WindowOperator<String, FieldReading, DeviceReadings, DeviceVote, TimeWindow> {
     private static final long serialVersionUID = 1L;
-    /** As Flink calls it, so that either's state is the other's. */
+    /** Flink's name of the state, for compatibility with its own windows. */
     private static final String STATE = "window-contents";
 
     private transient EventTimeProgress reached;
 
     /**
-     * @param late takes readings whose windows are all closed
+     * @param late receives readings whose windows are all closed
      * @param readings by the key of a device in a field
      */
     CastVotes(

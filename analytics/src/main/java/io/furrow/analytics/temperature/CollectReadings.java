@@ -6,9 +6,8 @@ import java.util.List;
 import org.apache.flink.api.common.functions.AggregateFunction;
 
 /**
- * Collects the values of the devices of an id in a window, and nothing else of its records. A state backend on disk reads and
- * writes all of that with every reading; values are counted, because a sensor that reports each second of a day has
- * few different ones.
+ * Collects only the values of the devices of an id in a window, because a state backend on disk reads and writes all of it
+ * with every reading. Values are counted, because a sensor that reports each second of a day has few different ones.
  */
 final class CollectReadings implements AggregateFunction<FieldReading, DeviceReadings, DeviceReadings> {
     private static final long serialVersionUID = 1L;
@@ -58,7 +57,7 @@ final class CollectReadings implements AggregateFunction<FieldReading, DeviceRea
         return readings;
     }
 
-    /** Only session windows merge. */
+    /** Never called: only session windows merge. */
     @Override
     public DeviceReadings merge(DeviceReadings one, DeviceReadings other) {
         throw new UnsupportedOperationException("windows of a fixed length do not merge");

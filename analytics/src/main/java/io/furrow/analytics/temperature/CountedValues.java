@@ -5,11 +5,11 @@ import java.util.Collections;
 import java.util.List;
 
 /**
- * What one device measured in one field and window.
+ * The measurements of one device in one field and window.
  *
  * @param type of its entity
- * @param values in the attribute's unit, each once, in rising order
- * @param times how often each came
+ * @param values in the attribute's unit, distinct, in rising order
+ * @param times count of each value
  */
 public record CountedValues(String type, List<Double> values, List<Integer> times) {
     static CountedValues none(String type) {
@@ -27,7 +27,7 @@ public record CountedValues(String type, List<Double> values, List<Integer> time
         }
     }
 
-    /** Of all values, each as often as it came. */
+    /** The median of all values, weighted by their counts. */
     double median() {
         int all = times.stream().mapToInt(Integer::intValue).sum();
         double upper = inOrder(all / 2);

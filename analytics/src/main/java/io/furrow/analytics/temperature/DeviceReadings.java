@@ -4,14 +4,14 @@ import java.util.List;
 import java.util.stream.Stream;
 
 /**
- * What the devices of one id measured in one field and window so far; the state of a window that is still open. Nearly always there is
- * one: those of further types are in a list.
+ * The measurements so far of the devices of one id in one field and window; the state of an open window. Nearly always there is one
+ * device: those of further types are in a list.
  *
- * @param domain of the field, as of its newest version that a reading knows
+ * @param domain of the field, as of the newest version among the readings
  * @param validFrom of that version, epoch ms
  * @param device entity id
- * @param values of the first device in the attribute's unit, each once, in rising order
- * @param times how often each came
+ * @param values of the first device in the attribute's unit, distinct, in rising order
+ * @param times count of each value
  * @param type of the first device; null before the first reading
  * @param others devices of further types; null if there are none
  */
@@ -25,7 +25,7 @@ public record DeviceReadings(
         List<Integer> times,
         String type,
         List<CountedValues> others) {
-    /** One of each type, the first in front. */
+    /** One of each type, the first one first. */
     List<CountedValues> all() {
         return others == null
                 ? List.of(first())

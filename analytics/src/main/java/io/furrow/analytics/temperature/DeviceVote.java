@@ -3,9 +3,9 @@ package io.furrow.analytics.temperature;
 import java.util.Comparator;
 
 /**
- * The one value that a device has in a field's window.
+ * The vote of a device in a field's window.
  *
- * @param domain of the field, as of its newest version that a reading knows
+ * @param domain of the field, as of the newest version among the readings
  * @param validFrom of that version, epoch ms
  * @param device entity id
  * @param value the median of its readings, in the attribute's unit
@@ -27,12 +27,12 @@ public record DeviceVote(
     static final Comparator<DeviceVote> NAMING =
             Comparator.comparing(DeviceVote::device).thenComparing(DeviceVote::type);
 
-    /** Type and id; the length makes it unambiguous: no two devices of a field share it. */
+    /** Type and id, unique within a field; the length makes it unambiguous. */
     String voter() {
         return type.length() + ":" + type + device;
     }
 
-    /** The field among those of all topics and tenants: devices of two tenants are never averaged together. */
+    /** The field, unique across topics and tenants: devices of two tenants are never averaged together. */
     String fieldIdentity() {
         return scope.identity(field);
     }

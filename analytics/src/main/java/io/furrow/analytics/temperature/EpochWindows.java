@@ -15,8 +15,8 @@ import org.apache.flink.streaming.api.windowing.windows.TimeWindow;
 import io.furrow.flink.record.Epochs;
 
 /**
- * Windows of event time that begin at whole multiples of the slide since 1970 of the original time, in each epoch of a replay: a
- * span of an epoch is not a whole number of most windows. In epoch 0 they are those of Flink's own assigners, and their state is too.
+ * Assigns event-time windows that begin at whole multiples of the slide since 1970 of the original time, in each epoch of a replay:
+ * the span of an epoch is not a whole number of most windows. In epoch 0 they and their state equal those of Flink's own assigners.
  */
 final class EpochWindows extends WindowAssigner<Object, TimeWindow> {
     private static final long serialVersionUID = 1L;
@@ -29,7 +29,9 @@ final class EpochWindows extends WindowAssigner<Object, TimeWindow> {
         this.slide = slide;
     }
 
-    /** @param slide from start to start; the size where windows do not overlap */
+    /**
+     * @param slide from start to start; the size if windows do not overlap
+     */
     static EpochWindows of(Duration size, Duration slide) {
         return new EpochWindows(size.toMillis(), slide.toMillis());
     }

@@ -5,11 +5,11 @@ import java.util.List;
 /**
  * The average of a field in one window.
  *
- * @param domain empty if the field belongs to none
- * @param scope of the devices that were averaged
+ * @param domain empty if the field has none
+ * @param scope of the averaged devices
  * @param windowStart first instant of the window, epoch ms
  * @param windowEnd first instant after the window, epoch ms
- * @param suspectTypes of the entities of its suspects, in their order; empty where it is not known
+ * @param suspectTypes entity types of the suspects, in their order; empty if unknown
  */
 public record FieldAverage(
         String field,
@@ -19,7 +19,7 @@ public record FieldAverage(
         long windowEnd,
         RobustMean average,
         List<String> suspectTypes) {
-    /** The field among those of all topics and tenants. */
+    /** The field, unique across topics and tenants. */
     String fieldIdentity() {
         return scope.identity(field);
     }

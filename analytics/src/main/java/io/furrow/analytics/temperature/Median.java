@@ -7,7 +7,7 @@ final class Median {
     private Median() {}
 
     /**
-     * @param values at least one, in any order; left as they are
+     * @param values at least one, in any order; not modified
      */
     static double of(double... values) {
         if (values.length == 0) {

@@ -27,12 +27,12 @@ import io.furrow.model.position.Position;
 import io.furrow.model.position.PositionReading;
 
 /**
- * Extracts the readings of one attribute. Entities without it are skipped; a value that is not a finite number and a position that
- * cannot be right are counted as {@code faulty}, readings without a position as {@code unlocated}.
+ * Extracts the readings of one attribute. Entities without it are skipped; a value that is not a finite number and an impossible
+ * position are counted as {@code faulty}, readings without a position as {@code unlocated}.
  */
 final class ReadReadings extends ReadEntities<Reading> {
     private static final long serialVersionUID = 1L;
-    /** Nothing is that warm; sums and differences of greater doubles could leave the range of doubles. */
+    /** No temperature is that high; sums and differences of greater doubles could overflow. */
     private static final double MAX = 1e100;
 
     private final String attribute;
@@ -80,12 +80,12 @@ final class ReadReadings extends ReadEntities<Reading> {
         return true;
     }
 
-    /** The same event in another epoch is not a repetition. */
+    /** The same event in another epoch is not a duplicate. */
     private static String idOf(String event, long epoch) {
         return epoch == 0 ? event : event + ":" + epoch;
     }
 
-    /** What the job read of it: an image need not go through windows only to be late. */
+    /** The attributes that the job read: an image need not pass through windows only to be late. */
     private TopicRecord excerpt(EntityReader entity, TopicRecord record, Position position, double value) {
         EntityBuilder read = Entity.builder(entity.id(), entity.type())
                 .number("Latitude", position.latitude())

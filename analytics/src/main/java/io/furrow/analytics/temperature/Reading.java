@@ -7,13 +7,13 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.position.Position;
 
 /**
- * What one device measured at one place; the element's timestamp is its event time.
+ * A measurement of one device at one place; the element's timestamp is its event time.
  *
  * @param device entity id
  * @param type of the entity
  * @param value in the attribute's unit, finite
  * @param eventId equal for every copy of the same event
- * @param record as it was read, for the topic of late readings; of a large one what the job read of it
+ * @param record the input record, for the topic of late readings; an excerpt if it is large
  */
 public record Reading(
         String device,
@@ -23,7 +23,7 @@ public record Reading(
         double value,
         String eventId,
         TopicRecord record) {
-    /** The topic that it is from, and the tenant. */
+    /** Its topic and tenant. */
     InputScope input() {
         return new InputScope(record.topic(), scope);
     }
@@ -37,7 +37,7 @@ public record Reading(
         }
     }
 
-    /** The device among those of all topics and tenants, whatever its type. */
+    /** The device, unique across topics and tenants, whatever its type. */
     String deviceIdentity() {
         return input().identity(device);
     }

@@ -13,18 +13,18 @@ import io.furrow.model.result.FieldResult;
 import io.furrow.model.topic.Topics;
 
 /**
- * Describes results as entities, named after the attribute, its first letter in upper case: of {@code soilMoisture} the entity
- * {@code Analytics:FieldSoilMoisture:<field>} of type {@code Analytics:FieldSoilMoisture} with the attribute {@code
- * averageSoilMoisture}, so that two attributes of a field are two entities of the context broker. Its attributes each window
- * replaces. All values are in the unit in which the devices report.
+ * Describes results as entities, named after the attribute with its first letter in upper case: of {@code soilMoisture} the
+ * entity {@code Analytics:FieldSoilMoisture:<field>} of type {@code Analytics:FieldSoilMoisture} with the attribute
+ * {@code averageSoilMoisture}, so that two attributes of a field are two entities of the context broker. Each window replaces
+ * the entity's attributes. All values are in the unit in which the devices report.
  *
  * @param attribute that was averaged
- * @param topic of the results; those of a replay go to its own
+ * @param topic of the results; those of a replay go to its output topic
  */
 record ResultEntity(String attribute, String topic) implements Serializable {
     private static final String SOURCE = "/analytics/temperature";
 
-    /** Key = field id; timestamp = the window's last instant, so that hours made of windows find each in its hour. */
+    /** Key = field id; timestamp = the window's last instant, so that each window falls into its hour. */
     TopicRecord of(FieldAverage result) {
         String type = FieldResult.TYPE_PREFIX + title();
         RobustMean average = result.average();
@@ -46,12 +46,12 @@ record ResultEntity(String attribute, String topic) implements Serializable {
         return ResultRecord.of(output, result.field(), entity, result.scope().fiware(), result.windowEnd() - 1, SOURCE);
     }
 
-    /** A time in the epoch of a window, of which the first may begin before 1970. */
+    /** Original time, relative to the epoch of a window, the first of which may begin before 1970. */
     private static long original(long time, long windowEnd) {
         return time - Epochs.begin(windowEnd - 1);
     }
 
-    /** Null if there was nothing to average: the value of an earlier window must not stand beside this one's. */
+    /** Null if there was nothing to average: the value of an earlier window must not remain beside this one's. */
     private static void number(EntityBuilder entity, String name, double value) {
         if (Double.isNaN(value)) {
             entity.attribute(name, "Float", JsonNodeFactory.instance.nullNode());

@@ -6,22 +6,22 @@ import java.util.List;
 import java.util.Map;
 
 /**
- * The mean of what devices say, without those that cannot be right by the {@link SuspectRule}.
+ * The mean of the devices' votes, without those that the {@link SuspectRule} excludes.
  *
  * <p>A pure function of the votes: their order makes no difference, not even in the last bit. All values are in the unit of
- * the votes; nothing is rounded, since rounding belongs to whoever shows a value.
+ * the votes and not rounded; rounding is left to the display.
  *
- * @param mean of the devices that were not set aside
+ * @param mean of the devices that were not excluded
  * @param plainMean of all devices
- * @param spread 1.4826 × the median absolute deviation of all devices from their median: what a standard deviation would be
- *     without the defective ones (B. Iglewicz, D. Hoaglin, "How to Detect and Handle Outliers", 1993)
- * @param devices how many voted, those set aside included
- * @param suspects ids of the devices set aside, sorted
- * @param verified whether there were devices enough (three) to detect a defective one
+ * @param spread 1.4826 × the median absolute deviation of all devices from their median: an estimate of the standard
+ *     deviation without the defective ones (B. Iglewicz, D. Hoaglin, "How to Detect and Handle Outliers", 1993)
+ * @param devices number of devices that voted, including excluded ones
+ * @param suspects ids of the excluded devices, sorted
+ * @param verified whether there were enough devices (three) to detect a defective one
  */
 public record RobustMean(
         double mean, double plainMean, double spread, int devices, List<String> suspects, boolean verified) {
-    /** Of no devices there is no mean. */
+    /** The result without devices. */
     static final RobustMean OF_NONE = new RobustMean(Double.NaN, Double.NaN, Double.NaN, 0, List.of(), false);
 
     private static final double CONSISTENCY = 1.4826;
@@ -51,12 +51,12 @@ public record RobustMean(
                 values.length >= SuspectRule.MIN);
     }
 
-    /** The same with the suspects by other names. */
+    /** The same with other names of the suspects. */
     RobustMean naming(List<String> names) {
         return new RobustMean(mean, plainMean, spread, devices, names, verified);
     }
 
-    /** Votes of one value are neighbors: which device gave which makes no difference to the rule. */
+    /** Equal votes are neighbors: the rule does not depend on which device gave which. */
     private static Comparator<Map.Entry<String, Double>> nearestFirst(double median) {
         return Comparator.comparingDouble((Map.Entry<String, Double> vote) -> Math.abs(vote.getValue() - median))
                 .thenComparingDouble(Map.Entry::getValue);

@@ -12,11 +12,11 @@ package io.furrow.analytics.temperature;
  *
  * s being their standard deviation. The first factor is within 0.06 of the normal quantile that the greatest of n sound votes
  * exceeds in 1 % of windows, from 3 to 1,000 devices; the second allows for the error of the mean of k. The factor of s allows
- * for the k nearest of n − 1 being closer together than all of them: by k/(n − 1) where they are spread evenly. {@code
- * SuspectSimulationTest} measures how often sound and defective devices are named.
+ * for the k nearest of n − 1 being closer together than all of them: by k/(n − 1) if they are spread evenly. {@code
+ * SuspectSimulationTest} measures how often sound and defective devices become suspects.
  */
 final class SuspectRule {
-    /** Of two devices that disagree nobody knows which one is right. */
+    /** If two devices disagree, it cannot be decided which one is right. */
     static final int MIN = 3;
 
     private static final double SAMPLES_BEYOND = 22;
@@ -26,7 +26,7 @@ final class SuspectRule {
     private SuspectRule() {}
 
     /**
-     * How many votes are sound; all where there are fewer than {@value #MIN}.
+     * The number of sound votes; all if there are fewer than {@value #MIN}.
      *
      * @param outward each vote less the median of all, the nearest first
      * @param floor by how much two sound devices in one place differ: the standard deviation of the difference, at least

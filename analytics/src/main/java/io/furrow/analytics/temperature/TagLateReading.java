@@ -14,8 +14,8 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 
 /**
- * Turns a reading that came after its window was closed back into the record it was, with two headers more: {@value #FIELD}
- * (id) and {@value #WINDOW} (the last window it belonged to, {@code <start>/<end>} in ISO 8601). Counted as {@code late}.
+ * Turns a reading that arrived after its window was closed back into its record, with two additional headers:
+ * {@value #FIELD} (id) and {@value #WINDOW} (its last window, {@code <start>/<end>} in ISO 8601). Counted as {@code late}.
  */
 final class TagLateReading extends RichMapFunction<FieldReading, TopicRecord> {
     static final String FIELD = "late-field";

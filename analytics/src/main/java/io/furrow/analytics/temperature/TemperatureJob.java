@@ -19,10 +19,10 @@ import io.furrow.flink.time.DeduplicateById;
 import io.furrow.flink.time.KeyedLatenessOperator;
 import io.furrow.flink.time.TimelessBroadcastOperator;
 
-/** The job {@code temperature}: the average temperature of each field in event-time windows, one entity per field and window. */
+/** The job {@code temperature}: computes the average temperature of each field in event-time windows, one entity per field and window. */
 public final class TemperatureJob {
     /**
-     * What comes in.
+     * The inputs of the job.
      *
      * @param records entities with event time as their timestamp
      */
@@ -30,14 +30,14 @@ public final class TemperatureJob {
 
     private TemperatureJob() {}
 
-    /** The job between its Kafka topics, ready to be executed. */
+    /** Returns the job between its Kafka topics, ready to be executed. */
     public static StreamExecutionEnvironment assemble(TemperatureOptions options) {
         return AnalyticsJob.assemble(
                 options,
                 (env, records) -> define(new Inputs(records, FieldInput.of(env, options, options.fields())), options));
     }
 
-    /** Results, late readings and dead letters; each record names its topic. */
+    /** Returns results, late readings and dead letters; each record names its topic. */
     static DataStream<TopicRecord> define(Inputs in, TemperatureOptions options) {
         SingleOutputStreamOperator<TopicRecord> fields = in.fields()
                 .recordsBeside(in.records())

@@ -11,7 +11,7 @@ import io.furrow.analytics.field.FieldOptions;
 import io.furrow.analytics.job.AnalyticsOptions;
 import io.furrow.model.topic.Topics;
 
-/** The options of the job {@code temperature}. An accessor refuses a value that no job could start with. */
+/** The options of the job {@code temperature}. An accessor rejects an invalid value. */
 @Command(
         name = "temperature",
         sortOptions = false,
@@ -21,7 +21,7 @@ import io.furrow.model.topic.Topics;
 public final class TemperatureOptions extends AnalyticsOptions {
     private static final String TEMPERATURE = "Temperature";
     private static final double TEMPERATURE_FLOOR = 0.5;
-    /** A day, by the minute: a reading is kept in each window that it is in. */
+    /** A day, by the minute: each window that contains a reading stores it. */
     private static final long MAX_OVERLAP = 1_440;
 
     private static final Pattern ATTRIBUTE = Pattern.compile("[A-Za-z0-9_:.-]{1,40}");
@@ -86,12 +86,11 @@ public final class TemperatureOptions extends AnalyticsOptions {
         super(Topics.TEMPERATURE, Topics.TEMPERATURE_LATE);
     }
 
-    /** Where the job learns of the fields. */
     FieldOptions fields() {
         return fields;
     }
 
-    /** Two attributes are two jobs, which must share neither a consumer group nor transactions. */
+    /** Jobs of two attributes must share neither a consumer group nor transactions. */
     @Override
     protected String defaultName() { // in transactional ids a colon ends the name
         return attribute().equals(TEMPERATURE)
@@ -127,7 +126,7 @@ public final class TemperatureOptions extends AnalyticsOptions {
         return allowedLateness;
     }
 
-    /** By how much two sound devices differ, in the attribute's unit; only of a temperature it is known. */
+    /** By how much two sound devices differ, in the attribute's unit; has a default for temperatures only. */
     double suspectFloor() {
         if (suspectFloor == null && !attribute().equals(TEMPERATURE)) {
             throw refused(

@@ -8,7 +8,7 @@ import org.apache.flink.util.OutputTag;
 
 import io.furrow.flink.record.TopicRecord;
 
-/** The windows: first each device has its vote in each field, then the votes of a field are averaged. */
+/** The window stages: first each device votes in each field, then the votes of a field are averaged. */
 final class VoteStage {
     static final OutputTag<FieldReading> LATE = new OutputTag<>("late-readings") {
         private static final long serialVersionUID = 1L;
@@ -29,7 +29,7 @@ final class VoteStage {
                 .uid("cast-votes");
     }
 
-    /** A vote is stamped with the last instant of its window: windows of one slide keep those of each window together. */
+    /** A vote has the timestamp of its window's last instant, so that windows of one slide regroup each window's votes. */
     static SingleOutputStreamOperator<FieldAverage> average(DataStream<DeviceVote> votes, TemperatureOptions options) {
         return votes.keyBy(DeviceVote::fieldIdentity)
                 .window(EpochWindows.of(options.slide(), options.slide()))

@@ -1,2 +1,2 @@
-/** How warm is each field? A field's average temperature in event-time windows, robust against defective thermometers. */
+/** Computes a field's average temperature in event-time windows, robust against defective thermometers. */
 package io.furrow.analytics.temperature;

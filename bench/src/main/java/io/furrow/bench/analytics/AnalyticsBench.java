@@ -33,7 +33,7 @@ import io.furrow.bench.frame.OutputOption;
 public final class AnalyticsBench extends Benchmark {
     private static final Duration CELL_MEASURED = Duration.ofSeconds(3);
 
-    /** What can be measured. */
+    /** The measurements to choose from. */
     enum Part {
         MEMORY,
         KAFKA,
@@ -185,7 +185,7 @@ public final class AnalyticsBench extends Benchmark {
         return good;
     }
 
-    /** The cell that devices on one spot share, alone. */
+    /** Measures the cell that devices on one spot share, in isolation. */
     private boolean cells() {
         Figures figures = new Figures("Devices on one spot, by processor time of the cell alone");
         for (int each : load.crowds) {
@@ -198,7 +198,7 @@ public final class AnalyticsBench extends Benchmark {
         return true;
     }
 
-    /** The job as it is by default. */
+    /** Measures the job with its defaults. */
     private boolean crowd(TopicMeasurement measurement) throws Exception {
         Figures figures = new Figures("Devices on one spot at 1 Hz beside a fleet: lag of the results");
         int most = Collections.max(load.crowds);

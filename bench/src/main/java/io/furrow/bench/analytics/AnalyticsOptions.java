@@ -6,7 +6,7 @@ import picocli.CommandLine.Option;
 
 import io.furrow.bench.frame.Benchmark;
 
-/** How much {@link AnalyticsBench} has to measure. */
+/** The sizes of the measurements of {@link AnalyticsBench}. */
 final class AnalyticsOptions {
     @Option(names = "--records", paramLabel = "N", description = "Records of each topic of KAFKA. " + Benchmark.DEFAULT)
     long records = 1_500_000;

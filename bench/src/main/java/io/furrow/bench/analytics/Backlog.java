@@ -7,11 +7,11 @@ import io.furrow.bench.frame.Figures;
 import io.furrow.bench.frame.ProcessStatus;
 
 /**
- * What a job has to catch up with: reports on two partitions, of which the second takes longer to read.
+ * A backlog for a job: reports on two partitions, of which the second takes longer to read.
  *
  * @param devices each has reported once a second
- * @param seconds for how long
- * @param padding characters that the records of the second partition have more
+ * @param seconds its length
+ * @param padding additional characters in records of the second partition
  * @param maxDrift option of the job
  */
 record Backlog(int devices, int seconds, int padding, String maxDrift) {
@@ -28,7 +28,7 @@ record Backlog(int devices, int seconds, int padding, String maxDrift) {
         return Fleet.START + 1000L * seconds;
     }
 
-    /** What the job that reads it holds, and how far its partitions are apart. */
+    /** Samples the memory of the job that reads it, and the drift between its partitions. */
     static final class Reading {
 
         private final Backlog plan;
@@ -40,7 +40,7 @@ record Backlog(int devices, int seconds, int padding, String maxDrift) {
             this.plan = plan;
         }
 
-        /** One sample, in words. */
+        /** One sample as a sentence. */
         String sample(GroupLag lag) throws InterruptedException, ExecutionException {
             double live = liveMebibytes() - before;
             long first = lag.committed(0);
@@ -71,7 +71,7 @@ record Backlog(int devices, int seconds, int padding, String maxDrift) {
                     found);
         }
 
-        /** Of the heap, after a collection. */
+        /** Heap in use after a collection. */
         private static double liveMebibytes() {
             return ProcessStatus.heapAfterCollection() / MEBIBYTE;
         }

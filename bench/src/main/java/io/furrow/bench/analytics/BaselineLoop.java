@@ -20,8 +20,9 @@ import io.furrow.analytics.position.PositionFix;
 import io.furrow.bench.analytics.load.Fleet;
 
 /**
- * The same grid and predicate in one thread and plain maps, for positions in order: no serialization, no state backend, no
- * timers, no distance of what lasts. What Flink's stages could be at best, and what they must agree with.
+ * A reference with the same grid and predicate in one thread and plain maps, for ordered positions: no serialization, state
+ * backend, timers or distances of ongoing encounters. It is an upper limit for the speed of Flink's stages, and their results
+ * must agree with it.
  */
 final class BaselineLoop {
     private final Tracker tracker = new Tracker(CollisionRules.DEFAULT);
@@ -40,14 +41,16 @@ final class BaselineLoop {
         this(devices, UnaryOperator.identity());
     }
 
-    /** @param received the position that a receiver of the report reads */
+    /**
+     * @param received rounds a position as a report does
+     */
     BaselineLoop(int devices, UnaryOperator<PositionFix> received) {
         this.received = received;
         fleet = new Fleet(devices, 0, 1);
         tracks = new Track[devices];
     }
 
-    /** Encounters that start in one second of event time, which must follow the one before. */
+    /** The number of encounters that start in a second of event time, which must follow the previous one. */
     long second(long second) {
         starts = 0;
         for (long part = 0; part < Fleet.TICKS_PER_SECOND; part++) {
@@ -57,7 +60,7 @@ final class BaselineLoop {
         return starts;
     }
 
-    /** Nanoseconds that an update takes, alone at its instant, in some seconds of event time after as many that do not count. */
+    /** Nanoseconds per update, each alone at its instant, over some seconds of event time after as many of warm-up. */
     Histogram delays(int seconds) {
         Histogram delays = new Histogram(3);
         for (long tick = 0; tick < 2L * seconds * Fleet.TICKS_PER_SECOND; tick++) {
@@ -87,7 +90,7 @@ final class BaselineLoop {
                         .add(update));
     }
 
-    /** Pairs that are close after all positions until now. */
+    /** The number of close pairs after all positions so far. */
     int close() {
         apply();
         return close.size();

@@ -15,7 +15,7 @@ import io.furrow.model.position.EntityReader;
 import io.furrow.model.position.Position;
 import io.furrow.model.position.PositionReading;
 
-/** One thread that reads a topic with a consumer and gives the positions to a {@link BaselineLoop}, in the order of arrival. */
+/** Reads a topic with a consumer in one thread and passes the positions to a {@link BaselineLoop}, in the order of arrival. */
 final class BaselineReader {
     private BaselineReader() {}
 

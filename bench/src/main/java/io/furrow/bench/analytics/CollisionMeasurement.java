@@ -29,12 +29,14 @@ import io.furrow.bench.frame.CpuReading;
 final class CollisionMeasurement {
     private static final Duration BUFFER_TIMEOUT = Duration.ofMillis(5);
     static final int MAX_PARALLELISM = 720;
-    /** The first second has everything start at once; few more are enough to decide whether the stages agree. */
+    /** In the first second everything starts at once; a few more are enough to decide whether the stages agree. */
     private static final int MAX_COMPARED = 20;
 
     private final Path directory;
 
-    /** @param directory for savepoints, which are weighed and left there */
+    /**
+     * @param directory for savepoints, whose size is measured and which stay there
+     */
     CollisionMeasurement(Path directory) {
         this.directory = directory;
     }
@@ -69,7 +71,7 @@ final class CollisionMeasurement {
                 bare.different);
     }
 
-    /** How far a run is at an instant. */
+    /** A sample of a run's progress. */
     private record Reading(CpuReading cpu, long eventMillis, long records) {
         static Reading now(Progress progress) {
             return new Reading(CpuReading.now(), progress.millis(), progress.records());
@@ -112,7 +114,7 @@ final class CollisionMeasurement {
         }
     }
 
-    /** The bare loop over the same seconds, and in how many of them the two disagree. */
+    /** The rate of the bare loop over the same seconds, and the number of seconds with different results. */
     private record Bare(double perSecond, int compared, int different) {}
 
     private static Bare bare(CollisionReport.Plan plan, Progress progress) {

@@ -5,29 +5,29 @@ import java.util.List;
 
 import io.furrow.bench.frame.Figures;
 
-/** What was measured of collision detection from memory. */
+/** The results of measuring collision detection from memory. */
 record CollisionReport(List<Run> runs) {
     /**
      * One measurement.
      *
      * @param devices each reports once per second of event time
      * @param parallelism subtasks of each stage
-     * @param warmUp before anything counts
-     * @param measured for how long
+     * @param warmUp before the measurement
+     * @param measured its duration
      */
     record Plan(int devices, int parallelism, Duration warmUp, Duration measured) {}
 
     /**
-     * What was measured of one plan.
+     * The results of one plan.
      *
      * @param updatesPerSecond through all three stages
-     * @param cpuMicros processor time of the whole JVM per update, in microseconds; other work on the machine moves it least
+     * @param cpuMicros processor time of the whole JVM per update, in microseconds; the figure least affected by other load
      * @param recordsPerUpdate records of encounters per update
-     * @param bytesPerDevice of a savepoint in Flink's own form
+     * @param bytesPerDevice of a savepoint in Flink's native format
      * @param barePerSecond updates per second of the bare loop in one thread
-     * @param redis the same by Redis in a process of its own; null where it is not installed
+     * @param redis the same with Redis in its own process; null if it is not installed
      * @param secondsCompared seconds of event time whose starts were compared with the bare loop's
-     * @param secondsDifferent of these, in how many the numbers differ: 0, or something is wrong
+     * @param secondsDifferent number of these that differ: 0, or something is wrong
      */
     record Run(
             Plan plan,
@@ -64,7 +64,7 @@ record CollisionReport(List<Run> runs) {
         return figures;
     }
 
-    /** Whether every second that was compared has as many starts as the bare loop's, and Redis finds the pairs that the bare loop finds. */
+    /** Whether every compared second has as many starts as in the bare loop, and Redis finds the bare loop's pairs. */
     boolean agrees() {
         return runs.stream().allMatch(Run::agrees);
     }

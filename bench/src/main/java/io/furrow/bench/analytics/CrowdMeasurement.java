@@ -18,7 +18,7 @@ import io.furrow.bench.analytics.load.CrowdedFleet;
 import io.furrow.bench.analytics.load.Fleet;
 import io.furrow.bench.frame.Figures;
 
-/** What devices on one spot cost in the cell that they share, by processor time of one thread and without Flink. */
+/** Measures devices on one spot in the cell that they share, in processor time of one thread and without Flink. */
 final class CrowdMeasurement {
     private static final ThreadMXBean THREADS = ManagementFactory.getThreadMXBean();
     private static final long CELL = 7;
@@ -34,7 +34,7 @@ final class CrowdMeasurement {
     }
 
     /**
-     * Adds a row; each device reports once a second of event time, at a millisecond of its own.
+     * Adds a row; each device reports once a second of event time, at its own millisecond.
      *
      * @param crowd the option of that name; 0 follows all pairs
      */
@@ -66,7 +66,7 @@ final class CrowdMeasurement {
                 "us each", used / 1e3 / observations);
     }
 
-    /** Nanoseconds of processor time that the cell takes for a second of event time. */
+    /** Processor time of the cell for a second of event time, in nanoseconds. */
     private long second(Cell cell, List<String> ids, long second) {
         List<CellUpdate> updates = new ArrayList<>();
         for (int device = 0; device < ids.size(); device++) {

@@ -14,10 +14,10 @@ import io.furrow.bench.analytics.load.FleetTopic;
 import io.furrow.bench.frame.Figures;
 import io.furrow.bench.frame.TopicReader;
 
-/** Follows what is found of devices on one spot and of the fleet beside them. */
+/** Follows the results of devices on one spot and of the fleet beside them. */
 final class CrowdResults implements AutoCloseable {
     private static final String STARTED = "\"started\"";
-    /** Of event time: what came at the end may not be found yet. */
+    /** In event time, at the end, where results may still be missing. */
     private static final long OPEN_SECONDS = 4;
 
     private static final long MAX_LAG = 10_000;
@@ -41,7 +41,7 @@ final class CrowdResults implements AutoCloseable {
                 .follow(records -> records.forEach(this::take));
     }
 
-    /** Records how far the newest result of the crowd, or of the fleet, is behind the clock, in milliseconds. */
+    /** Records the delay of the newest result of the crowd, or of the fleet, in milliseconds. */
     long recordLag() {
         long oldest = Math.min(newestOfCrowd, newestOfFleet);
         lags.add(System.currentTimeMillis() - Math.max(oldest, topic.begin()));
@@ -56,7 +56,7 @@ final class CrowdResults implements AutoCloseable {
         return overflows;
     }
 
-    /** Compares the starts of a fleet of so many devices with those of the bare loop. */
+    /** Compares the starts of a fleet of this size with those of the bare loop. */
     void compare(int devices) {
         BaselineLoop loop = new BaselineLoop(devices, CrowdedFleet::rounded);
         compared = (int) Math.max(0, (newestOfFleet - topic.begin()) / 1000 - OPEN_SECONDS);
@@ -65,7 +65,7 @@ final class CrowdResults implements AutoCloseable {
         }
     }
 
-    /** Whether no result was more than 10 s behind, and all of the fleet was found. */
+    /** Whether no result was delayed by more than 10 s, and the results of the fleet are complete. */
     boolean isSustained() {
         return Collections.max(lags) <= MAX_LAG && different == 0 && compared > 0;
     }

@@ -32,7 +32,7 @@ import io.furrow.flink.time.BroadcastLatenessOperator;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.position.Position;
 
-/** Points per second and core through the operators that join readings and devices with fields, beside a bare loop. */
+/** Measures points per second and core through the operators that join readings and devices with fields, beside a bare loop. */
 final class FieldMeasurement {
     private static final int VALUE_BYTES = 400;
     private static final int ROUNDS = 3;
@@ -48,11 +48,11 @@ final class FieldMeasurement {
         void run() throws Exception;
     }
 
-    /** What a join took. */
+    /** The cost of a join. */
     private record Taken(double seconds, double cpuSeconds) {}
 
     /**
-     * @param fields how many
+     * @param fields number of fields
      * @param corners of each
      * @param points of each round
      */
@@ -62,7 +62,7 @@ final class FieldMeasurement {
         this.progress = progress;
     }
 
-    /** Rounds in turns, of which only the last counts: before it the JVM is cold. */
+    /** Runs alternating rounds, of which only the last counts; earlier ones warm up the JVM. */
     void run(Iterable<Integer> parallelisms, Figures figures) throws Exception {
         for (int parallelism : parallelisms) {
             Taken bare = null;

@@ -14,7 +14,7 @@ import org.apache.kafka.common.TopicPartition;
 
 import io.furrow.bench.analytics.load.FleetTopic;
 
-/** How many records of a topic the consumer group of a job has not committed, which it does at each checkpoint. */
+/** Measures the records of a topic that a job's consumer group has not committed; it commits at each checkpoint. */
 final class GroupLag implements AutoCloseable {
     private final Admin admin;
     private final String topic;
@@ -33,7 +33,7 @@ final class GroupLag implements AutoCloseable {
         return written(topic) - done;
     }
 
-    /** Records of a partition that the group has committed; 0 before it has. */
+    /** Records of a partition that the group has committed; 0 before its first commit. */
     long committed(int partition) throws InterruptedException, ExecutionException {
         OffsetAndMetadata offset = admin.listConsumerGroupOffsets(group)
                 .partitionsToOffsetAndMetadata()
@@ -42,7 +42,7 @@ final class GroupLag implements AutoCloseable {
         return offset == null ? 0 : offset.offset();
     }
 
-    /** Records of a topic from which nothing was deleted. */
+    /** Number of records of a topic from which nothing was deleted. */
     long written(String topic) throws InterruptedException, ExecutionException {
         Map<TopicPartition, OffsetSpec> ends = IntStream.range(0, FleetTopic.PARTITIONS)
                 .mapToObj(partition -> new TopicPartition(topic, partition))

@@ -41,7 +41,7 @@ final class Progress {
         watermarks[subtask] = Math.max(watermarks[subtask], watermark);
     }
 
-    /** Milliseconds of event time that all subtasks have behind them. */
+    /** Event time, in milliseconds, that all subtasks have passed. */
     synchronized long millis() {
         return Arrays.stream(watermarks).min().orElse(Fleet.START) - Fleet.START;
     }
@@ -64,7 +64,7 @@ final class Progress {
         return adder == null ? 0 : adder.sum();
     }
 
-    /** The end of a measured job: counts, and notifies {@link Progress} how far event time has come. */
+    /** The sink of a measured job: counts, and reports event time to {@link Progress}. */
     record Counter(String run) implements Sink<Encounter> {
         private static final long serialVersionUID = 1L;
 

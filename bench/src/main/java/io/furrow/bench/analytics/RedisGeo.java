@@ -24,15 +24,15 @@ import io.furrow.bench.analytics.load.Fleet;
 import io.furrow.embedded.FreePort;
 
 /**
- * A Redis in a process of its own: each position is stored with {@code GEOADD}, and {@code GEOSEARCH} finds who is within the threshold of
- * it. One connection, pipelined; nothing is persisted, nothing expires, and nobody remembers which pairs were close before.
+ * A Redis in its own process: each position is stored with {@code GEOADD}, and {@code GEOSEARCH} finds the devices within the threshold.
+ * One connection, pipelined; nothing is persisted, nothing expires, and close pairs are not tracked.
  */
 final class RedisGeo implements AutoCloseable {
     private static final String SERVER = "redis-server";
     private static final String HOST = "127.0.0.1";
     private static final Duration START = Duration.ofSeconds(10);
     private static final byte[] KEY = "positions".getBytes(StandardCharsets.US_ASCII);
-    /** Positions whose answers are awaited together. */
+    /** Positions per pipeline. */
     private static final int PIPELINED = 500;
 
     private static final int NEARBY_PAIRS = 1_000;
@@ -45,11 +45,11 @@ final class RedisGeo implements AutoCloseable {
     private long found;
 
     /**
-     * What was measured beside the bare loop.
+     * The result beside that of the bare loop.
      *
      * @param perSecond positions
-     * @param close devices that it found near the positions of {@link #nearby}
-     * @param expected pairs that are close after them in the bare loop
+     * @param close devices found near the positions of {@link #nearby}
+     * @param expected close pairs after them in the bare loop
      */
     record Result(double perSecond, long close, long expected) {}
 
@@ -96,7 +96,7 @@ final class RedisGeo implements AutoCloseable {
         }
     }
 
-    /** The rate at which it takes a fleet's positions, after a quarter as long that does not count, and what it finds. */
+    /** Measures the rate for a fleet's positions, after a warm-up of a quarter of the time, and the devices found. */
     static Result measure(int devices, Duration lasting) throws IOException, InterruptedException {
         try (RedisGeo redis = start()) {
             BaselineLoop loop = new BaselineLoop(2 * NEARBY_PAIRS);
@@ -116,7 +116,7 @@ final class RedisGeo implements AutoCloseable {
         }
     }
 
-    /** @return the first tick that was not taken */
+    /** @return the first tick that was not sent */
     private long run(Fleet fleet, long from, Duration lasting) {
         long end = System.nanoTime() + lasting.toNanos();
         long tick = from;
@@ -128,8 +128,8 @@ final class RedisGeo implements AutoCloseable {
     }
 
     /**
-     * Pairs that are 0.5, 1.5 … 9.5 m apart, and far from all others: Redis rounds coordinates to some decimeters, so that next to the
-     * threshold it would find others than the definition does.
+     * Pairs that are 0.5, 1.5 … 9.5 m apart, and far from all others: Redis rounds coordinates to some decimeters, so that its results
+     * differ from the definition near the threshold.
      */
     private static void nearby(Consumer<PositionFix> out) {
         for (int pair = 0; pair < NEARBY_PAIRS; pair++) {
@@ -150,7 +150,7 @@ final class RedisGeo implements AutoCloseable {
         }
     }
 
-    /** All that it finds but the device itself. */
+    /** Counts all devices found except the device itself. */
     private void sync() {
         pipeline.sync();
         open.forEach(answer -> found += answer.get().size() - 1);

@@ -7,7 +7,7 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 
 import io.furrow.bench.frame.TopicReader;
 
-/** Follows the topic of results: how far event time has come in it. */
+/** Follows event time in the topic of results. */
 final class ResultReader implements AutoCloseable {
     private final TopicReader reader;
     private volatile long newest = Long.MIN_VALUE;

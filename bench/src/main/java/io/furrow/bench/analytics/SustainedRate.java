@@ -9,26 +9,26 @@ import io.furrow.bench.frame.Chart;
 import io.furrow.bench.frame.Figures;
 
 /**
- * A fleet that reported once a second, and the job behind it.
+ * The result for a fleet that reported once a second, and the job that reads it.
  *
- * @param sentPerSecond what the fleet really sent
+ * @param sentPerSecond actual rate of the fleet
  * @param foundPerSecond records that the job wrote
- * @param lags the least of the job's consumer in each second, in records, as of its newest checkpoint
+ * @param lags least lag of the job's consumer in each second, in records, as of its newest checkpoint
  */
 record SustainedRate(Plan plan, double sentPerSecond, double foundPerSecond, List<Long> lags) {
-    /** Of the rate: what the slope of a lag that does not grow stays below. */
+    /** The lag counts as stable if its slope is below this share of the rate. */
     private static final double GROWTH = 0.01;
 
     /**
-     * What is to be sustained.
+     * The load to sustain.
      *
      * @param devices each reports once a second
-     * @param side meters, of the square in which they are
+     * @param side of the square that contains them, meters
      * @param ongoingEvery option of the job
      */
     record Plan(int devices, double side, int parallelism, String ongoingEvery) {}
 
-    /** The least of each time between two checkpoints: right after one is done, so that they do not swing with them. */
+    /** The minimum between two checkpoints, right after one completes, so that checkpoints do not distort the trend. */
     List<Long> troughs() {
         List<Long> troughs = new ArrayList<>();
         int step = TopicMeasurement.CHECKPOINTS_SECONDS;
@@ -38,7 +38,7 @@ record SustainedRate(Plan plan, double sentPerSecond, double foundPerSecond, Lis
         return troughs;
     }
 
-    /** Records per second by which the lag grows: a straight line through the troughs, by least squares. */
+    /** Growth of the lag in records per second: the least-squares line through the troughs. */
     double slope() {
         List<Long> troughs = troughs();
         double meanIndex = (troughs.size() - 1) / 2.0;

@@ -15,7 +15,7 @@ import io.furrow.bench.frame.CpuReading;
 import io.furrow.bench.frame.Engines;
 import io.furrow.bench.frame.Figures;
 
-/** Runs the job {@code collision} on NGSI entities from a topic, with its results on another. */
+/** Runs the job {@code collision} between topics, on NGSI entities. */
 final class TopicMeasurement {
     private static final Duration TIMEOUT = Duration.ofMinutes(10);
     private static final long POLL_INTERVAL_MS = 20;
@@ -23,7 +23,7 @@ final class TopicMeasurement {
     static final int CHECKPOINTS_SECONDS = 10;
 
     private static final int POLLS_PER_SECOND = 5;
-    /** Event time at the end of the input that the watermark never passes, and a little more. */
+    /** Event time at the end of the input that the watermark never passes, plus a margin. */
     private static final long BEHIND_MS = 3000;
 
     private final Engines engines;
@@ -35,10 +35,10 @@ final class TopicMeasurement {
         this.progress = progress;
     }
 
-    /** How far a job is. */
+    /** A sample of a job's progress. */
     private record Reading(CpuReading cpu, long event) {}
 
-    /** Updates per second of a topic that was filled before. */
+    /** Updates per second from a prefilled topic. */
     void updates(int devices, int parallelism, int partitions, long records, Figures figures) throws Exception {
         try (FleetTopic topic = topic(partitions)) {
             topic.fill(devices, records);
@@ -64,7 +64,7 @@ final class TopicMeasurement {
         }
     }
 
-    /** A fleet that reports as time goes by, and how far the job's consumer is behind it, second by second. */
+    /** Runs a fleet in real time and samples the lag of the job's consumer each second. */
     SustainedRate sustained(SustainedRate.Plan plan, Duration warmUp, long measuredSeconds) throws Exception {
         try (FleetTopic topic = topic(FleetTopic.PARTITIONS)) {
             Thread fleet = new Thread(() -> topic.report(plan.devices(), plan.side()), "bench-fleet");
@@ -91,7 +91,7 @@ final class TopicMeasurement {
         }
     }
 
-    /** In the second that begins at this time. */
+    /** The least lag in the second that begins at this time. */
     private static long leastLag(GroupLag lag, long begin) throws Exception {
         long least = Long.MAX_VALUE;
         for (int poll = 1; poll <= POLLS_PER_SECOND; poll++) {
@@ -102,7 +102,7 @@ final class TopicMeasurement {
         return least;
     }
 
-    /** A job that starts when all of a backlog is there. */
+    /** Runs a job that starts with a complete backlog. */
     void backlog(Backlog plan, Figures figures) throws Exception {
         try (FleetTopic topic = topic(2)) {
             topic.fillUnevenly(plan.devices(), plan.records(), plan.padding());
@@ -123,7 +123,7 @@ final class TopicMeasurement {
         }
     }
 
-    /** Devices on one spot beside a fleet, each with a report a second, and how far the job's results are behind, second by second. */
+    /** Runs devices on one spot beside a fleet, each with a report a second, and samples the delay of the job's results each second. */
     CrowdResults crowd(int crowd, int others, int parallelism, Duration warmUp, long seconds, Figures figures)
             throws Exception {
         try (FleetTopic topic = topic(FleetTopic.PARTITIONS)) {
@@ -171,7 +171,7 @@ final class TopicMeasurement {
         return "collision-" + runs;
     }
 
-    /** Under a name of its own each reads from the beginning. */
+    /** Each job has its own name and so reads from the beginning. */
     private Engines.Job start(FleetTopic topic, int parallelism, String... more) throws Exception {
         List<String> words = new ArrayList<>(List.of("--input", topic.name(), "--output", topic.results()));
         words.addAll(List.of("--parallelism", Integer.toString(parallelism)));

@@ -1,2 +1,2 @@
-/** How many updates per second the analytics take, beside bare loops that do the same work without Flink. */
+/** Measures updates per second of the analytics, beside bare loops that do the same work without Flink. */
 package io.furrow.bench.analytics;

@@ -5,7 +5,7 @@ import picocli.CommandLine.Command;
 import io.furrow.bench.frame.Benchmark;
 import io.furrow.cli.option.CommandException;
 
-/** {@code ./furrow bench dashboard}, which the script runs itself: the class path of this command has no driver of a browser. */
+/** {@code ./furrow bench dashboard}, which the script runs itself: this command's class path has no browser driver. */
 @Command(
         name = "dashboard",
         description = {

@@ -1,2 +1,2 @@
-/** The commands {@code ./furrow bench …}: start what is measured, and report. */
+/** The commands {@code ./furrow bench …}: start a measurement, and report. */
 package io.furrow.bench.command;

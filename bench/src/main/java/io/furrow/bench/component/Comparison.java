@@ -6,11 +6,11 @@ import java.util.function.ToDoubleFunction;
 import io.furrow.bench.component.Component.Rates;
 
 /**
- * Whether a component became faster or slower, as a share of its peer, which was measured in the same minutes: machines and hours differ
- * more than commits.
+ * Compares a component with an older commit, each as a share of its peer measured in the same minutes: machines and hours differ more
+ * than commits.
  */
 final class Comparison {
-    /** Of fewer turns a difference says nothing. */
+    /** With fewer turns a difference is not significant. */
     private static final int MIN_TURNS = 3;
     /** Smaller differences of the medians are noise, however well the turns agree. */
     private static final double MIN_CHANGE = 0.05;
@@ -23,7 +23,7 @@ final class Comparison {
         this.now = now;
     }
 
-    /** A figure's median. @return NaN of none */
+    /** A figure's median. @return NaN without turns */
     static double median(List<Rates> turns, ToDoubleFunction<Rates> figure) {
         double[] sorted = turns.stream().mapToDouble(figure).sorted().toArray();
         int middle = sorted.length / 2;
@@ -32,12 +32,12 @@ final class Comparison {
                 : sorted.length % 2 == 1 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
     }
 
-    /** The share now, of the share before. */
+    /** The share now divided by the share before. */
     double ratio() {
         return median(now, Rates::share) / median(before, Rates::share);
     }
 
-    /** In a word, and why. */
+    /** The verdict with its reason. */
     String verdict() {
         if (Math.min(before.size(), now.size()) < MIN_TURNS) {
             return "too few turns (%d and %d, %d are needed)".formatted(before.size(), now.size(), MIN_TURNS);

@@ -6,7 +6,7 @@ import java.util.Map;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-/** A component with a bench of its own, in a form of some half a minute, and the peers that are measured beside it. */
+/** A component with its own bench, in a short variant of about half a minute, and the peers measured beside it. */
 public enum Component {
     SOURCE(
             "NGSI source: notifications in Kafka",
@@ -44,7 +44,9 @@ public enum Component {
     private final Peer peer;
     private final List<Peer> others;
 
-    /** @param others peers beside it; one that is not installed has no figure */
+    /**
+     * @param others further peers; one that is not installed has no figure
+     */
     Component(String title, String words, String figure, Peer peer, Peer... others) {
         this.title = title;
         this.words = List.of(words.split(" "));
@@ -53,10 +55,10 @@ public enum Component {
         this.others = List.of(others);
     }
 
-    /** What is measured beside a component. */
+    /** A peer of a component. */
     private record Peer(String name, String figure) {}
 
-    /** What is counted, a second. */
+    /** The unit counted per second. */
     String title() {
         return title;
     }
@@ -65,7 +67,7 @@ public enum Component {
         return peer.name;
     }
 
-    /** Medians of the further peers by name; NaN of one that no turn has, such as one that is not installed. */
+    /** Medians of the further peers by name; NaN if no turn has a figure, such as for one that is not installed. */
     Map<String, Double> others(List<Rates> turns) {
         Map<String, Double> medians = new LinkedHashMap<>();
         for (Peer other : others) {
@@ -77,12 +79,14 @@ public enum Component {
         return medians;
     }
 
-    /** Of {@code ./furrow bench}. */
+    /** The arguments of {@code ./furrow bench}. */
     public List<String> words() {
         return words;
     }
 
-    /** @param output what the bench wrote with {@code --output} */
+    /**
+     * @param output of the bench's {@code --output}
+     */
     Rates rates(JsonNode output) {
         Map<String, Double> further = new LinkedHashMap<>();
         others.stream()
@@ -101,9 +105,9 @@ public enum Component {
     }
 
     /**
-     * A second, of the component and of its peers in the same minute.
+     * Rates per second, of the component and of its peers in the same minute.
      *
-     * @param peers of the peer that shares are of
+     * @param peers of the reference peer for shares
      * @param others by name, of the further peers
      */
     record Rates(double ours, double peers, Map<String, Double> others) {

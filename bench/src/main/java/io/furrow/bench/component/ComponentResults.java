@@ -8,7 +8,7 @@ import java.util.Map;
 import io.furrow.bench.component.Component.Rates;
 import io.furrow.bench.results.JsonLines;
 
-/** Turns of components, in a file. */
+/** Stores turns of components in a file. */
 final class ComponentResults {
     private final JsonLines<Turn> turns;
 
@@ -20,9 +20,9 @@ final class ComponentResults {
     }
 
     /**
-     * Begins with what the file holds; it need not exist.
+     * Reads the file, if it exists.
      *
-     * @throws IOException if it holds something else
+     * @throws IOException if its content is invalid
      */
     static ComponentResults in(Path file) throws IOException {
         return new ComponentResults(JsonLines.in(file, Turn.class, "components"));
@@ -37,7 +37,7 @@ final class ComponentResults {
         turns.add(new Turn(commit, turn, component, rates.ours(), rates.peers(), rates.others()));
     }
 
-    /** The commit that was measured last. */
+    /** The most recently measured commit. */
     String commit() {
         List<Turn> all = turns.all();
         return all.isEmpty() ? "none" : all.get(all.size() - 1).commit;

@@ -57,7 +57,7 @@ public final class ComponentsBench extends Benchmark {
         return 0;
     }
 
-    /** In a process of its own, as heaps and compiled code of one would help or hinder the next. */
+    /** Runs the bench in its own process, because heap and compiled code of one would affect the next. */
     private static JsonNode output(Checkout here, Component component) throws IOException, InterruptedException {
         Path output = Files.createTempFile("furrow-component", ".json");
         try {

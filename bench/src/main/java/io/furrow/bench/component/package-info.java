@@ -1,2 +1,2 @@
-/** The benches of all components in short forms, one table, and what became faster or slower. */
+/** Runs short variants of the benches of all components and tabulates the changes in speed. */
 package io.furrow.bench.component;

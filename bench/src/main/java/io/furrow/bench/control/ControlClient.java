@@ -2,12 +2,12 @@ package io.furrow.bench.control;
 
 import java.util.concurrent.CompletableFuture;
 
-/** Asks the managers. */
+/** Sends requests to the managers. */
 interface ControlClient extends AutoCloseable {
-    /** The status of the answer. @param id of the request, which is given once */
+    /** The status of the answer. @param id of the request, unique */
     CompletableFuture<String> ask(ControlRequest request, String id);
 
-    /** Answers to ids that had been answered. */
+    /** Number of repeated answers. */
     default long repeats() {
         return 0;
     }

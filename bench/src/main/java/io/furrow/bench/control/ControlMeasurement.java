@@ -12,7 +12,7 @@ import org.HdrHistogram.Histogram;
 
 import io.furrow.bench.frame.Figures;
 
-/** Puts requests to the managers, numbered through over all loads, and waits for the answer to each. */
+/** Sends requests to the managers, numbered consecutively over all loads, and waits for the answer to each. */
 final class ControlMeasurement {
     private static final long LAST_ANSWER_SECONDS = 60;
 
@@ -20,21 +20,23 @@ final class ControlMeasurement {
     private final String run;
     private long next;
 
-    /** @param run of letters and digits; makes ids and missions of this run its own */
+    /**
+     * @param run letters and digits that make ids and missions unique to this run
+     */
     ControlMeasurement(ControlClient client, String run) {
         this.client = client;
         this.run = run;
     }
 
     /**
-     * Requests to the managers.
+     * A load of requests.
      *
-     * @param rate requests per second that are due whether or not earlier ones were answered; 0 for the next as soon as one is
-     * @param outstanding how many may wait for their answer at a time
+     * @param rate requests per second, independent of answers; 0 to send the next after each answer
+     * @param outstanding maximum number of requests in flight
      */
     record Plan(int rate, int outstanding, Duration duration) {}
 
-    /** What the loads of one measurement come to. */
+    /** Accumulates the results of one load. */
     private static final class Tally {
         final Histogram delays = new ConcurrentHistogram(3);
         final LongAdder answered = new LongAdder();
@@ -97,10 +99,10 @@ final class ControlMeasurement {
     }
 
     /**
-     * What became of a load.
+     * The results of a load.
      *
-     * @param answered of those that were sent; the others had no answer long after the last was sent
-     * @param unexpected answers of another status than a manager gives that runs each request once, in order
+     * @param answered requests answered before the final timeout
+     * @param unexpected answers whose status differs from that of a manager that runs each request once, in order
      * @param repeats answers to requests that were answered already
      * @param seconds from the first request to the last answer
      * @param delays microseconds from when a request was due to its answer

@@ -6,9 +6,9 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.model.topic.Topics;
 
 /**
- * The n-th request of a load: in turns a change of a domain, and a step of a mission without devices, which is
- * started, stopped and deleted, so that no manager has more and more to remember but ids. At most {@value #OUTSTANDING} may wait for
- * their answer, so that the steps of a mission stay in order.
+ * The n-th request of a load: alternately a change of a domain, and a step of a mission without devices, which is started, stopped
+ * and deleted, so that the managers' state does not grow except for ids. At most {@value #OUTSTANDING} may be in flight, so that the
+ * steps of a mission stay in order.
  *
  * @param topic of the manager
  * @param method of HTTP
@@ -16,17 +16,19 @@ import io.furrow.model.topic.Topics;
  * @param expected status of the answer
  */
 record ControlRequest(String topic, String command, ObjectNode members, String method, String path, String expected) {
-    /** Domains that have to be there, {@code bench-0} and so on. */
+    /** Number of required domains, {@code bench-0} and so on. */
     static final int DOMAINS = 10;
 
     static final int OUTSTANDING = 2000;
 
-    /** So many missions are started, then stopped, then deleted: each step is asked for long after the one before. */
+    /** This many missions are started, then stopped, then deleted: the steps of one mission are far apart. */
     private static final int MISSIONS = 2000;
 
     private static final int STEPS = 3;
 
-    /** @param run that no other load has had, as part of the missions' names */
+    /**
+     * @param run unique to the load, part of the missions' names
+     */
     static ControlRequest of(long number, String run) {
         ObjectNode members = JsonNodeFactory.instance.objectNode();
         String domain = "bench-" + number % DOMAINS;
@@ -54,7 +56,7 @@ record ControlRequest(String topic, String command, ObjectNode members, String m
         };
     }
 
-    /** What the record of the request holds. */
+    /** The content of the request's record. */
     ObjectNode record(String requestId) {
         return members.deepCopy()
                 .put("type", "request")

@@ -18,7 +18,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/** Writes requests to the topics of the managers, and reads the answers that are committed there. */
+/** Writes requests to the topics of the managers, and reads the committed answers there. */
 final class KafkaControlClient implements ControlClient {
     private final Map<String, CompletableFuture<String>> waiting = new ConcurrentHashMap<>();
     private final LongAdder repeats = new LongAdder();

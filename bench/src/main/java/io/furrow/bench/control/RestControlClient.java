@@ -10,7 +10,7 @@ import io.furrow.model.control.CommandResult;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Asks over the REST API, where an answer cannot come twice. */
+/** Sends requests over the REST API, where an answer cannot be repeated. */
 final class RestControlClient implements ControlClient {
     private final HttpClient http =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();

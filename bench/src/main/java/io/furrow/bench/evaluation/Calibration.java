@@ -18,11 +18,11 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.launcher.suite.RunDirectory;
 
 /**
- * What this machine can do in these minutes, without anything of ours.
+ * The speed of this machine in these minutes, measured without Furrow.
  *
- * @param producer records of 1 kB a second that one producer writes, all acknowledged
- * @param server requests of 1 kB a second that a Jetty answers without looking at them
- * @param bridge requests of 1 kB a second that a Jetty answers when Kafka has them
+ * @param producer records of 1 kB a second written by one producer, all acknowledged
+ * @param server requests of 1 kB a second answered by a Jetty that ignores them
+ * @param bridge requests of 1 kB a second answered by a Jetty once Kafka has them
  */
 record Calibration(double producer, double server, double bridge) {
     private static final Duration LASTING = Duration.ofSeconds(3);
@@ -53,7 +53,7 @@ record Calibration(double producer, double server, double bridge) {
         return BaselineProducer.perSecond(client, records, LASTING);
     }
 
-    /** Per second, of a second run. */
+    /** Rate of the second of two runs. */
     private static double answered(BaselineServer started) {
         HttpLoad.Plan plan = new HttpLoad.Plan(CONNECTIONS, false, 0, BYTES, ENTITIES, LASTING);
         try (BaselineServer server = started) {
@@ -62,7 +62,7 @@ record Calibration(double producer, double server, double bridge) {
         }
     }
 
-    /** Of this JVM, MB, as it was started; what {@link Runtime#maxMemory} returns changes by the collector's arrangements. */
+    /** Maximum heap of this JVM as configured, MB; {@link Runtime#maxMemory} depends on the collector's layout. */
     static long maxHeap() {
         return Long.parseLong(ManagementFactory.getPlatformMXBean(HotSpotDiagnosticMXBean.class)
                         .getVMOption("MaxHeapSize")
@@ -70,7 +70,7 @@ record Calibration(double producer, double server, double bridge) {
                 / MEGABYTE;
     }
 
-    /** For the head of a report. */
+    /** A sentence for the head of a report. */
     String sentence() {
         return String.format(
                 Locale.ROOT,

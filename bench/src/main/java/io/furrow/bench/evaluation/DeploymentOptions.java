@@ -16,7 +16,7 @@ import io.furrow.launcher.option.FiwareOptions;
 import io.furrow.launcher.process.RestClient;
 import io.furrow.simulators.device.FleetSettings;
 
-/** A suite that runs already, as {@code ./furrow up} or as separate servers. */
+/** Options for an existing suite, run by {@code ./furrow up} or as separate servers. */
 final class DeploymentOptions {
     @Option(
             names = "--against",
@@ -34,7 +34,7 @@ final class DeploymentOptions {
     @Mixin
     private FiwareOptions fiware;
 
-    /** @return null where no suite is named */
+    /** @return null without these options */
     Evaluation.Target target() throws IOException {
         if (kafka == null) {
             return null;
@@ -49,7 +49,7 @@ final class DeploymentOptions {
         return new Evaluation.Target(fiware.settings(), client, false);
     }
 
-    /** What its servers say that they are. */
+    /** The versions of its servers, as they report them. */
     List<String> setting(FleetSettings servers) {
         URI orion = servers.contextBroker();
         URI iotAgent = servers.iotAgent();

@@ -90,7 +90,7 @@ public final class EvaluateBench extends Benchmark {
         return 0;
     }
 
-    /** Its commit, of an archive its release. */
+    /** The suite's commit; of an archive its release. */
     private String suite() throws IOException {
         return Files.exists(Path.of(System.getProperty("furrow.home"), ".git"))
                 ? Checkout.here().name()

@@ -28,15 +28,15 @@ import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.load.LoadPlan;
 
 /**
- * Runs sweeps through a suite. One that is to find the knee goes on after its last point with twice the load, until a point does not hold
- * any more.
+ * Runs sweeps through a suite. To find the knee, a sweep continues after its last point with twice the load each time, until a point no
+ * longer holds.
  */
 public final class Evaluation {
     private static final String DOMAIN = "evaluation";
     private static final Duration WARM_UP = Duration.ofSeconds(20);
-    /** How long points beyond those of a sweep are measured at most: there the load is the question, not its course. */
+    /** Maximum duration of points beyond a sweep: they only determine whether the load holds. */
     private static final long MAX_FURTHER_SECONDS = 20;
-    /** A start, a warm-up, and what is waited for before and after each point. */
+    /** Duration of start, warm-up, and the pauses around each point. */
     private static final long SECONDS_A_SUITE = 45;
 
     private static final long SECONDS_A_POINT = 6;
@@ -46,10 +46,10 @@ public final class Evaluation {
     private final PrintWriter out;
 
     /**
-     * What is measured, and how.
+     * The measurements of an evaluation.
      *
-     * @param knee whether it is looked for
-     * @param oneSuite for all sweeps, else each has one of its own
+     * @param knee whether to find the knee
+     * @param oneSuite whether all sweeps share a suite
      * @param target null for suites in this JVM, with stand-ins for context broker and IoT Agent
      */
     public record Plan(List<Sweep> sweeps, EvaluationResults.Run run, boolean knee, boolean oneSuite, Target target) {}
@@ -60,12 +60,12 @@ public final class Evaluation {
         this.out = out;
     }
 
-    /** Of a point, where those of the sweeps are measured for so long. */
+    /** The duration of a point, given that of the sweeps' points. */
     static long seconds(Point point, long seconds) {
         return point.sweep().points().contains(point) ? seconds : Math.min(seconds, MAX_FURTHER_SECONDS);
     }
 
-    /** Measures what the results do not have yet. */
+    /** Measures the missing points. */
     public void run() throws Exception {
         List<Sweep> missing =
                 plan.sweeps.stream().filter(sweep -> next(sweep) != null).toList();
@@ -112,7 +112,7 @@ public final class Evaluation {
         return results.of(plan.run, point) != null;
     }
 
-    /** The first point that is not measured; null if there is none any more. */
+    /** The first point that has not been measured; null if there is none. */
     private Point next(Sweep sweep) {
         for (Point point : sweep.points()) {
             if (!isMeasured(point)) {
@@ -152,7 +152,7 @@ public final class Evaluation {
         ThreadTimes before = ThreadTimes.of(ProcessHandle.current().pid());
         long from = System.nanoTime();
         LoadReport report;
-        // Only where there are copies: another reader of large messages would change what is measured.
+        // Only if there are copies: another reader of large messages would affect the measurement.
         if (point.sweep() == Sweep.SUBSCRIPTIONS) {
             try (TopicReader raw = TopicReader.fromEnd(target.kafka(), TopicReader.COMMITTED, Topics.RAW)) {
                 raw.follow(records -> records.forEach(record -> count(record, load, notified)));
@@ -181,7 +181,7 @@ public final class Evaluation {
                         : 0);
     }
 
-    /** Provisioning is notified of too, without a payload. */
+    /** Excludes notifications about provisioning, which have no payload. */
     private static void count(ConsumerRecord<byte[], byte[]> record, LoadPlan plan, LongAdder notified) {
         String entity = new String(record.key(), StandardCharsets.UTF_8);
         String value = new String(record.value(), StandardCharsets.UTF_8);
@@ -213,11 +213,11 @@ public final class Evaluation {
     }
 
     /**
-     * A suite that is evaluated.
+     * The suite under evaluation.
      *
      * @param devices where loads go in
      * @param kafka settings of a client of the Kafka at which they come out
-     * @param isOurs whether it runs in this JVM, so that its processor time and memory can be told
+     * @param isOurs whether it runs in this JVM, so that its processor time and memory are known
      */
     public record Target(FleetSettings devices, Properties kafka, boolean isOurs) {
         static Target of(Suite suite) {

@@ -19,16 +19,16 @@ import org.knowm.xchart.style.markers.SeriesMarkers;
 import io.furrow.bench.frame.Chart;
 import io.furrow.bench.load.LoadSecond;
 
-/** Plots of results in the form of the thesis' figures, as PNG. */
+/** Plots results like the figures of the thesis, as PNG. */
 final class EvaluationPlots {
     private static final int COLUMNS = 3;
     private static final Color THESIS = new Color(0xb0, 0x3a, 0x2e);
-    /** Parts of a plot of processor time. */
+    /** Parts in a plot of processor time. */
     private static final int PARTS = 5;
 
     private EvaluationPlots() {}
 
-    /** The share of messages that arrived, a panel for each sweep. */
+    /** The share of delivered messages, a panel for each sweep. */
     static void delivered(List<List<PointResult>> sweeps, Path file) throws IOException {
         Chart.savePng(sweeps.stream().map(EvaluationPlots::ratios).toList(), 2, file);
     }
@@ -38,7 +38,7 @@ final class EvaluationPlots {
         Chart.savePng(sweeps.stream().map(EvaluationPlots::delays).toList(), 2, file);
     }
 
-    /** Processor time of those parts that take most of it, a panel for each sweep. */
+    /** Processor time of the most expensive parts, a panel for each sweep. */
     static void cores(List<List<PointResult>> sweeps, Path file) throws IOException {
         Map<String, Double> sums = new HashMap<>();
         sweeps.forEach(results -> results.forEach(
@@ -104,7 +104,7 @@ final class EvaluationPlots {
     }
 
     private static Chart messages(PointResult result) {
-        // The first and the last second are only parts of one.
+        // The first and the last second are incomplete.
         List<LoadSecond> all = result.seconds();
         List<LoadSecond> inside = all.size() < COLUMNS ? all : all.subList(1, all.size() - 1);
         Chart chart = new Chart(result.point().title(), "s", "messages a second").fromZero();

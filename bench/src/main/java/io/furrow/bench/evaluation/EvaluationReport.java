@@ -13,7 +13,7 @@ import java.util.Map;
 import io.furrow.bench.frame.Figures;
 import io.furrow.bench.load.Hop;
 
-/** Results as a page of its own, {@code report.html}, and as {@code evaluation.md} with pictures beside it. */
+/** Writes results as a self-contained page, {@code report.html}, and as {@code evaluation.md} with separate pictures. */
 final class EvaluationReport {
     private static final double MEGABYTE = 1e6;
 
@@ -28,7 +28,7 @@ final class EvaluationReport {
         this.setting = setting;
     }
 
-    /** Writes what there is so far. */
+    /** Writes the results so far. */
     void write(Path folder) throws IOException {
         List<List<PointResult>> sweeps = new ArrayList<>();
         for (Sweep sweep : Sweep.values()) {
@@ -44,7 +44,7 @@ final class EvaluationReport {
         Files.writeString(folder.resolve("report.html"), html(tables, pictures));
     }
 
-    /** By their titles. */
+    /** Pictures by title. */
     private static Map<String, Path> pictures(List<List<PointResult>> sweeps, Path images) throws IOException {
         Map<String, Path> pictures = new LinkedHashMap<>();
         EvaluationPlots.delivered(sweeps, add(pictures, "Share of the messages that arrived", images, "delivered"));
@@ -71,7 +71,7 @@ final class EvaluationReport {
         return file;
     }
 
-    /** How far each sweep holds, then all loads of each. */
+    /** The limit of each sweep, then all loads of each. */
     private static List<Figures> tables(List<List<PointResult>> sweeps) {
         List<Figures> tables = new ArrayList<>();
         Figures knees = new Figures("How far it holds");

@@ -8,16 +8,16 @@ import java.util.List;
 import io.furrow.bench.evaluation.Sweep.Point;
 import io.furrow.bench.results.JsonLines;
 
-/** Results by point, in a file. */
+/** Stores results by point in a file. */
 public final class EvaluationResults {
     private final JsonLines<PointResult> results;
 
     /**
-     * What results of one evaluation have in common: those of another heap are not comparable.
+     * The common properties of an evaluation's results: those with another heap are not comparable.
      *
      * @param commit of the suite
-     * @param heap of its process at most, MB; 0 where that is not known
-     * @param seconds of the points of a sweep; further ones are measured for less
+     * @param heap maximum of its process, MB; 0 if unknown
+     * @param seconds duration of the points of a sweep; further ones are shorter
      */
     public record Run(String commit, long heap, long seconds) {}
 
@@ -26,9 +26,9 @@ public final class EvaluationResults {
     }
 
     /**
-     * Begins with what the file holds; it need not exist.
+     * Reads the file, if it exists.
      *
-     * @throws IOException if it holds something else
+     * @throws IOException if its content is invalid
      */
     public static EvaluationResults in(Path file) throws IOException {
         return new EvaluationResults(JsonLines.in(file, PointResult.class, "evaluate"));
@@ -38,7 +38,7 @@ public final class EvaluationResults {
         results.add(result);
     }
 
-    /** Those of one run, by load. */
+    /** The results of one run, by load. */
     List<PointResult> of(Run run, Sweep sweep) {
         return results.all().stream()
                 .filter(result -> result.commit().equals(run.commit)
@@ -49,7 +49,7 @@ public final class EvaluationResults {
                 .toList();
     }
 
-    /** @return null if it is not measured */
+    /** @return null if it has not been measured */
     PointResult of(Run run, Point point) {
         return of(run, point.sweep()).stream()
                 .filter(result -> result.point().equals(point))

@@ -18,18 +18,18 @@ import io.furrow.bench.load.LoadSecond;
 import io.furrow.bench.whole.ThreadTimes;
 
 /**
- * What became of one load; a line of the file of results.
+ * The result of one load; a line of the file of results.
  *
  * @param commit of the suite
- * @param heap of its process at most, MB; 0 of one that is another process
- * @param sent messages that the MQTT broker acknowledged
+ * @param heap maximum of its process, MB; 0 for another process
+ * @param sent messages acknowledged by the MQTT broker
  * @param notified records of these messages on {@code data.raw}, copies included
  * @param delivered distinct events at the mission's topic
- * @param duplicated arrivals there of events that had arrived before
- * @param reordered events there that came after one of the same entity that was sent later
+ * @param duplicated repeated arrivals there
+ * @param reordered events there that arrived after a later one of the same entity
  * @param delays by hop, ms
- * @param cores processor time of the suite, sender and reader included, by what threads do; empty of one that is another process
- * @param memoryBytes resident memory of its process after the load; 0 of one that is another process
+ * @param cores processor time of the suite, sender and reader included, by thread role; empty for another process
+ * @param memoryBytes resident memory of its process after the load; 0 for another process
  */
 public record PointResult(
         String commit,
@@ -45,18 +45,18 @@ public record PointResult(
         List<LoadSecond> seconds,
         Map<String, Double> cores,
         long memoryBytes) {
-    /** Beyond it a point is beyond the knee, ms. */
+    /** The greatest p99 of a load that holds, ms. */
     static final long MAX_P99 = 1_000;
 
-    /** Of the rate that was to be sent; where the MQTT broker takes less, devices wait, and delays do not show it. */
+    /** The least share of the desired rate: if the MQTT broker accepts less, devices wait, which delays do not show. */
     private static final double MIN_ATTAINED = 0.95;
 
     private static final Set<String> NO_PARTS = Set.of(ThreadTimes.DEVICES, ThreadTimes.COMPILERS);
 
     /**
-     * Of the messages of one load, ms.
+     * The delays of the messages of one load, ms.
      *
-     * @param histogram all of it, in Base64 what HdrHistogram's {@code decodeFromCompressedByteBuffer} reads
+     * @param histogram in Base64, for HdrHistogram's {@code decodeFromCompressedByteBuffer}
      */
     public record Delay(double mean, long p50, long p95, long p99, long max, String histogram) {
         static Delay of(Histogram millis) {
@@ -105,12 +105,12 @@ public record PointResult(
         return delivered == sent && duplicated == 0 && reordered == 0;
     }
 
-    /** Whether the suite holds this load: nothing is lost, soon enough, and as much as was to be sent. */
+    /** Whether the suite holds this load: no loss, a low delay, and the desired rate. */
     boolean holds() {
         return delivered == sent && endToEnd().p99() <= MAX_P99 && attained() >= MIN_ATTAINED;
     }
 
-    /** Why it does not. */
+    /** The reason why it does not hold. */
     String limit() {
         if (delivered < sent) {
             return String.format(Locale.ROOT, "%.4f delivered", deliveredRatio());
@@ -120,13 +120,13 @@ public record PointResult(
                 : String.format(Locale.ROOT, "%.2f of it could be sent", attained());
     }
 
-    /** The rate at which devices sent, of that of the plan. */
+    /** The actual rate of devices divided by the planned one. */
     private double attained() {
-        // the first and the last second are only parts of one
+        // the first and the last second are incomplete
         return lasting / Math.max(lasting, (double) lastSecond());
     }
 
-    /** In which something was sent. */
+    /** The last second in which a message was sent. */
     private long lastSecond() {
         return seconds.stream()
                 .filter(second -> second.atDevice() > 0)
@@ -135,7 +135,7 @@ public record PointResult(
                 .orElse(0);
     }
 
-    /** Messages that came to the reader while devices sent. */
+    /** Arrivals at the reader while devices sent. */
     double arrivedPerSecond() {
         long last = lastSecond();
         double arrived = seconds.stream()
@@ -149,7 +149,7 @@ public record PointResult(
         return delays.get(Hop.END_TO_END);
     }
 
-    /** The part that took most processor time, but compilers, devices and what stands in for MQTT broker, IoT Agent and context broker. */
+    /** The part with the most processor time, except compilers, devices and stand-ins for MQTT broker, IoT Agent and context broker. */
     String busiest() {
         return cores.entrySet().stream()
                 .filter(part -> !NO_PARTS.contains(part.getKey()))

@@ -12,7 +12,10 @@ import io.furrow.cli.option.CommandException;
 import io.furrow.launcher.process.RestClient;
 import io.furrow.simulators.device.FleetSettings;
 
-/** The NGSI source's own subscription several times, so that the context broker notifies of each change as often; undone at the end. */
+/**
+ * Copies the NGSI source's subscription, so that the context broker notifies of each change several times; removes the copies at the
+ * end.
+ */
 final class SubscriptionCopies implements AutoCloseable {
     private static final String DESCRIPTION = "copy for an evaluation";
 
@@ -26,7 +29,7 @@ final class SubscriptionCopies implements AutoCloseable {
         this.tenant = Map.of("fiware-service", fiware.fiwareService());
     }
 
-    /** Subscribes until the context broker notifies as often as wanted. */
+    /** Subscribes until there is the desired number of subscriptions. */
     void ensure(int desired) {
         for (; copies < desired; copies++) {
             add();

@@ -7,15 +7,15 @@ import java.util.stream.IntStream;
 
 import io.furrow.simulators.load.LoadPlan;
 
-/** The sweeps of the evaluation, each with its points: one of the quantities grows, the others stay. */
+/** The sweeps of the evaluation with their points: one quantity grows, the others are constant. */
 public enum Sweep {
-    /** 5 devices report more and more often. */
+    /** 5 devices report at growing rates. */
     PERIOD("shorter periods of 5 devices"),
-    /** More and more devices report every 200 ms. */
+    /** A growing number of devices report every 200 ms. */
     DEVICES("more devices"),
     /** Messages of 50 devices become larger. */
     PAYLOAD("larger messages of 50 devices"),
-    /** The context broker notifies of each change as often as it is subscribed to. */
+    /** The context broker notifies of each change once per subscription. */
     SUBSCRIPTIONS("more copies of each notification");
 
     private static final int KILOBYTE = 1_000;
@@ -38,7 +38,7 @@ public enum Sweep {
             return devices * 1000.0 / periodMs * copies;
         }
 
-        /** What grows: kilobytes in the sweep of the payload, notifications per second in the others. */
+        /** The growing quantity: kilobytes in the sweep of the payload, notifications per second in the others. */
         public double abscissa() {
             return sweep == PAYLOAD ? payloadBytes / (double) KILOBYTE : rate();
         }
@@ -77,7 +77,7 @@ public enum Sweep {
         };
     }
 
-    /** With twice the load of the last one, to find the knee; null where devices cannot report more often. */
+    /** A point with twice the load of the last one, to find the knee; null if devices cannot report more often. */
     Point further(Point last) {
         return switch (this) {
             case PERIOD -> last.periodMs() == MIN_PERIOD_MS ? null : point(last.periodMs() / 2);
@@ -91,7 +91,7 @@ public enum Sweep {
         return title;
     }
 
-    /** What {@link Point#abscissa} is. */
+    /** The title of {@link Point#abscissa}. */
     String abscissa() {
         return this == PAYLOAD ? "kB a message" : "notifications a second";
     }

@@ -2,7 +2,7 @@ package io.furrow.bench.evaluation;
 
 import java.util.Map;
 
-/** What the text of the thesis states of its platform. Its figures show curves, whose numbers it does not give. */
+/** Results that the text of the thesis states. Its figures show curves without numbers. */
 final class Thesis {
     static final String SENTENCE = """
             The platform of the thesis, with Orion, IoT Agent and broker on a machine of their own (six cores, 64 GB) and Draco on a third: stable to
@@ -25,7 +25,7 @@ final class Thesis {
         };
     }
 
-    /** Delays in ms by abscissa: averages over the payload, peaks over the rate; none over subscriptions. */
+    /** Delays in ms by abscissa: averages over the payload, peaks over the rate; empty for subscriptions. */
     static Map<Double, Double> delays(Sweep sweep) {
         return switch (sweep) {
             case PERIOD -> Map.of(625.0, 1_000.0);

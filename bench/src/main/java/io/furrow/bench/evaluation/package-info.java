@@ -1,7 +1,7 @@
 /**
- * The evaluation of the WeLASER platform, repeated: four sweeps of load through the whole suite, and a report of what arrived and when.
+ * Repeats the evaluation of the WeLASER platform: four sweeps of load through the whole suite, and a report of deliveries and delays.
  *
- * <p>In: which sweeps, how long. Out: a file of results that grows point by point, a report with plots. Must not know: how a load is sent
- * and read, which is {@code load}.
+ * <p>In: sweeps, durations. Out: a file of results that grows point by point, a report with plots. Must not know: how a load is sent and
+ * read, which is {@code load}.
  */
 package io.furrow.bench.evaluation;

@@ -59,7 +59,7 @@ public final class FleetBench extends Benchmark {
         return "bench-" + number;
     }
 
-    /** What the control plane would make known to the broker. */
+    /** The accounts that the control plane would create in the broker. */
     private Map<String, String> passwords() {
         Map<String, String> passwords = new HashMap<>();
         passwords.put(MeasureListener.USER, MeasureListener.USER);

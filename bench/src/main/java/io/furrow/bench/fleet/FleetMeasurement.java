@@ -26,11 +26,11 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/** Wants devices on {@code service.devices}, lets a host in a JVM of its own run them, and counts what they report. */
+/** Requests devices on {@code service.devices}, runs them by a host in its own JVM, and counts their reports. */
 final class FleetMeasurement {
     private static final Duration TIMEOUT = Duration.ofMinutes(3);
     private static final Duration POLL = Duration.ofMillis(100);
-    /** Of the measures that are due, which the edges of the time cut. */
+    /** Least share of the measures due, since the interval cuts some at its edges. */
     private static final double COMPLETE = 0.99;
 
     private final FleetBench plan;
@@ -44,10 +44,10 @@ final class FleetMeasurement {
     }
 
     /**
-     * Adds a row. Delays count from when a measure was due to its arrival at a subscriber, which holds the broker's work too; the memory
-     * is that of the whole process, at most.
+     * Adds a row. Delays count from when a measure was due to its arrival at a subscriber, which includes the broker; memory is the peak
+     * of the whole process.
      *
-     * @return whether all devices reported, and not less than was due but for the edges of the time
+     * @return whether all devices reported the measures due, except at the edges of the interval
      * @throws IOException if the devices do not come up
      */
     boolean run(Figures figures) throws Exception {

@@ -9,9 +9,9 @@ import java.time.Duration;
 import io.furrow.bench.frame.ProcessStatus;
 import io.furrow.simulators.host.DeviceHostCommand;
 
-/** A host of devices in a JVM of its own, so that its memory and processor time are its own. */
+/** A host of devices in its own JVM, to measure its memory and processor time. */
 final class HostProcess implements AutoCloseable {
-    /** Of the farm that is made up. */
+    /** Secret of the fictitious farm. */
     static final String SECRET = "bench bench bench bench";
 
     private final Process process;
@@ -20,7 +20,9 @@ final class HostProcess implements AutoCloseable {
         this.process = process;
     }
 
-    /** @param folder of its files */
+    /**
+     * @param folder of its files
+     */
     static HostProcess start(int heapMb, String kafka, URI mqtt, Path folder) throws IOException {
         Path secret = Files.writeString(folder.resolve("secret"), SECRET);
         return new HostProcess(new ProcessBuilder(
@@ -42,14 +44,14 @@ final class HostProcess implements AutoCloseable {
                 .start());
     }
 
-    /** Processor time by now. */
+    /** Processor time so far. */
     Duration cpu() throws IOException {
         return process.info()
                 .totalCpuDuration()
                 .orElseThrow(() -> new IOException("the host of devices has ended; see host.log"));
     }
 
-    /** The most memory that it has had, in MB. */
+    /** Peak memory, in MB. */
     long peakMb() throws IOException {
         return ProcessStatus.of(process.pid(), "VmHWM") / 1024;
     }

@@ -14,9 +14,9 @@ import org.eclipse.paho.client.mqttv3.MqttException;
 import org.eclipse.paho.client.mqttv3.MqttMessage;
 import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
 
-/** A subscriber to all measures that counts them by device. */
+/** Subscribes to all measures and counts them by device. */
 final class MeasureListener implements MqttCallback, AutoCloseable {
-    /** Of the MQTT broker, which hears all, and its password. */
+    /** MQTT user with access to all topics, and its password. */
     static final String USER = "bench-listener";
 
     private static final String TIME = "\"time\":";
@@ -66,7 +66,7 @@ final class MeasureListener implements MqttCallback, AutoCloseable {
         return arrived;
     }
 
-    /** How many devices were heard. */
+    /** Number of devices that have reported. */
     int devices() {
         return byTopic.size();
     }
@@ -82,7 +82,7 @@ final class MeasureListener implements MqttCallback, AutoCloseable {
 
     @Override
     public void deliveryComplete(IMqttDeliveryToken token) {
-        // It says nothing.
+        // It publishes nothing.
     }
 
     @Override

@@ -1,2 +1,2 @@
-/** What a fleet of simulated devices costs. */
+/** Measures the cost of a fleet of simulated devices. */
 package io.furrow.bench.fleet;

@@ -16,7 +16,7 @@ import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;
 
-/** A benchmark as a command: its options say what is measured. Exit code 0 means that nothing is missing and all that is compared agrees. */
+/** A benchmark as a command, configured by its options. Exit code 0 means that the results are complete and all comparisons agree. */
 @Command(abbreviateSynopsis = true)
 public abstract class Benchmark implements Callable<Integer> {
     /** The end of an option's description. */
@@ -42,7 +42,7 @@ public abstract class Benchmark implements Callable<Integer> {
         return spec.commandLine().getOut();
     }
 
-    /** Prints how far it is. */
+    /** Prints progress. */
     protected final void say(String line) {
         out().println("  " + line);
         out().flush();

@@ -50,12 +50,12 @@ public final class Chart {
         style.setLegendLayout(Styler.LegendLayout.Horizontal);
     }
 
-    /** For what is particular of one chart. */
+    /** The underlying chart, for further settings. */
     public XYChart xchart() {
         return chart;
     }
 
-    /** Both axes; all that is drawn must be positive. */
+    /** Makes both axes logarithmic; all values must be positive. */
     public Chart logarithmic() {
         chart.getStyler().setXAxisLogarithmic(true);
         chart.getStyler().setYAxisLogarithmic(true);
@@ -68,7 +68,7 @@ public final class Chart {
         return this;
     }
 
-    /** Draws a line in the next color, where there are points. */
+    /** Draws a line in the next color, if there are points. */
     public <T> Chart line(String name, List<T> points, ToDoubleFunction<T> x, ToDoubleFunction<T> y) {
         if (!points.isEmpty()) {
             Color color = COLORS[chart.getSeriesMap().size() % COLORS.length];

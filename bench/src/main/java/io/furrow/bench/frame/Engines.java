@@ -30,8 +30,8 @@ import io.furrow.launcher.suite.Connectors;
 import io.furrow.launcher.suite.RunDirectory;
 
 /**
- * Engines of a benchmark in this JVM, on free ports and with their data in one directory. They stop in the opposite order of their
- * start; a temporary directory is deleted then.
+ * Engines of a benchmark in this JVM, on free ports and with their data in one directory. They stop in reverse order; a temporary
+ * directory is deleted then.
  */
 public final class Engines implements AutoCloseable {
     private static final long STOP_SECONDS = 30;
@@ -42,7 +42,7 @@ public final class Engines implements AutoCloseable {
     private final Properties client = new Properties();
     private EmbeddedFlink flink;
 
-    /** A job that runs. */
+    /** A running job. */
     public interface Job {
         /** Returns when it has ended. */
         void cancel() throws Exception;
@@ -55,7 +55,7 @@ public final class Engines implements AutoCloseable {
         LogFile.writeTo(directory.resolve("furrow.log"));
     }
 
-    /** None yet. @param data null for a temporary directory */
+    /** Starts without engines. @param data null for a temporary directory */
     public static Engines in(Path data, PrintWriter out) {
         return new Engines(RunDirectory.open(data), new Progress(out));
     }
@@ -64,7 +64,9 @@ public final class Engines implements AutoCloseable {
         return kafka(Map.of());
     }
 
-    /** @param settings of the broker beside the usual ones */
+    /**
+     * @param settings of the broker in addition to the defaults
+     */
     public Engines kafka(Map<String, String> settings) throws Exception {
         EmbeddedKafka kafka = start("Kafka", () -> EmbeddedKafka.start(folder("kafka"), 0, settings));
         client.setProperty("bootstrap.servers", kafka.bootstrapServers());
@@ -76,7 +78,7 @@ public final class Engines implements AutoCloseable {
         return this;
     }
 
-    /** A Connect worker with our connectors. @param worker settings beside the usual ones */
+    /** A Connect worker with our connectors. @param worker settings in addition to the defaults */
     public Connectors connect(Map<String, String> worker) throws Exception {
         Path plugins = Path.of(System.getProperty("furrow.plugins"));
         return new Connectors(start(
@@ -104,7 +106,7 @@ public final class Engines implements AutoCloseable {
         return copy;
     }
 
-    /** The options of a job at these engines, with its checkpoints in a folder of its name. @param more words of its command line */
+    /** The options of a job on these engines, with its checkpoints in a folder of its name. @param more arguments */
     public <T extends JobOptions> T options(String name, T options, String... more) {
         String checkpoints = folder("checkpoints").resolve(name).toUri().toString();
         List<String> words =
@@ -124,7 +126,7 @@ public final class Engines implements AutoCloseable {
         };
     }
 
-    /** Makes topics on one replica. @param partitions of each */
+    /** Creates topics with one replica. @param partitions of each */
     public static void makeTopics(Properties client, int partitions, Map<String, String> settings, String... topics)
             throws InterruptedException, ExecutionException {
         try (Admin admin = Admin.create(client)) {

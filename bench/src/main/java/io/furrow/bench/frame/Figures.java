@@ -19,7 +19,7 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-/** A table of figures: texts and numbers under names. It is printed, written as JSON, and drawn. */
+/** A table of figures: texts and numbers by column name. It is printed, written as JSON, or drawn. */
 public final class Figures {
     private final String title;
     private final Set<String> names = new LinkedHashSet<>();
@@ -30,7 +30,7 @@ public final class Figures {
         this.title = title;
     }
 
-    /** Adds a row. @param namesAndValues in turns; a row may lack some */
+    /** Adds a row. @param namesAndValues alternating; a row may lack some */
     public Figures add(Object... namesAndValues) {
         Map<String, Object> row = new LinkedHashMap<>();
         for (int i = 0; i < namesAndValues.length; i += 2) {
@@ -41,7 +41,7 @@ public final class Figures {
         return this;
     }
 
-    /** Of an even number the upper one; NaN of none. */
+    /** For an even number, the upper one; NaN without values. */
     public static double median(DoubleStream values) {
         double[] sorted = values.sorted().toArray();
         return sorted.length == 0 ? Double.NaN : sorted[sorted.length / 2];
@@ -122,7 +122,7 @@ public final class Figures {
         return json;
     }
 
-    /** How columns grow with another, over logarithmic axes: a line each for every value of a third. */
+    /** Draws columns over another one, on logarithmic axes, with a line for each value of a third. */
     public Chart chart(String x, List<String> columns, String lines) {
         Chart chart = new Chart(title, x, "").logarithmic();
         for (String y : columns) {

@@ -4,11 +4,11 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
-/** What Linux says of a process, and the JVM of this one. */
+/** Reads the status of processes from Linux, and of this one from the JVM. */
 public final class ProcessStatus {
     private ProcessStatus() {}
 
-    /** A number of {@code /proc/PID/status}, of memory in kB. @throws IOException if the process has ended */
+    /** A number from {@code /proc/PID/status}; memory in kB. @throws IOException if the process has ended */
     public static long of(long pid, String name) throws IOException {
         Path status = Path.of("/proc", Long.toString(pid), "status");
         return Files.readAllLines(status).stream()

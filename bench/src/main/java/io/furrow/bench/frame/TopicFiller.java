@@ -9,16 +9,18 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
-/** A producer of which a record that is not written fails at the end. */
+/** A producer that fails at the end if a record was not written. */
 public final class TopicFiller implements AutoCloseable {
     private final AtomicReference<Exception> failure = new AtomicReference<>();
     private final KafkaProducer<byte[], byte[]> producer;
 
-    /** @param settings beside those of the client */
+    /**
+     * @param settings in addition to those of the client
+     */
     public TopicFiller(Properties client, Map<String, String> settings) {
         Properties all = new Properties();
         all.putAll(client);
-        // With more, the first batch to a partition that is just being made can be overtaken and is refused for ever.
+        // With more, the first batch to a partition that is being created can be overtaken and is then refused forever.
         all.setProperty("max.in.flight.requests.per.connection", "1");
         all.putAll(settings);
         producer = new KafkaProducer<>(all, new ByteArraySerializer(), new ByteArraySerializer());
@@ -28,7 +30,7 @@ public final class TopicFiller implements AutoCloseable {
         this.producer = producer;
     }
 
-    /** Lets it learn the partitions of topics before it sends anything. */
+    /** Fetches the partitions of topics before the first record. */
     public void learn(Collection<String> topics) {
         topics.forEach(producer::partitionsFor);
     }
@@ -37,7 +39,7 @@ public final class TopicFiller implements AutoCloseable {
         producer.send(record, (done, failed) -> failure.compareAndSet(null, failed));
     }
 
-    /** Waits until all is there. @throws IllegalStateException if a record was not written */
+    /** Waits until all records are written. @throws IllegalStateException if one was not */
     public void flush() {
         producer.flush();
         check();

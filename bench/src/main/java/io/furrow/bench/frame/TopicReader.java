@@ -18,9 +18,9 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-/** Reads topics from their beginning or from their end of now on: on a thread of its own, or where it is polled. */
+/** Reads topics from their beginning or from their current end, on its own thread or when polled. */
 public final class TopicReader implements AutoCloseable {
-    /** Lets a reader see only what is committed. */
+    /** Reads committed records only. */
     public static final Map<String, String> COMMITTED = Map.of("isolation.level", "read_committed");
 
     private static final Logger LOG = LoggerFactory.getLogger(TopicReader.class);
@@ -38,14 +38,16 @@ public final class TopicReader implements AutoCloseable {
         consumer = new KafkaConsumer<>(all, new ByteArrayDeserializer(), new ByteArrayDeserializer());
     }
 
-    /** @param settings of the consumer beside those of the client */
+    /**
+     * @param settings of the consumer in addition to those of the client
+     */
     public static TopicReader fromBeginning(Properties client, Map<String, String> settings, String... topics) {
         TopicReader reader = new TopicReader(client, settings);
         reader.consumer.seekToBeginning(reader.assign(topics));
         return reader;
     }
 
-    /** From here on nothing is missed. @param settings of the consumer beside those of the client */
+    /** Misses nothing from here on. @param settings of the consumer in addition to those of the client */
     public static TopicReader fromEnd(Properties client, Map<String, String> settings, String... topics) {
         TopicReader reader = new TopicReader(client, settings);
         List<TopicPartition> partitions = reader.assign(topics);
@@ -61,7 +63,7 @@ public final class TopicReader implements AutoCloseable {
         return partitions;
     }
 
-    /** A broker may not know yet of a topic that was made just now. */
+    /** A broker may not have metadata of a new topic yet. */
     private Stream<TopicPartition> partitions(String topic) {
         List<PartitionInfo> known = consumer.partitionsFor(topic);
         for (int polls = 0; known.isEmpty() && polls < POLLS; polls++) {
@@ -71,7 +73,7 @@ public final class TopicReader implements AutoCloseable {
         return known.stream().map(info -> new TopicPartition(topic, info.partition()));
     }
 
-    /** Reads on a thread of its own until it is closed. @param arrival gets what came together, as soon as it is there */
+    /** Reads on its own thread until it is closed. @param arrival receives each batch at once */
     public TopicReader follow(Consumer<ConsumerRecords<byte[], byte[]>> arrival) {
         thread = new Thread(() -> read(arrival), "bench-reader");
         thread.start();
@@ -88,19 +90,19 @@ public final class TopicReader implements AutoCloseable {
         }
     }
 
-    /** What is there or comes within this time; not where a thread follows. */
+    /** Polls for records; must not be used together with {@link #follow}. */
     public ConsumerRecords<byte[], byte[]> poll(Duration wait) {
         return consumer.poll(wait);
     }
 
-    /** Sum of the offsets at which the topics end now. */
+    /** Sum of the current end offsets. */
     public long end() {
         return consumer.endOffsets(consumer.assignment()).values().stream()
                 .mapToLong(Long::longValue)
                 .sum();
     }
 
-    /** Whether all was polled that is there now. */
+    /** Whether everything up to the current end was polled. */
     public boolean isAtEnd() {
         return consumer.assignment().stream().mapToLong(consumer::position).sum() >= end();
     }

@@ -1,2 +1,2 @@
-/** What benchmarks have in common: a command, the engines that it starts, a reader of topics, a table of figures, a chart. */
+/** Common parts of benchmarks: a command, the engines that it starts, a reader of topics, a table of figures, a chart. */
 package io.furrow.bench.frame;

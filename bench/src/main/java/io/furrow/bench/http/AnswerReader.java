@@ -8,7 +8,7 @@ import java.nio.charset.StandardCharsets;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
-/** Reads HTTP/1.1 answers with a {@code Content-Length} (or none: then without a body), one after the other. */
+/** Reads successive HTTP/1.1 answers with a {@code Content-Length} (without one, there is no body). */
 final class AnswerReader {
     private static final int LARGEST = 16 * 1024;
     private static final int STATUS_AT = "HTTP/1.1 ".length();
@@ -26,7 +26,7 @@ final class AnswerReader {
     }
 
     /**
-     * Reads what is there.
+     * Reads the available bytes.
      *
      * @return whether the answer is complete
      * @throws EOFException if the server closed the connection instead
@@ -52,12 +52,12 @@ final class AnswerReader {
         return true;
     }
 
-    /** Of the answer just read. */
+    /** Status of the last answer. */
     int status() {
         return status;
     }
 
-    /** Whether the server closes the connection behind the answer just read. */
+    /** Whether the server closes the connection after the last answer. */
     boolean isLast() {
         return last;
     }

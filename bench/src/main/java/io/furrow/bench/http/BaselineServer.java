@@ -23,8 +23,8 @@ import org.eclipse.jetty.util.component.LifeCycle;
 import org.eclipse.jetty.util.thread.QueuedThreadPool;
 
 /**
- * A Jetty on 127.0.0.1 that reads each body and answers 200: one that forgets it, which no receiver built on it can exceed; or one that
- * answers when Kafka has it, the simplest bridge that loses nothing that it acknowledged.
+ * A Jetty on 127.0.0.1 that reads each body and answers 200: either it discards the body, an upper limit for any receiver built on it;
+ * or it answers once Kafka has it, the simplest bridge without loss of acknowledged data.
  */
 public final class BaselineServer implements AutoCloseable {
     private static final int THREADS = 16;
@@ -59,14 +59,14 @@ public final class BaselineServer implements AutoCloseable {
         });
     }
 
-    /** On a free port. @param threadName of its threads */
+    /** Starts on a free port. @param threadName of its threads */
     public static BaselineServer start(String threadName, Action action) {
         BaselineServer started = new BaselineServer(threadName, action);
         LifeCycle.start(started.server);
         return started;
     }
 
-    /** One that forgets what it reads. */
+    /** Starts one that discards what it reads. */
     public static BaselineServer start() {
         return start(
                 "bare-server",
@@ -75,8 +75,8 @@ public final class BaselineServer implements AutoCloseable {
     }
 
     /**
-     * A bridge to a topic. Its producer sends what has come when an earlier request is on its way, since each sender waits for its
-     * answer: with the default {@code linger.ms} of 5 they would only wait longer.
+     * Starts a bridge to a topic. Its producer batches what arrives while a request is in flight, since each sender waits for its
+     * answer: the default {@code linger.ms} of 5 would only add delay.
      */
     public static BaselineServer bridge(Properties kafka, String topic) {
         Properties settings = new Properties();

@@ -8,7 +8,7 @@ import java.nio.channels.SelectionKey;
 import java.nio.channels.Selector;
 import java.nio.channels.SocketChannel;
 
-/** One request at a time over a connection that is kept, or made again for each. */
+/** Sends one request at a time over a connection that is reused, or opened for each. */
 final class Exchange {
     private final InetSocketAddress target;
     private final Selector selector;
@@ -29,12 +29,12 @@ final class Exchange {
         this.keep = keep;
     }
 
-    /** The number of the notification that was sent last. */
+    /** The number of the last notification. */
     long number() {
         return number;
     }
 
-    /** When that was due, which may be before it was sent. */
+    /** When it was due, which may be before it was sent. */
     long dueNanos() {
         return dueNanos;
     }
@@ -63,9 +63,9 @@ final class Exchange {
     }
 
     /**
-     * Does what the selector says is possible.
+     * Proceeds as far as the selector allows.
      *
-     * @return the status of the answer, or 0 while it is not there
+     * @return the status of the answer, or 0 if it is incomplete
      */
     int proceed() throws IOException {
         if (key.isConnectable()) {

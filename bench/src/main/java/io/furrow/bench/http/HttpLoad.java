@@ -16,8 +16,8 @@ import java.util.concurrent.TimeUnit;
 import org.HdrHistogram.Histogram;
 
 /**
- * Sends notifications from one thread. With a rate, a request is due at its time whatever became of those before it, and its
- * delay counts from then: a server that stops for a second is seen to have kept a second's worth of senders waiting.
+ * Sends notifications from one thread. With a rate, a request is due at its time independently of earlier ones, and its delay
+ * counts from then: if a server stops for a second, all requests of that second show the delay.
  */
 public final class HttpLoad {
     private static final long MAX_MICROS = TimeUnit.MINUTES.toMicros(5);
@@ -39,24 +39,29 @@ public final class HttpLoad {
     private volatile long sent;
     private volatile long answered;
 
-    /** @param firstNumber of the notifications; each has the next */
+    /**
+     * @param firstNumber of the notifications, which are numbered consecutively
+     */
     public HttpLoad(InetSocketAddress target, Plan plan, long firstNumber) {
         this.target = target;
         this.plan = plan;
         this.firstNumber = firstNumber;
     }
 
-    /** Requests sent until now, from any thread. */
+    /** Requests sent so far; thread-safe. */
     public long sent() {
         return sent;
     }
 
-    /** Answers 2xx until now, from any thread. */
+    /** Answers 2xx so far; thread-safe. */
     public long answered() {
         return answered;
     }
 
-    /** Sends what is due in the time of the plan and waits for the answers; what could not be sent then is broken. Once. */
+    /**
+     * Sends the requests due in the time of the plan and waits for the answers; requests that could not be sent then count as
+     * broken. May be called once.
+     */
     public Result run() {
         try (Selector selector = Selector.open()) {
             List<Exchange> all = new ArrayList<>();
@@ -88,7 +93,7 @@ public final class HttpLoad {
         }
     }
 
-    /** Whether requests that were due within the time of the plan are still to be sent. */
+    /** Whether requests due within the time of the plan are still to be sent. */
     private boolean isOwing() {
         return plan.rate() > 0 && sent < planned();
     }
@@ -151,7 +156,7 @@ public final class HttpLoad {
         }
     }
 
-    /** Also where an idle connection is closed by the server: that is not a broken request. */
+    /** The server may also close an idle connection: that is not a broken request. */
     private void fail(Exchange exchange) {
         exchange.close();
         if (idle.contains(exchange)) {
@@ -164,32 +169,32 @@ public final class HttpLoad {
     /**
      * A load of notifications.
      *
-     * @param connections how many requests can be open at a time
-     * @param newConnections whether each request comes over a connection of its own, as Orion does unless configured otherwise
-     * @param rate requests per second that are due whether or not earlier ones were answered; 0 for as many as are answered
+     * @param connections maximum number of open requests
+     * @param newConnections whether each request uses a new connection, as Orion does by default
+     * @param rate requests per second, independent of answers; 0 for as many as are answered
      * @param payloadBytes of a body
-     * @param entities how many ids there are
+     * @param entities number of ids
      */
     public record Plan(
             int connections, boolean newConnections, int rate, int payloadBytes, int entities, Duration duration) {
-        /** The same for another time. */
+        /** The same with another duration. */
         public Plan lasting(Duration other) {
             return new Plan(connections, newConnections, rate, payloadBytes, entities, other);
         }
     }
 
     /**
-     * What became of a load.
+     * The result of a load.
      *
-     * @param acknowledged the numbers, counted from {@code firstNumber}, of the notifications that were answered 2xx
-     * @param refused requests that were answered otherwise
+     * @param acknowledged the numbers, counted from {@code firstNumber}, of the notifications answered 2xx
+     * @param refused requests with another answer
      * @param broken requests whose connection failed before the answer
      * @param latency microseconds from when a request was due to its answer, of those answered 2xx
      * @param nanos from the first request to the last answer
      */
     public record Result(
             long firstNumber, BitSet acknowledged, long refused, long broken, Histogram latency, long nanos) {
-        /** Notifications that were answered 2xx. */
+        /** Number of notifications answered 2xx. */
         public long answered() {
             return latency.getTotalCount();
         }

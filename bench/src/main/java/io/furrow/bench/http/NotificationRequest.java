@@ -13,12 +13,12 @@ import java.util.Locale;
 import java.util.stream.LongStream;
 
 /**
- * A notification of one entity as Orion 4.7 sends it (normalized, the headers and the order of members recorded from it),
- * ready as the bytes of a request. Its number, its entity's id and its times are written over the old ones in place, so that a
- * request costs some copied bytes. The body has exactly the length asked for. Entities stand in rows, some 100 m from each other.
+ * A notification of one entity as Orion 4.7 sends it (normalized, with recorded headers and order of members), as the bytes of a
+ * request. Its number, its entity's id and its times are overwritten in place, so that a request costs a small copy. The body has
+ * exactly the given length. Entities stand in rows, some 100 m from each other.
  */
 public final class NotificationRequest {
-    /** What the number stands behind in the entity, in every form that keeps attributes normalized. */
+    /** The text before the number in the entity, in every format that keeps attributes normalized. */
     public static final String BEFORE_NUMBER = "\"sequence\":{\"type\":\"Number\",\"value\":";
 
     /** Digits of a number, which begins with 1 so that it is JSON. */
@@ -74,10 +74,10 @@ public final class NotificationRequest {
     }
 
     /**
-     * A request.
+     * Creates a request.
      *
      * @param bodyBytes at least {@value #MIN_BYTES}
-     * @param entities how many ids there are, at most a million
+     * @param entities number of ids, at most a million
      */
     public static NotificationRequest to(InetSocketAddress target, int bodyBytes, int entities) {
         String body = body(bodyBytes);
@@ -98,12 +98,12 @@ public final class NotificationRequest {
         return new NotificationRequest(head, body, entities);
     }
 
-    /** Id of the entity with this number, less than how many there are. */
+    /** Id of the entity with this number, below the number of ids. */
     public static String id(int number) {
         return ID_PREFIX + String.format(Locale.ROOT, "%0" + ID_DIGITS + "d", number);
     }
 
-    /** The request with this number, to be written before the next call. */
+    /** The request with this number, valid until the next call. */
     public ByteBuffer with(long number, long epochMillis) {
         long entity = number % entities;
         digits(idAt, ID_DIGITS, entity);
@@ -120,7 +120,7 @@ public final class NotificationRequest {
         return request.clear().put(bytes).flip();
     }
 
-    /** The entity of the request with this number alone, as a record holds it. */
+    /** Only the entity of the request with this number, as in a record. */
     public byte[] entityWith(long number, long epochMillis) {
         with(number, epochMillis);
         return Arrays.copyOfRange(bytes, entityAt, bytes.length - END_OF_DATA.length());
@@ -151,7 +151,7 @@ public final class NotificationRequest {
         return number;
     }
 
-    /** Where the next number is announced, or -1. */
+    /** Index of the next number's prefix, or -1. */
     private static int indexOf(byte[] text, int from) {
         for (int at = from; at <= text.length - BEFORE.length; at++) {
             if (text[at] == '"' && Arrays.equals(text, at, at + BEFORE.length, BEFORE, 0, BEFORE.length)) {

@@ -1,2 +1,2 @@
-/** A generator of HTTP requests that costs little beside the server it presses, and the server it is calibrated with. */
+/** A generator of HTTP requests that costs little compared with the server under load, and the server to calibrate it. */
 package io.furrow.bench.http;

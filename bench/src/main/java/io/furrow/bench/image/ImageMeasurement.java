@@ -30,7 +30,7 @@ import io.furrow.ingest.image.StorageMode;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.ngsi.Entity;
 
-/** How many images a second the stage of ingest that moves them stores, beside a bare loop that decodes and writes them. */
+/** Measures images per second of the ingest stage that stores them, beside a bare loop that decodes and writes them. */
 final class ImageMeasurement {
     private static final int DIFFERENT = 16;
     private static final int CAMERAS = 50;
@@ -40,7 +40,9 @@ final class ImageMeasurement {
     private final List<byte[]> pictures = new ArrayList<>();
     private final List<byte[]> events = new ArrayList<>();
 
-    /** @param bytes of an image, roughly */
+    /**
+     * @param bytes of an image, approximately
+     */
     ImageMeasurement(int images, int bytes) throws IOException {
         this.images = images;
         for (int i = 0; i < DIFFERENT; i++) {
@@ -73,7 +75,7 @@ final class ImageMeasurement {
         return images * 1e9 / (System.nanoTime() - start);
     }
 
-    /** Images a second of the job's stage: found, decoded, checked, hashed, stored, replaced, in the order of each camera. */
+    /** Images a second of the job's stage: found, decoded, checked, hashed, stored, replaced, in order per camera. */
     double stage(ImageOptions options, int parallelism) throws Exception {
         Configuration settings = new Configuration();
         settings.set(PipelineOptions.OBJECT_REUSE, true);

@@ -1,2 +1,2 @@
-/** How fast images are stored. */
+/** Measures how fast images are stored. */
 package io.furrow.bench.image;

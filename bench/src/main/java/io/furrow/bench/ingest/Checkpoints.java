@@ -8,7 +8,7 @@ import java.util.OptionalLong;
 import java.util.concurrent.TimeUnit;
 import java.util.stream.Stream;
 
-/** The checkpoints of one job on disk, each of which holds all its state; Flink deletes older ones meanwhile. */
+/** The checkpoints of one job on disk, each of which has all its state; Flink deletes older ones meanwhile. */
 final class Checkpoints {
     private static final String PREFIX = "chk-";
     /** Written last. */
@@ -19,7 +19,7 @@ final class Checkpoints {
     private Checkpoints() {}
 
     /**
-     * Awaits a checkpoint that begins from now on.
+     * Awaits a checkpoint that begins after the call.
      *
      * @param folder of the job
      * @return bytes of its files
@@ -37,7 +37,7 @@ final class Checkpoints {
         throw new IllegalStateException("no checkpoint in " + folder + " in " + timeout.toSeconds() + " s");
     }
 
-    /** Of the newest that is complete, if that is a later one than the given one. */
+    /** Bytes of the newest complete one, if it is later than the given one. */
     static OptionalLong bytesAfter(Path folder, long number) {
         return checkpoints(folder)
                 .filter(each -> number(each) > number && new File(each, COMPLETE).exists())

@@ -2,7 +2,7 @@ package io.furrow.bench.ingest;
 
 import java.util.List;
 
-/** The jobs that take turns. */
+/** The jobs that run alternately. */
 enum ComparedJob {
     /** Copies each record once, to the topic of the domain. */
     COPY_ONCE("copies to one topic", 1),
@@ -10,7 +10,7 @@ enum ComparedJob {
     COPY_TWICE("copies to two topics", 2),
     /** The job {@code ingest}, routes only. */
     ROUTES("ingest, routes only", 2),
-    /** The job {@code ingest} as it is by default. */
+    /** The job {@code ingest} with its defaults. */
     INGEST("ingest, with latest and catalog", 2);
 
     private final String title;
@@ -25,12 +25,12 @@ enum ComparedJob {
         return title;
     }
 
-    /** Records on the topics of domain and missions for each record read. */
+    /** Records on the topics of domain and missions per input record. */
     int writes() {
         return writes;
     }
 
-    /** Options of the job beside the common ones. */
+    /** Additional options of the job. */
     List<String> options() {
         return this == ROUTES ? List.of("--no-latest", "--no-catalog") : List.of();
     }

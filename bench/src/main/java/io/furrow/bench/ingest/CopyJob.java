@@ -21,14 +21,15 @@ import io.furrow.flink.kafka.KafkaConnectors;
 import static org.apache.flink.api.common.eventtime.WatermarkStrategy.noWatermarks;
 
 /**
- * The least that a Flink job between the same topics can do: key, value, headers and timestamp of each record are forwarded as the
- * bytes that they are, with the environment and the Kafka clients of the job {@code ingest}. Nothing is decoded, nothing sent
- * from one subtask to another, no state kept.
+ * A minimal Flink job between the same topics: forwards key, value, headers and timestamp of each record as bytes, with the
+ * environment and the Kafka clients of the job {@code ingest}. It has no decoding, no shuffle and no state.
  */
 final class CopyJob {
     private CopyJob() {}
 
-    /** @param missionTopics used in turn; empty if each record goes to the topic of the domain only */
+    /**
+     * @param missionTopics used in turn; empty if each record goes to the topic of the domain only
+     */
     static StreamExecutionEnvironment assemble(JobOptions options, String domainTopic, List<String> missionTopics) {
         StreamExecutionEnvironment env = JobEnvironment.create(options);
         Configuration anyType = new Configuration();

@@ -24,7 +24,7 @@ import io.furrow.ingest.IngestJob;
 import io.furrow.ingest.IngestOptions;
 import io.furrow.model.topic.Topics;
 
-/** Runs the job ingest and jobs that only copy bytes on the same topic, in turns, and reports the throughput of each. */
+/** Runs the job ingest and jobs that only copy bytes on the same topic alternately, and reports the throughput of each. */
 final class IngestMeasurement {
     private static final int PARTITIONS = 4;
     private static final long POLL_INTERVAL_MS = 20;
@@ -38,7 +38,7 @@ final class IngestMeasurement {
 
     /**
      * @param mongo URI of the server in which the job ingest stores missions; null for none
-     * @param progress is reported after each job's turn
+     * @param progress is called after each job's turn
      */
     IngestMeasurement(IngestReport.Plan plan, Engines engines, String mongo, Consumer<String> progress) {
         this.plan = plan;
@@ -47,7 +47,7 @@ final class IngestMeasurement {
         this.progress = progress;
     }
 
-    /** One turn of all jobs does not count, because the JVM is cold. */
+    /** One additional turn of all jobs warms up the JVM. */
     List<IngestReport.Run> run(List<ComparedJob> jobs, List<Delivery> deliveries, int turns) throws Exception {
         fill();
         List<IngestReport.Run> counted = new ArrayList<>();
@@ -110,8 +110,8 @@ final class IngestMeasurement {
     }
 
     /**
-     * Looks at the ends of the topics until all records are there: reading them would take processor time from the job. With
-     * exactly-once there are some more by the marks that end transactions: a few per partition and checkpoint.
+     * Polls the end offsets of the topics until all records are written: reading them would take processor time from the
+     * job. With exactly-once there are some more for transaction markers: a few per partition and checkpoint.
      */
     private Throughput throughput(String name, TopicReader written, long expected) throws InterruptedException {
         Throughput throughput = new Throughput(expected);
@@ -127,7 +127,7 @@ final class IngestMeasurement {
         return throughput;
     }
 
-    /** Reads them all, to know that they are there. */
+    /** Reads and counts them all. */
     private static long counted(TopicReader written, long expected) {
         long records = 0;
         long end = System.nanoTime() + TIMEOUT.toNanos();
@@ -137,7 +137,7 @@ final class IngestMeasurement {
         return records;
     }
 
-    /** Also those that the job may have made beside them. */
+    /** Also deletes topics that the job may have created beside them. */
     private void delete(List<String> topics) throws InterruptedException, ExecutionException {
         try (Admin admin = Admin.create(engines.client())) {
             Set<String> there = new HashSet<>(topics);
@@ -151,7 +151,7 @@ final class IngestMeasurement {
         return engines.folder("checkpoints").resolve(name);
     }
 
-    /** Under a name of its own each reads from the beginning and has its own transactions. */
+    /** Each job has its own name, and so reads from the beginning and has its own transactions. */
     private StreamExecutionEnvironment job(String name, ComparedJob compared, Delivery delivery) {
         List<String> words = new ArrayList<>(compared.options());
         words.addAll(List.of("--delivery", words(delivery)));

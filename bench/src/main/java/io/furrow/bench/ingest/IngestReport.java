@@ -10,18 +10,18 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.bench.frame.Figures;
 import io.furrow.flink.job.Delivery;
 
-/** The runs of a measurement, their medians, and the medians of their ratios to the runs of the same turn that only copy. */
+/** The runs of a measurement, their medians, and the medians of their ratios to the copying runs of the same turn. */
 record IngestReport(Plan plan, List<Run> runs) {
     private static final ObjectMapper JSON = new ObjectMapper();
 
     /**
-     * What is measured.
+     * The parameters of the measurement.
      *
      * @param records of the input topic, all of which every turn reads
      * @param partitions of the input topic
-     * @param bytes of a record's value, about
+     * @param bytes of a record's value, approximately
      * @param devices that report, each once a second of event time
-     * @param missions that the devices belong to
+     * @param missions of the devices
      * @param parallelism of every job
      * @param checkpointIntervalMillis of every job
      */
@@ -35,13 +35,13 @@ record IngestReport(Plan plan, List<Run> runs) {
             long checkpointIntervalMillis) {}
 
     /**
-     * What one job did in one turn.
+     * The result of one job in one turn.
      *
      * @param turn from 1 on; the runs of one turn are compared
-     * @param recordsPerSecond read, by when what becomes of them could be read
-     * @param processorMicros that each of them took of this JVM, brokers included
-     * @param stateBytes of a checkpoint when all was read; 0 of a job without state
-     * @param missing records that are not on the topics of domain and missions; negative where some are there more than once
+     * @param recordsPerSecond input records, by when their output could be read
+     * @param processorMicros processor time of this JVM per record, brokers included
+     * @param stateBytes of a checkpoint after all input; 0 for a job without state
+     * @param missing records missing on the topics of domain and missions; negative for duplicates
      */
     record Run(
             ComparedJob job,
@@ -63,7 +63,7 @@ record IngestReport(Plan plan, List<Run> runs) {
         return Figures.median(of(delivery, job), Run::recordsPerSecond);
     }
 
-    /** Records per second to those of another job in the same turn; NaN if that had none. */
+    /** Ratio of the records per second to those of another job in the same turn; NaN without that. */
     double ratio(Delivery delivery, ComparedJob job, ComparedJob other) {
         return ratio(delivery, job, other, Run::recordsPerSecond);
     }
@@ -78,7 +78,7 @@ record IngestReport(Plan plan, List<Run> runs) {
                         .orElse(Double.NaN));
     }
 
-    /** Whether every record was there as often as it should be, in every run. */
+    /** Whether every run wrote every record the expected number of times. */
     boolean isComplete() {
         return runs.stream().allMatch(run -> run.missing() == 0);
     }

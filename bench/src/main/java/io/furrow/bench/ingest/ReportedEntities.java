@@ -17,7 +17,7 @@ import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** The records of the input topic: what thermometers report through an IoT Agent, as the NGSI source writes it. */
+/** Generates the records of the input topic: reports of thermometers through an IoT Agent, as the NGSI source writes them. */
 final class ReportedEntities {
     /** The domain of all of them. */
     static final String DOMAIN = "bench";
@@ -38,7 +38,9 @@ final class ReportedEntities {
         return "mission-" + number;
     }
 
-    /** @param progress is called with the number written, now and then */
+    /**
+     * @param progress is called with the number written, now and then
+     */
     void writeTo(String topic, Properties kafka, IntConsumer progress) throws UnreadableException {
         try (TopicFiller filler = new TopicFiller(kafka, Map.of("batch.size", "131072"))) {
             for (int number = 0; number < plan.records(); number++) {
@@ -63,7 +65,7 @@ final class ReportedEntities {
         return record;
     }
 
-    /** Six measures with the time that the IoT Agent gives each, and a text that fills the rest. */
+    /** Six measures, each with the time that the IoT Agent adds, and a text to reach the size. */
     private String json(int device, int number, Instant time) {
         String instant = "{\"TimeInstant\":{\"type\":\"DateTime\",\"value\":\"" + time + "\"}}";
         String json = """

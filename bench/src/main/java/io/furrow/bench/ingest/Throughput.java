@@ -6,7 +6,7 @@ import java.util.List;
 
 import com.sun.management.OperatingSystemMXBean;
 
-/** How many records could be read at which time, and what processor time this JVM had used by then. */
+/** Samples of the number of readable records, and of the processor time of this JVM. */
 final class Throughput {
     private static final double FROM = 0.1;
     private static final double TO = 0.9;
@@ -17,7 +17,9 @@ final class Throughput {
     private final long expected;
     private final List<Sample> samples = new ArrayList<>();
 
-    /** @param expected how many there will be */
+    /**
+     * @param expected final number of records
+     */
     Throughput(long expected) {
         this.expected = expected;
     }
@@ -36,14 +38,14 @@ final class Throughput {
         return !samples.isEmpty() && samples.get(samples.size() - 1).records() >= expected;
     }
 
-    /** What passed between two samples. */
+    /** The rates between two samples. */
     record Pace(double perSecond, double processorMicrosEach) {}
 
     /**
-     * Between the samples at which a tenth and nine tenths were there: without the start of the job, and without the wait for
-     * the checkpoint after the last record, which with exactly-once would count for the slower job.
+     * Between the samples at a tenth and at nine tenths of the records: without the start of the job, and without the wait
+     * for the final checkpoint, which with exactly-once would favor the slower job.
      *
-     * @throws IllegalStateException if both were there at the same sample
+     * @throws IllegalStateException if both fall into one sample
      */
     Pace pace() {
         Sample from = firstWith(FROM);

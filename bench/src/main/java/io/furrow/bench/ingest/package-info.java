@@ -1,2 +1,2 @@
-/** How many records a second pass through the job ingest, beside jobs that only copy bytes. */
+/** Measures records per second through the job ingest, beside jobs that only copy bytes. */
 package io.furrow.bench.ingest;

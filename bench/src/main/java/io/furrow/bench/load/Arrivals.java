@@ -19,7 +19,7 @@ import org.apache.kafka.common.header.Headers;
 import io.furrow.bench.frame.Figures;
 import io.furrow.model.event.HeaderNames;
 
-/** The distinct events that have arrived: when each was where, and which came again or out of order. */
+/** The distinct events that have arrived: the times of their passage, and which were repeated or out of order. */
 final class Arrivals {
     private static final long MAX_MS = 3_600_000;
     private static final int DIGITS = 3;
@@ -33,23 +33,25 @@ final class Arrivals {
     private long reordered;
     private long reorderedAfterSource;
 
-    /** When an event was sent by the device, and the source, ingest and the reader had it, epoch ms. */
+    /** The times at which the device sent an event, and the source, ingest and the reader had it, epoch ms. */
     record Passage(long device, long source, long ingest, long reader) {}
 
-    /** A time in which events were sent, epoch ms. */
+    /** An interval in which events were sent, epoch ms. */
     record Interval(long from, long to) {
         private boolean contains(long millis) {
             return millis >= from && millis < to;
         }
     }
 
-    /** To be called as soon as they are there. */
+    /** Must be called as soon as they arrive. */
     synchronized void add(ConsumerRecords<byte[], byte[]> records) {
         long now = System.currentTimeMillis();
         records.forEach(record -> add(new String(record.key(), StandardCharsets.UTF_8), record.headers(), now));
     }
 
-    /** @param entity whose messages are to come in the order in which they were sent */
+    /**
+     * @param entity whose messages should arrive in the order in which they were sent
+     */
     private void add(String entity, Headers headers, long now) {
         if (!ids.add(text(headers, HeaderNames.CE_ID))) {
             repeats++;
@@ -70,20 +72,20 @@ final class Arrivals {
         return repeats;
     }
 
-    /** Events that came after one of the same entity that was sent later. */
+    /** Number of events that arrived after a later one of the same entity, by time of sending. */
     synchronized long reordered() {
         return reordered;
     }
 
-    /** Events that came after one of the same entity that the source had later. */
+    /** The same by time of receipt at the source. */
     synchronized long reorderedAfterSource() {
         return reorderedAfterSource;
     }
 
-    /** Milliseconds that a part of the way took for the events that were sent in a time. */
+    /** Delays of a hop, in milliseconds, for the events sent in an interval. */
     synchronized Histogram delays(Hop hop, Interval sent) {
         Histogram delays = new Histogram(MAX_MS, DIGITS);
-        // The clock of one machine may be set back by a millisecond between two stamps.
+        // A machine's clock may be set back by a millisecond between two timestamps.
         passages.stream()
                 .filter(passage -> sent.contains(passage.device))
                 .forEach(passage -> delays.recordValue(Math.min(MAX_MS, Math.max(0, hop.delay(passage)))));
@@ -94,7 +96,7 @@ final class Arrivals {
         return seconds(passages);
     }
 
-    /** How many events were where in each second, and the mean delays of those that were sent in it. */
+    /** Counts of events at each point per second, and the mean delays of those sent in it. */
     static List<LoadSecond> seconds(List<Passage> passages) {
         Map<Long, long[]> counts = new TreeMap<>();
         Map<Long, long[]> sums = new HashMap<>();
@@ -126,7 +128,7 @@ final class Arrivals {
         return arrived * 1000.0 / (interval.to - interval.from);
     }
 
-    /** Adds a row of what was sent in a time. @return p99 of its delays from device to reader, ms */
+    /** Adds a row for the events sent in an interval. @return p99 of their delays from device to reader, ms */
     long addTo(Figures figures, String title, Interval interval) {
         Histogram delays = delays(Hop.END_TO_END, interval);
         figures.add(
@@ -139,7 +141,7 @@ final class Arrivals {
         return delays.getValueAtPercentile(99);
     }
 
-    /** Messages on their way at an instant. */
+    /** Number of messages in flight at an instant. */
     synchronized long waiting(long at) {
         return passages.stream()
                 .filter(passage -> passage.device <= at && passage.reader > at)

@@ -2,12 +2,12 @@ package io.furrow.bench.load;
 
 import java.util.function.ToLongFunction;
 
-/** A part of the way of a measure, between two timestamps. */
+/** A part of a measure's path, between two timestamps. */
 public enum Hop {
     DEVICE_TO_SOURCE("device → source", passage -> passage.source() - passage.device()),
     SOURCE_TO_INGEST("source → ingest", passage -> passage.ingest() - passage.source()),
     INGEST_TO_READER("ingest → reader", passage -> passage.reader() - passage.ingest()),
-    /** From the notification on: what takes the place of the thesis' Draco, and Kafka. */
+    /** From the notification on: the counterpart of the thesis' Draco, and Kafka. */
     SOURCE_TO_READER("source → reader", passage -> passage.reader() - passage.source()),
     END_TO_END("end to end", passage -> passage.reader() - passage.device());
 

@@ -19,7 +19,7 @@ import io.furrow.simulators.load.LoadPlan;
                         + "delay of each hop.")
 public final class LoadBench extends Benchmark {
     private static final String DOMAIN = "bench";
-    /** A cold JVM cannot take what a warm one takes: it gets a quarter of the load, a half, then all of it. */
+    /** A cold JVM cannot take the full load: it gets a quarter of it, a half, then all. */
     private static final int WARM_UP_STEPS = 4;
 
     @Option(names = "--devices", paramLabel = "N", description = "Devices. " + DEFAULT)

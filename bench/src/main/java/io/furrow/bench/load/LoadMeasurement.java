@@ -21,16 +21,16 @@ import io.furrow.simulators.load.LoadFleet;
 import io.furrow.simulators.load.LoadPlan;
 
 /**
- * Sends a load in at the devices' end and reads it at the mission's topic. The delays are of at-least-once delivery unless
- * the suite says otherwise; sender, suite and reader share the machine and its clock.
+ * Sends a load as devices do and reads it at the mission's topic. The delays are of at-least-once delivery unless the
+ * suite is configured otherwise; sender, suite and reader share the machine and its clock.
  */
 public final class LoadMeasurement {
     static final Map<String, String> FETCHING =
             Map.of("isolation.level", "read_committed", "max.partition.fetch.bytes", Integer.toString(8 * 1024 * 1024));
-    /** After the last message is sent, this long without an arrival means that the rest is lost. */
+    /** After the last message was sent, this long without an arrival means that the rest is lost. */
     private static final Duration QUIET = Duration.ofSeconds(60);
 
-    /** This long without a record means that the provisioning has come through. */
+    /** This long without a record means that the provisioning is complete. */
     private static final Duration SETTLED = Duration.ofSeconds(2);
 
     private static final int PARTITIONS = 4;
@@ -41,7 +41,9 @@ public final class LoadMeasurement {
     private final Properties kafka;
     private final Consumer<String> progress;
 
-    /** @param progress is reported once a second how far it is */
+    /**
+     * @param progress is called once a second
+     */
     public LoadMeasurement(FleetSettings devices, Properties kafka, Consumer<String> progress) {
         this.devices = devices;
         this.kafka = kafka;
@@ -54,7 +56,7 @@ public final class LoadMeasurement {
     }
 
     /**
-     * @param skipped from the first message on, whose delays do not count
+     * @param skipped initial time whose delays do not count
      * @throws IOException if the load could not be sent
      */
     public LoadReport run(LoadPlan plan, Duration skipped)
@@ -81,7 +83,7 @@ public final class LoadMeasurement {
         }
     }
 
-    /** Makes the mission's topic and its devices, and returns the topic once nothing more is told of their making. */
+    /** Creates the mission's topic and its devices, and returns the topic once the notifications about their creation have ended. */
     String prepare(LoadPlan plan) throws IOException, InterruptedException, ExecutionException {
         String topic = Topics.realtime(plan.domain(), plan.mission());
         try { // before the first record, so that no delay holds the making of a topic
@@ -125,7 +127,7 @@ public final class LoadMeasurement {
         TimeUnit.SECONDS.sleep(1); // repeats that are still on their way
     }
 
-    /** The context broker reports each new device; only what comes after that is the load. */
+    /** The context broker reports each new device before the load. */
     private void awaitQuiet(String topic) throws InterruptedException {
         try (TopicReader reader = TopicReader.fromEnd(kafka, Map.of(), topic)) {
             long before = -1;

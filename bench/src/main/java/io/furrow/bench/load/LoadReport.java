@@ -11,13 +11,13 @@ import io.furrow.bench.frame.Figures;
 import io.furrow.simulators.load.LoadPlan;
 
 /**
- * What became of a load.
+ * The result of a load.
  *
- * @param sent messages that the MQTT broker acknowledged
+ * @param sent messages acknowledged by the MQTT broker
  * @param delivered distinct events at the mission's topic
- * @param repeats arrivals of events that had arrived before
- * @param reordered events that came after one of the same entity that was sent later
- * @param reorderedAfterSource events that came after one of the same entity that the source had later
+ * @param repeats repeated arrivals
+ * @param reordered events that arrived after a later one of the same entity, by time of sending
+ * @param reorderedAfterSource the same by time of receipt at the source
  * @param delays milliseconds, of first arrivals
  * @param seconds the load over time
  */
@@ -32,7 +32,7 @@ public record LoadReport(
         List<LoadSecond> seconds) {
     private static final double[] PERCENTILES = {50, 95, 99, 100};
 
-    /** Distinct events that arrived, per message sent: 1 is what is promised. */
+    /** Distinct events that arrived, per message sent: 1 is the guarantee. */
     public double deliveredRatio() {
         return sent == 0 ? 0 : (double) delivered / sent;
     }

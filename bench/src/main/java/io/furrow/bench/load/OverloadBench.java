@@ -35,7 +35,7 @@ public final class OverloadBench extends Benchmark {
     private static final double MEGABYTE = 1_000_000;
     private static final Duration DRAIN_STEP = Duration.ofSeconds(2);
     private static final Duration MAX_DRAIN = Duration.ofMinutes(5);
-    /** After nothing waits any more, until delays count again. */
+    /** After the backlog has drained, until delays count again. */
     private static final Duration RECOVERY = Duration.ofSeconds(5);
 
     @Option(
@@ -123,7 +123,7 @@ public final class OverloadBench extends Benchmark {
                 arrivals.arrivedPerSecond(over) / rate, drained, lasting, lasting == 0 ? 0 : drained / lasting / rate);
     }
 
-    /** @throws IOException if what waited had not arrived after {@link #MAX_DRAIN} */
+    /** @throws IOException if the backlog has not arrived after {@link #MAX_DRAIN} */
     private void drain(long usual) throws IOException, InterruptedException {
         long from = System.currentTimeMillis();
         while (sent - arrivals.distinct() > usual) {
@@ -136,7 +136,7 @@ public final class OverloadBench extends Benchmark {
         }
     }
 
-    /** At the rate times the factor. */
+    /** The rate multiplied by the factor. */
     private LoadPlan load(double factor, Duration duration) {
         int devices = Math.max(1, rate * PERIOD_MS / 1000);
         Duration period = Duration.ofMillis(Math.round(PERIOD_MS / factor));
@@ -169,7 +169,7 @@ public final class OverloadBench extends Benchmark {
         }
     }
 
-    /** Records on the source's disk, as its {@code /health} says. */
+    /** Records on the source's disk, according to its {@code /health}. */
     private static long pending(URI listener) throws Exception {
         HttpRequest request =
                 HttpRequest.newBuilder(listener.resolve("/health")).build();

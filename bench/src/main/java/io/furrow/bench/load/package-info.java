@@ -1,2 +1,2 @@
-/** Load through the whole path, measured at the last topic from what the record headers say. */
+/** Measures load through the whole path at the last topic, from the record headers. */
 package io.furrow.bench.load;

@@ -20,7 +20,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/** Starts a mission of thermometers through the REST API, and watches Kafka until each of them has reported. */
+/** Starts a mission of thermometers through the REST API, and reads Kafka until each of them has reported. */
 public final class MissionStart implements AutoCloseable {
     private static final Duration POLL_INTERVAL = Duration.ofMillis(20);
     private static final String AREA =
@@ -31,9 +31,9 @@ public final class MissionStart implements AutoCloseable {
     private final String domain;
 
     /**
-     * Since the request was sent.
+     * Delays since the request was sent.
      *
-     * @param answered until the control plane said that the mission is created
+     * @param answered until the control plane answered that the mission is created
      * @param firstRaw until the first record of a device on {@code data.raw}
      * @param allRaw until there is one of each
      * @param firstRouted until the first one on the topic of the domain
@@ -43,11 +43,11 @@ public final class MissionStart implements AutoCloseable {
             Duration answered, Duration firstRaw, Duration allRaw, Duration firstRouted, Duration running) {}
 
     /**
-     * Makes the domain.
+     * Creates the domain.
      *
      * @param control base of the REST API
      * @param client settings of Kafka clients
-     * @param domain a new one, whose topic is there
+     * @param domain a new one, whose topic exists
      */
     public MissionStart(URI control, Properties client, String domain) {
         this.api = new ControlApi(control, null);
@@ -57,14 +57,14 @@ public final class MissionStart implements AutoCloseable {
         api.send("POST", "/api/domains", JsonNodeFactory.instance.objectNode().put("domain", domain));
     }
 
-    /** A mission of this many devices, each with a measure every this often. */
+    /** A mission of this many devices, each with one measure per period. */
     public record Plan(String mission, int devices, Duration period) {}
 
     /**
      * Starts a mission.
      *
-     * @param timeout for each record that is waited for
-     * @throws ControlPlaneException if it is refused, or nothing comes for that long
+     * @param timeout for each record
+     * @throws ControlPlaneException if it is refused, or no record arrives within the timeout
      */
     public Delays run(Plan plan, Duration timeout) {
         Seen seen = new Seen(plan.mission(), plan.devices());
@@ -77,7 +77,7 @@ public final class MissionStart implements AutoCloseable {
     /**
      * Stops it.
      *
-     * @return how long it took until it was stopped
+     * @return the time that this took
      */
     public Duration stop(String mission, Duration timeout) {
         Seen seen = new Seen(mission, 0);
@@ -110,7 +110,7 @@ public final class MissionStart implements AutoCloseable {
         reader.close();
     }
 
-    /** What has come of one mission. */
+    /** The records of one mission so far. */
     private final class Seen {
         private final String mission;
         private final String prefix;
@@ -154,7 +154,7 @@ public final class MissionStart implements AutoCloseable {
             }
         }
 
-        /** @return whether it was something new of the mission */
+        /** @return whether it was a new step of the mission */
         private boolean take(String topic, String key, byte[] value) {
             if (value == null) {
                 return false;
@@ -167,7 +167,7 @@ public final class MissionStart implements AutoCloseable {
                 running = running == null && state.equals("running") ? now() : running;
                 return true;
             }
-            // A device that is only provisioned has no temperature yet.
+            // A provisioned device without a report has no temperature yet.
             if (!key.startsWith(prefix)
                     || !read(value).path("Temperature").path("value").isNumber()) {
                 return false;

@@ -1,2 +1,2 @@
-/** How long a mission takes to start. */
+/** Measures how long a mission takes to start. */
 package io.furrow.bench.mission;

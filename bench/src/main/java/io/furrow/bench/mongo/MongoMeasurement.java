@@ -28,9 +28,9 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Writes the same events into MongoDB in two ways in turns: as the job does (records of JSON through the composing of documents
- * and the sink writer, with a checkpoint's flush now and then), and in a bare loop around the driver (bulks of the same upserts,
- * made beforehand).
+ * Writes the same events into MongoDB in two ways alternately: as the job does (records of JSON through the composition of
+ * documents and the sink writer, with periodic flushes for checkpoints), and in a bare loop around the driver (bulks of the same
+ * upserts, prepared beforehand).
  */
 final class MongoMeasurement {
     private static final String DATABASE = "persistence";
@@ -44,7 +44,7 @@ final class MongoMeasurement {
     private final List<MissionEvent> events;
 
     /**
-     * @param bytes of an event's JSON, about
+     * @param bytes of an event's JSON, approximately
      */
     MongoMeasurement(String uri, int documents, int bytes) {
         this.uri = uri;
@@ -81,7 +81,7 @@ final class MongoMeasurement {
         }
     }
 
-    /** The same as the job does it. */
+    /** The same through the job's writer. */
     double writer() throws Exception {
         try (MongoClient client = MongoClients.create(uri)) {
             client.getDatabase(DATABASE).drop();
@@ -136,7 +136,7 @@ final class MongoMeasurement {
                 TopicRecord.of("data.raw", TIME + number, "t", json.getBytes(StandardCharsets.UTF_8), headers));
     }
 
-    /** A refused document would make the figures worthless. */
+    /** A refused document would invalidate the figures. */
     private static final class NoDeadLetters implements SinkWriter<TopicRecord> {
         @Override
         public void write(TopicRecord record, Context context) throws IOException {
@@ -145,12 +145,12 @@ final class MongoMeasurement {
 
         @Override
         public void flush(boolean endOfInput) {
-            // nothing is held
+            // stateless
         }
 
         @Override
         public void close() {
-            // nothing is open
+            // no resources
         }
     }
 }

@@ -1,2 +1,2 @@
-/** How fast missions get into MongoDB, against a bare loop around its driver. */
+/** Measures how fast missions are written to MongoDB, against a bare loop around its driver. */
 package io.furrow.bench.mongo;

@@ -12,7 +12,7 @@ import org.apache.kafka.clients.consumer.ConsumerRecords;
 
 import io.furrow.bench.http.NotificationRequest;
 
-/** Which of the numbered notifications are in the topic, how many of them again, and a sample of the records. */
+/** Checks which of the numbered notifications are in the topic, counts repeated ones, and stores a sample of the records. */
 final class ArrivalCheck {
     private static final int SAMPLES = 2000;
     private static final Duration QUIET = Duration.ofSeconds(20);
@@ -25,18 +25,22 @@ final class ArrivalCheck {
     private long repeats;
     private long lastNanos;
 
-    /** @param firstNumber of this load; smaller numbers are of an earlier one and are skipped */
+    /**
+     * @param firstNumber of this load; smaller numbers belong to an earlier one and are skipped
+     */
     ArrivalCheck(long firstNumber) {
         this.firstNumber = firstNumber;
     }
 
-    /** To be called as soon as they are there. */
+    /** Must be called as soon as they arrive. */
     void add(ConsumerRecords<byte[], byte[]> records) {
         long now = System.nanoTime();
         records.forEach(record -> add(record, now));
     }
 
-    /** @param nanos when the reader had it */
+    /**
+     * @param nanos when the reader received it
+     */
     synchronized void add(ConsumerRecord<byte[], byte[]> record, long nanos) {
         long number = NotificationRequest.numberIn(record.value()) - firstNumber;
         if (number < 0 || number > Integer.MAX_VALUE) {
@@ -67,14 +71,14 @@ final class ArrivalCheck {
         return lastNanos;
     }
 
-    /** How many of these numbers, counted from the first, have not arrived. */
+    /** The number of these, counted from the first, that have not arrived. */
     synchronized long missing(BitSet acknowledged) {
         BitSet missing = (BitSet) acknowledged.clone();
         missing.andNot(arrived);
         return missing.cardinality();
     }
 
-    /** Waits until all of these have arrived, or none has for a while. @param progress of the number that has arrived */
+    /** Waits until all of these have arrived, or no record has for a while. @param progress receives the number of arrivals */
     void await(BitSet acknowledged, LongConsumer progress) {
         long seen = -1;
         long moved = System.nanoTime();

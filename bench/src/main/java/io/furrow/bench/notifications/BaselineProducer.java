@@ -10,8 +10,8 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 /**
- * The rate at which one producer writes records like these, as fast as it can, with the settings that a Connect worker gives
- * to its producers: all replicas acknowledge, one request at a time to each broker.
+ * Measures the maximum rate at which one producer writes such records, with the settings of a Connect worker's producers:
+ * all replicas acknowledge, one request in flight per broker.
  */
 public final class BaselineProducer {
     private BaselineProducer() {}

@@ -9,16 +9,16 @@ import java.util.Map;
 
 import com.sun.management.OperatingSystemMXBean;
 
-/** Processor time of this JVM by part, attributed by thread names; what no Java thread used is the JVM's own. */
+/** Processor time of this JVM by part, attributed by thread names; the rest, used by no Java thread, is the JVM's own. */
 public final class CpuByPart {
     private static final ThreadMXBean THREADS = ManagementFactory.getThreadMXBean();
     private static final OperatingSystemMXBean SYSTEM =
             (OperatingSystemMXBean) ManagementFactory.getOperatingSystemMXBean();
 
-    /** Part by the beginning of a thread's name. */
+    /** Part by thread name prefix. */
     private static final Map<String, String> PARTS = new LinkedHashMap<>();
 
-    /** Name of the thread that sends. */
+    /** Name of the sending thread. */
     static final String SENDER = "bench-sender";
 
     private static final String OTHERS = "other threads";
@@ -52,12 +52,12 @@ public final class CpuByPart {
         processNanos = SYSTEM.getProcessCpuTime();
     }
 
-    /** The clocks of now. */
+    /** Takes a sample. */
     public static CpuByPart now() {
         return new CpuByPart();
     }
 
-    /** Nanoseconds used by each part since then, the parts in a fixed order. */
+    /** Nanoseconds used by each part since the sample, the parts in a fixed order. */
     public Map<String, Long> since() {
         Map<String, Long> parts = new LinkedHashMap<>();
         PARTS.values().forEach(part -> parts.put(part, 0L));

@@ -121,7 +121,7 @@ public final class NotificationBench extends Benchmark {
             Connectors connectors =
                     engines.connect(exactlyOnce ? Map.of("exactly.once.source.support", "enabled") : Map.of());
             Path journal = engines.folder("journal");
-            // In memory, for instance, an fsync costs nothing, and the figures would say nothing.
+            // In memory, for instance, an fsync costs nothing, and the figures would be meaningless.
             String place =
                     journal + ", on " + Files.getFileStore(journal.getParent()).type();
             NotificationReport report =

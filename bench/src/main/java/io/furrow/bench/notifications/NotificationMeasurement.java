@@ -21,11 +21,11 @@ import io.furrow.bench.http.BaselineServer;
 import io.furrow.bench.http.HttpLoad;
 
 /**
- * Presses an NGSI source with numbered notifications and reads its topic. Senders, source, broker and reader share the
- * processors; each run is followed by the same load on two {@link BaselineServer}s, one with Kafka behind it, and by a {@link BaselineProducer}.
+ * Loads an NGSI source with numbered notifications and reads its topic. Senders, source, broker and reader share the processors; each run
+ * is followed by the same load on two {@link BaselineServer}s, one with Kafka behind it, and by a {@link BaselineProducer}.
  */
 final class NotificationMeasurement implements AutoCloseable {
-    /** In large pieces, because the reader shares the processors. */
+    /** Large fetches, because the reader shares the processors. */
     private static final Map<String, String> FETCHING = Map.of(
             "isolation.level", "read_committed",
             "fetch.min.bytes", Integer.toString(256 * 1024),
@@ -43,17 +43,17 @@ final class NotificationMeasurement implements AutoCloseable {
     private final String topic;
     private final Properties kafka;
     private final Consumer<String> progress;
-    /** One thread for all runs: the processor time of a thread that has ended is not to be had. */
+    /** One thread for all runs: the processor time of an ended thread is not available. */
     private final ExecutorService sender =
             Executors.newSingleThreadExecutor(task -> new Thread(task, CpuByPart.SENDER));
 
     private long firstNumber = NUMBERS_PER_RUN;
 
     /**
-     * Of a source that listens already.
+     * Measures a source that already listens.
      *
      * @param topic that it writes to
-     * @param progress is reported once a second how far it is
+     * @param progress is called once a second
      */
     NotificationMeasurement(InetSocketAddress source, String topic, Properties kafka, Consumer<String> progress) {
         this.source = source;
@@ -62,15 +62,15 @@ final class NotificationMeasurement implements AutoCloseable {
         this.progress = progress;
     }
 
-    /** Makes the topics, so that no run holds the making of one. */
+    /** Creates the topics, so that no run includes their creation. */
     void makeTopics() throws InterruptedException, ExecutionException {
         Engines.makeTopics(kafka, PARTITIONS, Map.of(), topic, BARE_TOPIC);
     }
 
     /**
-     * One run, and its calibration.
+     * Runs a load and its calibration.
      *
-     * @param calibration how long the bare server, the bare bridge and the bare producer are each measured
+     * @param calibration duration of each measurement of the bare server, the bare bridge and the bare producer
      */
     NotificationReport.Run run(String name, HttpLoad.Plan plan, Duration calibration) throws InterruptedException {
         firstNumber += NUMBERS_PER_RUN;

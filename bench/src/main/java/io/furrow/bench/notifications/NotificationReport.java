@@ -18,7 +18,7 @@ import io.furrow.bench.http.HttpLoad;
 /**
  * The figures of several runs and the median of each.
  *
- * @param journal where the journal was, and on what kind of file system
+ * @param journal location of the journal, and the kind of file system
  */
 record NotificationReport(HttpLoad.Plan plan, String journal, List<Run> runs) {
     private static final List<Column> COLUMNS = List.of(
@@ -42,7 +42,7 @@ record NotificationReport(HttpLoad.Plan plan, String journal, List<Run> runs) {
             new Column("bridge", "shareOfBareBridge", Run::ofBareBridge),
             new Column("prod.", "shareOfBareProducer", Run::ofProducer));
 
-    /** A figure under the head of its column and as a member of JSON. */
+    /** A figure with its column title and its member of JSON. */
     private record Column(String head, String member, ToDoubleFunction<Run> figure) {}
 
     /** The median of one figure; of an even number of runs the upper one. */
@@ -50,7 +50,7 @@ record NotificationReport(HttpLoad.Plan plan, String journal, List<Run> runs) {
         return Figures.median(runs, figure);
     }
 
-    /** Acknowledged notifications that are not in Kafka, of all runs. */
+    /** Acknowledged notifications missing in Kafka, of all runs. */
     long missing() {
         return total(Run::missing);
     }
@@ -76,7 +76,7 @@ record NotificationReport(HttpLoad.Plan plan, String journal, List<Run> runs) {
         parts.add("part", "all", "us", median(Run::cpuMicros)).print(out);
     }
 
-    /** Gets one figure out of a run, or its median out of all. */
+    /** Returns one figure of a run, or its median of all runs. */
     private interface Of {
         double get(ToDoubleFunction<Run> figure);
     }
@@ -132,16 +132,16 @@ record NotificationReport(HttpLoad.Plan plan, String journal, List<Run> runs) {
     }
 
     /**
-     * One run of the source, and what was measured beside it.
+     * One run of the source, and the measurements beside it.
      *
-     * @param load what the senders saw
+     * @param load the senders' result
      * @param inKafkaPerSecond acknowledged notifications by the time until a reader of the topic had the last of them
      * @param missing acknowledged notifications that are not in the topic
-     * @param repeats records of a notification that was in the topic already
+     * @param repeats repeated records of a notification in the topic
      * @param cpuNanos processor time by part
      * @param bareServer the same load on a server that only answers
      * @param bareBridge the same load on a server that answers when Kafka has it
-     * @param producerPerSecond records like these by a bare producer
+     * @param producerPerSecond similar records by a bare producer
      */
     record Run(
             HttpLoad.Result load,

@@ -27,8 +27,8 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 
 /**
- * The way from the notification to the mission's topic, with all that a suite does beside it: notifications come to its listener at
- * a fixed rate, of entities of one mission, and are read at the topic of that mission.
+ * Measures the path from the notification to the mission's topic, with everything that a suite does beside it: sends notifications
+ * to its listener at a fixed rate, of entities of one mission, and reads them at the mission's topic.
  */
 final class SuiteLoad {
     private static final String DOMAIN = "bench";
@@ -43,7 +43,9 @@ final class SuiteLoad {
     private final Suite suite;
     private long firstNumber = NUMBERS_PER_RUN;
 
-    /** @param entities of the mission, which is started */
+    /**
+     * @param entities of the mission, which is started
+     */
     SuiteLoad(Suite suite, int entities) throws InterruptedException, ExecutionException {
         this.suite = suite;
         Engines.makeTopics(
@@ -59,15 +61,15 @@ final class SuiteLoad {
     }
 
     /**
-     * What became of one rate.
+     * The result of one rate.
      *
-     * @param load what the senders saw
+     * @param load the senders' result
      * @param missing acknowledged notifications that are not on the mission's topic
-     * @param repeats records there of one that was there already
+     * @param repeats repeated records there
      * @param delay milliseconds from the receipt by the source to the reader
      */
     record Run(HttpLoad.Result load, long missing, long repeats, Histogram delay) {
-        /** Whether all was taken and came once, and 99 of 100 within a second. */
+        /** Whether all were acknowledged and arrived once, 99 of 100 within a second. */
         boolean isHeld() {
             return load.refused() + load.broken() + missing + repeats == 0 && millis(P99) <= HELD_MILLIS;
         }

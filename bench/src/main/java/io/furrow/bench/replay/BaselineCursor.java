@@ -25,7 +25,10 @@ import io.furrow.replay.record.EventEncoder;
 
 /** Reads a mission by event time with a cursor of MongoDB's driver, decodes each document and sends its record, in one thread. */
 final class BaselineCursor {
-    /** As a recording in MongoDB is read: of the first query; a full one is followed by one twice as long, within the bytes. */
+    /**
+     * The size of the first query, as for a recording in MongoDB; a full one is followed by one twice as large, within the limit
+     * of bytes.
+     */
     static final int FIRST_QUERY = 2_000;
 
     private static final long QUERY_BYTES = Math.max(
@@ -43,8 +46,8 @@ final class BaselineCursor {
     private long sequence;
 
     /**
-     * @param most events
-     * @param perQuery documents of the first query, more than are of one millisecond
+     * @param most maximum number of events
+     * @param perQuery documents of the first query, more than share one millisecond
      */
     BaselineCursor(String mongo, DesiredReplay replay, int most, int perQuery) {
         this.mongo = mongo;

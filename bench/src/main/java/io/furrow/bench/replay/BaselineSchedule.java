@@ -15,7 +15,7 @@ import io.furrow.bench.frame.TopicFiller;
 import io.furrow.mission.StoredEvent;
 import io.furrow.replay.record.EventEncoder;
 
-/** Writes the events of replays when they are due: one thread, one producer, and sleep until the next. */
+/** Writes the events of replays when they are due, with one thread and one producer that sleep until the next. */
 final class BaselineSchedule {
     private final List<Turn> turns = new ArrayList<>();
 
@@ -25,7 +25,9 @@ final class BaselineSchedule {
         }
     }
 
-    /** @param until event time before which all is written, epoch ms */
+    /**
+     * @param until event time up to which everything is written, exclusive, epoch ms
+     */
     BaselineSchedule(List<ScheduledReplay> replays, long until) {
         Map<StoredMission, List<StoredEvent>> events = new HashMap<>();
         for (ScheduledReplay replay : replays) {

@@ -44,7 +44,7 @@ final class HeapGrowth implements AutoCloseable {
         return ProcessStatus.heapAfterCollection() / MEBI;
     }
 
-    /** MiB. */
+    /** The greatest growth, MiB. */
     long most() {
         return most;
     }

@@ -7,13 +7,13 @@ import java.util.function.ToLongFunction;
 import io.furrow.bench.frame.Figures;
 
 /**
- * By how much events were behind their schedule.
+ * The lateness of events relative to their schedule.
  *
  * @param p50 ms
  * @param p99 ms
  * @param max ms
  * @param drift median of the last tenth of the events less that of the first, ms
- * @param least ms; negative where an event was early
+ * @param least ms; negative if an event was early
  */
 record Lateness(long p50, long p99, long max, long drift, long least) {
     private static final int TENTH = 10;
@@ -30,7 +30,9 @@ record Lateness(long p50, long p99, long max, long drift, long least) {
         }
     }
 
-    /** @param events at least one, in the order of their schedule */
+    /**
+     * @param events at least one, in scheduled order
+     */
     static Lateness of(List<Late> events) {
         long[] sorted = sorted(events);
         int tenth = Math.max(1, events.size() / TENTH);
@@ -54,7 +56,7 @@ record Lateness(long p50, long p99, long max, long drift, long least) {
         return sorted[(int) Math.min(sorted.length - 1L, Math.round(share * sorted.length))];
     }
 
-    /** Of several measurements, each figure by itself; of an even number the upper one. */
+    /** The median of each figure over several measurements; of an even number the upper one. */
     static Lateness median(List<Lateness> all) {
         return new Lateness(
                 median(all, Lateness::p50),

@@ -17,9 +17,9 @@ import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.topic.Topics;
 
 /**
- * Plays one mission as fast as possible, by the job and by a bare loop: a cursor of MongoDB's driver by event time,
- * each document decoded, made a record and sent by a producer with the job's settings; in turns. The loop does so
- * twice: with queries of as many documents as the job's, and with one query.
+ * Replays one mission as fast as possible, by the job and by a bare loop alternately: a cursor of MongoDB's driver by
+ * event time, whose documents are decoded, turned into records and sent by a producer with the job's settings. The loop
+ * does so twice: with queries as large as the job's, and with one query.
  */
 final class MaxMeasurement {
     private static final int PER_SECOND = 1_000;
@@ -32,7 +32,7 @@ final class MaxMeasurement {
     private final Consumer<String> progress;
 
     /**
-     * One of both in one turn.
+     * The result of either in one turn.
      *
      * @param perSecond events, between the first and the last on the topic
      * @param seconds from the request, or the loop's beginning, to the last
@@ -75,7 +75,7 @@ final class MaxMeasurement {
                 .allMatch(run -> run.missing() == 0);
     }
 
-    /** Plays it once. @return heap in use after collections while it was played, less than before, MiB at most */
+    /** Replays it once. @return the greatest growth of the heap in use, after collections, MiB */
     long heldWhilePlayed() throws Exception {
         mission.store(cluster.mongo());
         try (HeapGrowth heap = HeapGrowth.start(progress)) {
@@ -111,7 +111,9 @@ final class MaxMeasurement {
         return run(replay.topic(), begun, events);
     }
 
-    /** @param expected −1 where that is not known */
+    /**
+     * @param expected −1 if unknown
+     */
     private Run run(String topic, long asked, int expected) throws Exception {
         BitSet found = new BitSet();
         long[] appended = {Long.MAX_VALUE, Long.MIN_VALUE};

@@ -17,7 +17,7 @@ import io.furrow.replay.record.EventEncoder;
 import io.furrow.replay.record.ReplayRecords;
 
 /**
- * An event on the topic of a replay whose records are stamped with the time at which they are played.
+ * An event on the topic of a replay whose records have the time of replay as their timestamp.
  *
  * @param sequence from 0 in the replay
  * @param time original event time, epoch ms
@@ -32,7 +32,9 @@ record PlayedRecord(long sequence, long time, long handedOver, long appended) {
         return header(record, HeaderNames.REPLAY_KIND).equals(EVENT);
     }
 
-    /** @param record of a topic whose timestamps are those of the broker */
+    /**
+     * @param record of a topic with timestamps set by the broker
+     */
     static PlayedRecord of(ConsumerRecord<byte[], byte[]> record) {
         long time = Instant.parse(header(record, HeaderNames.REPLAY_TIME)).toEpochMilli();
         long offset = Long.parseLong(header(record, HeaderNames.REPLAY_OFFSET));

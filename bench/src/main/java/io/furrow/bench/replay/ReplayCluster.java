@@ -30,8 +30,8 @@ import io.furrow.replay.ReplayJob;
 import io.furrow.replay.ReplayOptions;
 
 /**
- * Kafka, MongoDB and the job {@code replay} between them. The broker must stamp the records of topics that it has no other setting for
- * by itself ({@code log.message.timestamp.type=LogAppendTime}).
+ * Kafka, MongoDB and the job {@code replay} between them. The broker's default must be to set timestamps itself
+ * ({@code log.message.timestamp.type=LogAppendTime}).
  */
 final class ReplayCluster implements AutoCloseable {
     private static final Duration POLL = Duration.ofMillis(100);
@@ -61,7 +61,7 @@ final class ReplayCluster implements AutoCloseable {
         Engines.makeTopics(kafka, 1, Map.of("cleanup.policy", "compact"), Topics.REPLAYS, Topics.REPLAYS_STATUS);
     }
 
-    /** The job, to be run as long as it is measured. */
+    /** The job under measurement. */
     StreamExecutionEnvironment job() {
         return ReplayJob.assemble(options);
     }
@@ -74,7 +74,7 @@ final class ReplayCluster implements AutoCloseable {
         return checkpointMillis;
     }
 
-    /** With the settings of the job's. */
+    /** A producer with the job's settings. */
     TopicFiller producer() {
         Properties settings = KafkaConnectors.producerProperties(options);
         settings.putAll(kafka);
@@ -93,9 +93,9 @@ final class ReplayCluster implements AutoCloseable {
     }
 
     /**
-     * Lets the job play replays, and returns when all have ended and no restart takes that back; the job forgets them then.
+     * Runs replays in the job, and returns when all have ended and no restart can undo that; the job deletes them then.
      *
-     * @throws IllegalStateException if one fails, or nothing is heard for two minutes
+     * @throws IllegalStateException if one fails, or reports nothing for two minutes
      */
     void play(Collection<DesiredReplay> replays) throws UnreadableException {
         replays.forEach(replay -> put(replay, replay.toBytes()));
@@ -134,9 +134,9 @@ final class ReplayCluster implements AutoCloseable {
     }
 
     /**
-     * Reads the events of topics from their beginning to their end of now.
+     * Reads the events of topics from their beginning to their current end.
      *
-     * @param out is called with the topic of each
+     * @param out receives each event with its topic
      */
     void read(Collection<String> topics, BiConsumer<String, PlayedRecord> out) {
         try (CommittedReader<byte[]> reader = CommittedReader.openBytes(kafka, topics.toArray(String[]::new))) {

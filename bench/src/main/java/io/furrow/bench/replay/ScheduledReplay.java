@@ -23,7 +23,7 @@ record ScheduledReplay(DesiredReplay replay, StoredMission mission, long anchor)
         return new ScheduledReplay(other, mission, anchor + later);
     }
 
-    /** What the topics of replays say of their events, in the order of each; of one that was written twice the first. */
+    /** The events on the topics of replays, in order per topic; of a repeated one the first. */
     static Map<String, List<PlayedRecord>> events(ReplayCluster cluster, List<DesiredReplay> replays) {
         Map<String, List<PlayedRecord>> events = new HashMap<>();
         replays.forEach(replay -> events.put(replay.topic(), new ArrayList<>()));

@@ -18,7 +18,10 @@ import io.furrow.mission.StoredEvent;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.MongoRecordings;
 
-/** Reads what a seek needs from a stored mission: the states before a point and the first page after it; beside it, the states by a scan. */
+/**
+ * Measures the reads for a seek in a stored mission: the states before a point and the first page after it; beside it, the states by a
+ * scan.
+ */
 final class SeekMeasurement {
     private static final int PER_SECOND = 100;
     private static final int[] PERCENT = {10, 50, 90};
@@ -28,7 +31,9 @@ final class SeekMeasurement {
     private final int turns;
     private final Consumer<String> progress;
 
-    /** @param turns that count, after one that does not */
+    /**
+     * @param turns measured ones, after one of warm-up
+     */
     SeekMeasurement(String mongo, int events, int turns, Consumer<String> progress) {
         this.mongo = mongo;
         this.mission = new StoredMission("seek", events, PER_SECOND, 1);
@@ -36,7 +41,7 @@ final class SeekMeasurement {
         this.progress = progress;
     }
 
-    /** @return whether both know the same states */
+    /** @return whether both find the same states */
     boolean run(Consumer<Figures> out) throws RecordingException {
         progress.accept("%,d events into MongoDB".formatted(mission.events()));
         mission.store(mongo);
@@ -84,7 +89,7 @@ final class SeekMeasurement {
         return nanos / (double) TimeUnit.MILLISECONDS.toNanos(1);
     }
 
-    /** A recording whose states are found by reading it from its beginning. */
+    /** A recording whose states are found by a scan from its beginning. */
     private record Scanned(Recording recording) implements Recording {
         @Override
         public Optional<RecordingExtent> span() throws RecordingException {

@@ -24,7 +24,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * A mission whose events come at random times, as many per second on average; the same whenever it is made.
+ * A mission with events at random times, at an average rate; reproducible.
  *
  * @param perSecond of event time
  * @param seed of the spacing
@@ -37,7 +37,7 @@ record StoredMission(String name, int events, int perSecond, long seed) {
     private static final int BULK = 5_000;
     private static final double MILLIS = 1_000;
 
-    /** Makes the events, in the order of event time. */
+    /** Generates the events, in the order of event time. */
     void forEach(Consumer<StoredEvent> out) {
         Random random = new Random(seed);
         double time = BEGIN;

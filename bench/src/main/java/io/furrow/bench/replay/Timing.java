@@ -8,7 +8,7 @@ import java.util.Optional;
 import io.furrow.bench.replay.Lateness.Late;
 
 /**
- * How punctual the events of one turn were.
+ * The punctuality of the events of one turn.
  *
  * @param start lateness at the broker in the first seconds of each replay; empty if these are not separated
  * @param steady at the broker, after these
@@ -24,7 +24,9 @@ record Timing(Optional<Lateness> start, Lateness steady, Lateness handedOver, lo
         private final List<Late> handedOver = new ArrayList<>();
         private long missing;
 
-        /** @param startMillis of each replay that are separated; 0 for none */
+        /**
+         * @param startMillis initial time of each replay that is separated; 0 for none
+         */
         Collected(long startMillis) {
             this.startMillis = startMillis;
         }

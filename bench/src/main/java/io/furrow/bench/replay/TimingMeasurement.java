@@ -15,12 +15,12 @@ import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.topic.Topics;
 
 /**
- * Plays missions at speed 1 by the job, and writes the same records to the same schedule by a bare loop, in turns. One
- * replay alone begins at a moment that is said beforehand; several begin as soon as the job can, and the loop follows
- * the beginnings that the job made.
+ * Replays missions at speed 1 by the job, and writes the same records to the same schedule by a bare loop, alternately.
+ * A single replay begins at a time set beforehand; several begin as soon as the job can, and the loop uses the
+ * beginnings of the job.
  */
 final class TimingMeasurement {
-    /** Of a turn before anything counts. */
+    /** The length of a warm-up turn. */
     private static final int WARM_UP_SECONDS = 10;
 
     private static final int MAX_MISSIONS = 20;
@@ -70,7 +70,7 @@ final class TimingMeasurement {
                 .allMatch(turn -> turn.replay().missing() == 0 && turn.bare().missing() == 0);
     }
 
-    /** Plays them once. @return heap in use after collections while they were played, less than before, MiB at most */
+    /** Replays them once. @return the greatest growth of the heap in use, after collections, MiB */
     long heldWhilePlayed() throws Exception {
         missions.forEach(mission -> mission.store(cluster.mongo()));
         try (HeapGrowth heap = HeapGrowth.start(progress)) {

@@ -10,7 +10,7 @@ import java.util.List;
 
 import com.fasterxml.jackson.databind.ObjectMapper;
 
-/** Results in a file of JSON lines that grows: a measurement that was interrupted goes on where it was. */
+/** Stores results in a growing file of JSON lines, so that an interrupted measurement can continue. */
 public final class JsonLines<T> {
     private static final ObjectMapper JSON = new ObjectMapper();
 
@@ -22,10 +22,10 @@ public final class JsonLines<T> {
     }
 
     /**
-     * Begins with what the file holds; it need not exist.
+     * Reads the file, if it exists.
      *
      * @param bench that writes such files, for messages
-     * @throws IOException if it holds something else
+     * @throws IOException if its content is invalid
      */
     public static <T> JsonLines<T> in(Path file, Class<T> type, String bench) throws IOException {
         JsonLines<T> lines = new JsonLines<>(file);

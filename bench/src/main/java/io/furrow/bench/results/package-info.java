@@ -1,2 +1,2 @@
-/** Where figures of several measurements are stored until all of them are there. */
+/** Stores figures of several measurements until they are complete. */
 package io.furrow.bench.results;

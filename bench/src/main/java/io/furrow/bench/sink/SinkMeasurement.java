@@ -26,7 +26,7 @@ import io.furrow.bench.http.HttpLoad;
 import io.furrow.bench.http.NotificationRequest;
 import io.furrow.model.event.HeaderNames;
 
-/** Fills a topic, lets the sink write it into a context broker, and reports the time. */
+/** Fills a topic, lets the sink write it to a context broker, and measures the time. */
 final class SinkMeasurement {
     private static final int PARTITIONS = 4;
     private static final int ENTITIES_PER_REQUEST = 100;
@@ -40,7 +40,7 @@ final class SinkMeasurement {
 
     /**
      * @param sink starts the sink of this name with a context broker, and returns when it runs
-     * @param progress is reported once a second how far it is
+     * @param progress is called once a second
      */
     SinkMeasurement(Properties kafka, BiConsumer<String, URI> sink, Consumer<String> progress) {
         this.kafka = kafka;
@@ -48,7 +48,7 @@ final class SinkMeasurement {
         this.progress = progress;
     }
 
-    /** So many {@linkplain #run runs} whose names end with their number. */
+    /** Several {@linkplain #run runs} whose names end with their number. */
     List<SinkReport.Run> runs(int runs, String name, SinkReport.Plan plan, URI contextBroker)
             throws InterruptedException, ExecutionException {
         List<SinkReport.Run> measured = new ArrayList<>();
@@ -62,7 +62,8 @@ final class SinkMeasurement {
      * One run.
      *
      * @param name of the topic and of the sink
-     * @param contextBroker one that does not count, where the time has the sink's start in it; null for a receiver that only answers
+     * @param contextBroker one that does not count, so that the time includes the sink's start; null for a receiver that only
+     *     answers
      */
     SinkReport.Run run(String name, SinkReport.Plan plan, URI contextBroker)
             throws InterruptedException, ExecutionException {
@@ -124,7 +125,7 @@ final class SinkMeasurement {
                 .sum();
     }
 
-    /** The newest record of each entity must have come; older ones may have been merged into it. */
+    /** The newest record of each entity must have arrived; older ones may have been merged into it. */
     static long missing(SinkReport.Plan plan, BitSet arrived) {
         BitSet newest = new BitSet();
         newest.set(plan.records() - plan.entities(), plan.records());

@@ -10,22 +10,22 @@ import io.furrow.bench.frame.Figures;
 /** The runs of one kind and their median. */
 record SinkReport(String title, Plan plan, List<Run> runs) {
     /**
-     * What the sink has to write.
+     * The input of the sink.
      *
      * @param records in the topic before the sink starts
-     * @param entities that they are about; as many as records if each is about its own
+     * @param entities of the records; as many as records if each has its own
      * @param payloadBytes of a notification with such an entity
      */
     record Plan(int records, int entities, int payloadBytes) {}
 
     /**
-     * The records of a topic written by the sink.
+     * The sink's run over the records of a topic.
      *
      * @param nanos from the first request to the last, or from the sink's start to its last commit if {@code entities} is 0
-     * @param entities in the requests; 0 where the receiver does not count
-     * @param requests updates and questions
-     * @param missing entities whose newest record did not come
-     * @param bareEntitiesPerSecond entities in bodies of a hundred that a server takes which only answers
+     * @param entities in the requests; 0 if the receiver does not count
+     * @param requests updates and queries
+     * @param missing entities whose newest record did not arrive
+     * @param bareEntitiesPerSecond entities, a hundred per body, accepted by a server that only answers
      */
     record Run(long nanos, long entities, long requests, long missing, double bareEntitiesPerSecond) {}
 
@@ -39,7 +39,7 @@ record SinkReport(String title, Plan plan, List<Run> runs) {
         return Figures.median(runs, this::updatesPerSecond);
     }
 
-    /** Entities whose newest state did not come, of all runs. */
+    /** Entities whose newest state did not arrive, of all runs. */
     long missing() {
         return runs.stream().mapToLong(Run::missing).sum();
     }

@@ -16,7 +16,7 @@ import org.eclipse.jetty.util.Promise;
 import io.furrow.bench.http.BaselineServer;
 import io.furrow.bench.http.NotificationRequest;
 
-/** A context broker that knows no entity and takes every update: it records the numbers in the bodies, and when they came. */
+/** A context broker without entities that accepts every update and records the numbers in the bodies with their times. */
 final class StubBroker implements AutoCloseable {
     private static final String QUERY = "/v2/op/query";
     private static final byte[] NO_ENTITIES = "[]".getBytes(StandardCharsets.US_ASCII);
@@ -30,7 +30,7 @@ final class StubBroker implements AutoCloseable {
 
     private StubBroker() {}
 
-    /** On a free port. */
+    /** Starts on a free port. */
     static StubBroker start() {
         return new StubBroker();
     }
@@ -53,17 +53,17 @@ final class StubBroker implements AutoCloseable {
         }
     }
 
-    /** The numbers that have come. */
+    /** The numbers received. */
     synchronized BitSet numbers() {
         return (BitSet) numbers.clone();
     }
 
-    /** Entities in all bodies: fewer than records where several were merged. */
+    /** Entities in all bodies: fewer than records if some were merged. */
     synchronized long entities() {
         return entities;
     }
 
-    /** Updates and questions. */
+    /** Updates and queries. */
     synchronized long requests() {
         return requests;
     }

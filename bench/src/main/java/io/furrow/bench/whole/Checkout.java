@@ -9,11 +9,11 @@ import java.util.List;
 /**
  * A built version of Furrow.
  *
- * @param name as tables call it
- * @param home the folder that holds {@code ./furrow}
+ * @param name for tables
+ * @param home the folder that contains {@code ./furrow}
  */
 public record Checkout(String name, Path home) {
-    /** The one that runs, by its commit; with {@code -dirty} where it has changes that are in none. */
+    /** The running one, by its commit; with {@code -dirty} if it has uncommitted changes. */
     public static Checkout here() throws IOException {
         Path home = Path.of(System.getProperty("furrow.home")).toAbsolutePath();
         Process git = new ProcessBuilder("git", "describe", "--always", "--dirty", "--exclude=*")
@@ -28,7 +28,7 @@ public record Checkout(String name, Path home) {
     }
 
     /**
-     * Another commit of this repository, in a worktree below {@code target}, which stays for the next time; built where it is not yet.
+     * Another commit of this repository, in a worktree below {@code target} that is reused; built if necessary.
      *
      * @throws IOException if git has no such commit, or the build failed
      */
@@ -44,7 +44,7 @@ public record Checkout(String name, Path home) {
         return checkout;
     }
 
-    /** Shows what the build shows. */
+    /** Shows the output of the build. */
     private void build() throws IOException, InterruptedException {
         run(home, List.of(home.resolve("furrow").toString(), "bench", "--help"));
     }

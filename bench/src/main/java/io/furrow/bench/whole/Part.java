@@ -3,9 +3,9 @@ package io.furrow.bench.whole;
 import java.util.List;
 import java.util.Locale;
 
-/** What is measured of a whole suite; devices are zero where none of the load's report. */
+/** The measurements of a whole suite; devices are zero for those that are not loads. */
 enum Part {
-    /** {@code ./furrow up} with nothing to do. */
+    /** {@code ./furrow up} without load. */
     IDLE(0),
     /** {@code ./furrow demo}. */
     DEMO(0),
@@ -41,15 +41,15 @@ enum Part {
         return name().toLowerCase(Locale.ROOT).replace('_', ' ');
     }
 
-    /** One of its results. */
+    /** A result of a part. */
     enum Figure {
         /** From the command to the table of addresses. */
         START_SECONDS,
-        /** Processor time by time. */
+        /** Processor time divided by time. */
         CORES,
         THREADS,
         RESIDENT_MB,
-        /** Of the messages sent. */
+        /** Share of the messages sent. */
         DELIVERED,
         /** Of the whole process, sender and reader included, until the last message arrived. */
         CPU_MS_PER_MESSAGE,

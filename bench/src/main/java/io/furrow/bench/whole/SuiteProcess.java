@@ -10,7 +10,7 @@ import java.util.function.Predicate;
 
 import io.furrow.bench.frame.ProcessStatus;
 
-/** {@code ./furrow} as a process of its own, seen from outside: what it prints, and what the system says of it (Linux). */
+/** {@code ./furrow} in its own process, observed from outside: by its output, and by the system's data on it (Linux). */
 final class SuiteProcess implements AutoCloseable {
     private static final long STOP_SECONDS = 20;
 
@@ -49,7 +49,7 @@ final class SuiteProcess implements AutoCloseable {
                 + String.join("\n", last.subList(Math.max(0, last.size() - 5), last.size())));
     }
 
-    /** Reads on in the background, so that the process never waits for a reader. */
+    /** Reads on in the background, so that the process never blocks on output. */
     void discardOutput() {
         Thread reader = new Thread(
                 () -> {
@@ -64,7 +64,7 @@ final class SuiteProcess implements AutoCloseable {
         reader.start();
     }
 
-    /** Processor time by now. */
+    /** Processor time so far. */
     Duration processorTime() throws IOException {
         return process.info().totalCpuDuration().orElseThrow(() -> new IOException("the suite has ended"));
     }

@@ -10,9 +10,7 @@ import java.util.regex.Pattern;
 import java.util.stream.Collectors;
 import java.util.stream.Stream;
 
-/**
- * Processor time of a process's threads, by id. Linux keeps it for each, with the first 15 characters of its name.
- */
+/** Processor time of a process's threads, by id. Linux records it for each, with the first 15 characters of its name. */
 public record ThreadTimes(Map<String, Spent> threads) {
     /** Of one thread. */
     public record Spent(String role, long nanos, long switches) {
@@ -25,7 +23,7 @@ public record ThreadTimes(Map<String, Spent> threads) {
     public static final String COMPILERS = "compilers of the JVM";
     static final String OTHERS = "everything else";
 
-    /** What threads do, by how their names begin; the first that fits counts. */
+    /** Roles of threads by their names; the first match counts. */
     private static final Map<String, Pattern> ROLES = new LinkedHashMap<>();
 
     static {
@@ -86,7 +84,7 @@ public record ThreadTimes(Map<String, Spent> threads) {
                 .orElse(OTHERS);
     }
 
-    /** What was spent after an earlier look by the threads that are still there. */
+    /** The time spent since an earlier sample, by threads that still exist. */
     public ThreadTimes since(ThreadTimes before) {
         Map<String, Spent> spent = new HashMap<>();
         threads.forEach((id, now) -> spent.put(id, now.since(before.threads.get(id))));

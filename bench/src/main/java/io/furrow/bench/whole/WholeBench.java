@@ -64,7 +64,7 @@ public final class WholeBench extends Benchmark {
         WholeMeasurement measurement = new WholeMeasurement(Duration.ofSeconds(warmup), Duration.ofSeconds(seconds));
         for (int turn = 1; turn <= turns; turn++) {
             for (Part part : parts) {
-                // Who comes first changes with each turn.
+                // The order changes with each turn.
                 for (Checkout checkout : turn % 2 == 1 ? List.of(here, other) : List.of(other, here)) {
                     if (!known.has(turn, part, checkout)) {
                         say("turn %d of %d: %s, %s …".formatted(turn, turns, part, checkout.name()));
@@ -79,7 +79,7 @@ public final class WholeBench extends Benchmark {
         return 0;
     }
 
-    /** Where the processor time went. */
+    /** Processor time by role. */
     private static Figures roles(WholeMeasurement.Result result) {
         Figures figures = new Figures("%.0f switches between threads a second".formatted(result.switchesPerSecond()));
         result.roles().entrySet().stream()

@@ -12,12 +12,12 @@ import java.util.concurrent.TimeUnit;
 
 import io.furrow.bench.whole.Part.Figure;
 
-/** Measures one checkout at a time; the machine is to be quiet otherwise, and the suite's usual ports free. */
+/** Measures one checkout at a time; the machine must be otherwise idle, and the suite's default ports free. */
 final class WholeMeasurement {
     /**
-     * What was measured.
+     * The results of a measurement.
      *
-     * @param roles processor time by what threads do, cores; with the switches between threads a second
+     * @param roles processor time by thread role, cores; with the switches between threads a second
      */
     record Result(Map<Figure, Double> figures, Map<String, Double> roles, double switchesPerSecond) {
         private static Result of(Map<Figure, Double> figures, ThreadTimes spent, double nanos) {

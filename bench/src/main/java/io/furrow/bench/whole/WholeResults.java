@@ -13,7 +13,7 @@ import java.util.stream.DoubleStream;
 import io.furrow.bench.frame.Figures;
 import io.furrow.bench.whole.Part.Figure;
 
-/** Figures by turn, in a file that grows line by line: a measurement that was interrupted goes on where it was. */
+/** Stores figures by turn in a growing file, so that an interrupted measurement can continue. */
 final class WholeResults {
     private record Row(int turn, Part part, String checkout, Figure figure, double value) {
         static Row parse(String line) {
@@ -38,7 +38,7 @@ final class WholeResults {
         this.file = file;
     }
 
-    /** Begins with what the file holds; it need not exist. */
+    /** Reads the file, if it exists. */
     static WholeResults in(Path file) throws IOException {
         WholeResults results = new WholeResults(file);
         if (Files.exists(file)) {

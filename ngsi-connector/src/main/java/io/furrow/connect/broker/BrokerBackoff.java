@@ -5,9 +5,12 @@ import java.util.Optional;
 
 import io.furrow.model.time.Backoff;
 
-/** How long to leave a context broker alone: twice as long after each failure, and at least as long as it asks for. */
+/**
+ * Computes the pause before the next request to a failing context broker: doubles after each failure, and is at least
+ * as long as the broker requests.
+ */
 public final class BrokerBackoff {
-    /** What a broker asks for is not followed blindly: a wrong date would stop everything for years. */
+    /** Limits the requested pause: a wrong date would stop everything for years. */
     private static final Duration MAX_ASKED = Duration.ofHours(1);
 
     private final Backoff backoff;
@@ -16,7 +19,9 @@ public final class BrokerBackoff {
         backoff = new Backoff(min, max);
     }
 
-    /** @param retryAfter what the broker asks for; empty if it names no time */
+    /**
+     * @param retryAfter the pause that the broker requests; empty for none
+     */
     public Duration after(Optional<Duration> retryAfter) {
         Duration delay = backoff.next();
         Duration asked = retryAfter.orElse(Duration.ZERO);
@@ -24,7 +29,7 @@ public final class BrokerBackoff {
         return heeded.compareTo(delay) > 0 ? heeded : delay;
     }
 
-    /** It answered. */
+    /** Called after an answer. */
     public void reset() {
         backoff.reset();
     }

@@ -15,8 +15,8 @@ import io.furrow.model.ngsi.NgsiJson;
  * @param scope sent as {@code Fiware-Service} (none for the default tenant) and {@code Fiware-Servicepath}
  * @param path with its query, percent-encoded, for instance {@code /v2/entities?limit=100}
  * @param body null if there is none
- * @param headers besides those of the scope, {@code Content-Type} among them where there is a body
- * @param repeatable whether a second time does no harm: it is then sent again when a kept connection proves dead
+ * @param headers besides those of the scope, including {@code Content-Type} if there is a body
+ * @param repeatable whether it is idempotent: it is then sent again when a reused connection proves dead
  */
 public record BrokerRequest(
         String method, FiwareScope scope, String path, byte[] body, Map<String, String> headers, boolean repeatable) {

@@ -16,11 +16,11 @@ public sealed interface Outcome {
      * It was answered 2xx.
      *
      * @param headers of the answer
-     * @param body as it came, empty for 204
+     * @param body as received, empty for 204
      */
     record Done(int status, ResponseHeaders headers, byte[] body) implements Outcome {
         /**
-         * The body as JSON, a missing node where it is empty.
+         * The body as JSON, a missing node if it is empty.
          *
          * @throws UnreadableException if it is not JSON
          */
@@ -31,7 +31,7 @@ public sealed interface Outcome {
         /**
          * The body as a JSON array.
          *
-         * @throws UnreadableException if it is none
+         * @throws UnreadableException if it is not an array
          */
         public JsonNode list() throws UnreadableException {
             JsonNode list = json();

@@ -28,21 +28,21 @@ interface Disk {
     }
 
     /**
-     * A file of {@code capacity} bytes, zeros behind the header. A file that has the name is
-     * replaced. When this returns, file and name are on the disk.
+     * Creates a file of {@code capacity} bytes, zeros after the header, replacing an existing one. When this returns,
+     * file and name are on the disk.
      */
     SegmentFile create(Path file, ByteBuffer header, long capacity) throws IOException;
 
     /** Announces that a file of this capacity will be created in the folder, so that it can be preallocated. */
     default void prepare(Path folder, long capacity) {}
 
-    /** No file will be created any more. */
+    /** Announces that no further file will be created. */
     default void close() {}
 
     /** Bytes that can still be written on the disk that holds the folder. */
     long usable(Path folder) throws IOException;
 
-    /** The real one. */
+    /** The real disk. */
     static Disk real() {
         return new FileDisk();
     }
@@ -67,7 +67,7 @@ interface Disk {
     /** Files through {@link FileChannel}. */
     final class FileDisk implements Disk {
         private static final int ZEROS_AT_ONCE = 1024 * 1024;
-        /** Recovery deletes it by its end. */
+        /** Recovery deletes files with its suffix. */
         private static final String SPARE = "spare.segment.tmp";
 
         private final SpareFile spare = new SpareFile();

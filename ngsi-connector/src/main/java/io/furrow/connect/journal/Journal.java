@@ -91,7 +91,7 @@ public final class Journal implements AutoCloseable {
         return new JournalReader(segments, SegmentFormat.saltOf(id()), damages, commit, from);
     }
 
-    /** The sequence number behind the last durable record. */
+    /** The sequence number after the last durable record. */
     public long end() {
         Segment last = segments.last();
         return Math.max(last == null ? 0 : last.end().sequence(), commit.skippedTo());
@@ -103,12 +103,12 @@ public final class Journal implements AutoCloseable {
         return first == null ? end() : first.base();
     }
 
-    /** Gives the next record at least this number; only before the first append. */
+    /** Raises the number of the next record to at least this one; only before the first append. */
     public void skipTo(long sequence) {
         commit.skipTo(sequence);
     }
 
-    /** Deletes files that hold only records before a sequence number; the newest file stays. */
+    /** Deletes files whose records are all before a sequence number; the newest file stays. */
     public void release(long below) {
         try {
             segments.release(below);
@@ -117,12 +117,12 @@ public final class Journal implements AutoCloseable {
         }
     }
 
-    /** Bytes that its files take on the disk. */
+    /** Size of its files. */
     public long bytes() {
         return segments.bytes();
     }
 
-    /** Whether its files take half of the bytes that they may. */
+    /** Whether its files use half of the maximum size. */
     public boolean isHalfFull() {
         return room.isHalfFull();
     }
@@ -137,12 +137,12 @@ public final class Journal implements AutoCloseable {
         return damages.all();
     }
 
-    /** How many records are known to be missing because of damages. */
+    /** The number of records that are missing because of corruptions, as far as it can be determined. */
     public long lostRecords() {
         return damages.records();
     }
 
-    /** Bytes that were skipped because of damages or torn appends. */
+    /** Bytes that were skipped because of corruptions or torn appends. */
     public long lostBytes() {
         return damages.bytes();
     }

@@ -1,6 +1,6 @@
 package io.furrow.connect.journal;
 
-/** Why records did not become durable; it has no stack trace, because every waiting sender may get one. */
+/** The reason why records did not become durable; it has no stack trace, because every waiting sender may get one. */
 public abstract sealed class JournalException extends RuntimeException {
     private static final long serialVersionUID = 1L;
 

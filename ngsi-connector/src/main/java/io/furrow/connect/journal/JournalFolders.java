@@ -51,7 +51,7 @@ public final class JournalFolders {
         this.settings = settings;
     }
 
-    /** Whose journals they are. */
+    /** The owner of the journals. */
     public String owner() {
         return owner;
     }
@@ -201,7 +201,7 @@ public final class JournalFolders {
         }
     }
 
-    /** Gives a folder a name that is none of a journal's; returns it. */
+    /** Renames a folder so that it is no longer a journal's; returns the new name. */
     static Path markDeleted(Path folder) throws IOException {
         return Files.move(folder, folder.resolveSibling("deleted-" + folder.getFileName()));
     }

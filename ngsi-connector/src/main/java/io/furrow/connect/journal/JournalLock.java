@@ -78,8 +78,8 @@ final class JournalLock implements AutoCloseable {
     }
 
     /**
-     * Whether this part of the process may open the lock file, as nobody else in it may then: to close any channel of a file
-     * drops the process's locks on it. The system properties are the one map that all class loaders share.
+     * Whether this part of the process may open the lock file, which no other part may do then: closing any channel of a
+     * file drops the process's locks on it. All class loaders share the system properties, and no other map.
      */
     private static boolean reserve(String property, String use) {
         Object other = System.getProperties().putIfAbsent(property, use);

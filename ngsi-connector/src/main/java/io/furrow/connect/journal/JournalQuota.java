@@ -8,9 +8,9 @@ import java.util.List;
 record JournalQuota(JournalSettings settings, Path folder, Disk disk, Segments segments) {
 
     /**
-     * Whether records fit beside others that wait to be written.
+     * Whether records fit in addition to those that wait to be written.
      *
-     * @param waiting bytes of those
+     * @param waiting bytes of the waiting ones
      */
     boolean isFor(long bytes, long waiting) {
         if (waiting > 0 && waiting + bytes > settings.maxWaiting()) {
@@ -34,12 +34,12 @@ record JournalQuota(JournalSettings settings, Path folder, Disk disk, Segments s
         return segments.bytes() > settings.maxBytes() / 2;
     }
 
-    /** Bytes of records as they are on the disk. */
+    /** Size of records on the disk. */
     static long sizeOf(List<byte[]> payloads) {
         return payloads.stream().mapToLong(SegmentFormat::sizeOf).sum();
     }
 
-    /** Whether the disk has so many bytes besides those that stay free. */
+    /** Whether the disk has this many bytes besides those that must stay free. */
     boolean isFree(long bytes) {
         try {
             return disk.usable(folder) - bytes >= settings.minFree();

@@ -9,7 +9,7 @@ import java.util.List;
 
 import io.furrow.connect.journal.SegmentFormat.End;
 
-/** Reads durable records in order; caches none. Not thread-safe. */
+/** Reads durable records in order, without a cache. Not thread-safe. */
 public final class JournalReader implements AutoCloseable {
     private final Segments segments;
     private final long salt;
@@ -40,7 +40,7 @@ public final class JournalReader implements AutoCloseable {
         return lost;
     }
 
-    /** How many records there are from the position to the end, readable or not. */
+    /** The number of records from the position to the end, readable or not. */
     public long left() {
         return segments.recordsFrom(position);
     }

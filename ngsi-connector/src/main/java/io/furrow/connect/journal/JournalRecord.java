@@ -1,8 +1,8 @@
 package io.furrow.connect.journal;
 
 /**
- * A record as it was appended.
+ * An appended record.
  *
- * @param sequence counts records from 0; it is never given twice, but numbers may be left out
+ * @param sequence counts records from 0; never reused, but numbers may be skipped
  */
 public record JournalRecord(long sequence, byte[] payload) {}

@@ -12,8 +12,8 @@ import io.furrow.connect.journal.Corruption.Kind;
 import io.furrow.connect.journal.SegmentFormat.End;
 
 /**
- * Reads the records of one segment file one after the other, up to an end that may move. Invalid bytes are skipped up
- * to the next record, and noted.
+ * Reads the records of one segment file in order, up to an end that may move. Invalid bytes are skipped up to the next
+ * record, and reported.
  */
 final class RecordCursor implements Closeable {
     private static final int WINDOW = 256 * 1024;
@@ -35,7 +35,7 @@ final class RecordCursor implements Closeable {
         this.channel = FileChannel.open(file, StandardOpenOption.READ);
     }
 
-    /** Behind the last record that was read. */
+    /** The position after the last record read. */
     End at() {
         return new End(position, sequence);
     }
@@ -64,7 +64,7 @@ final class RecordCursor implements Closeable {
         return passed(record);
     }
 
-    /** Reads to the last complete record if the end is unknown; the bytes behind it are noted. */
+    /** Reads to the last complete record if the end is unknown; the bytes after it are reported. */
     End readToUnknownEnd() throws IOException {
         long limit = channel.size();
         while (true) {
@@ -102,10 +102,10 @@ final class RecordCursor implements Closeable {
         return record;
     }
 
-    /** The position of the next record behind an invalid position, or -1. */
+    /** The position of the next record after an invalid position, or -1. */
     private long firstRecordBehind(long broken, long limit) throws IOException {
         for (long at = broken + 1; at + SegmentFormat.RECORD_HEADER < limit; at++) {
-            // A record has a byte of payload at least, so a hole can only hold so many.
+            // A record has at least one byte of payload, which limits the number of records in a hole.
             long mostMissing = (at - broken) / (SegmentFormat.RECORD_HEADER + 1) + 1;
             if (recordAt(at, limit, sequence + mostMissing) != null) {
                 return at;
@@ -114,7 +114,7 @@ final class RecordCursor implements Closeable {
         return -1;
     }
 
-    /** The record that begins at a place, or null if none does, or one with a number beyond {@code highest}. */
+    /** The record that begins at a position, or null if there is none, or its number exceeds {@code highest}. */
     private JournalRecord recordAt(long at, long limit, long highest) throws IOException {
         if (limit - at <= SegmentFormat.RECORD_HEADER) {
             return null;
@@ -148,7 +148,7 @@ final class RecordCursor implements Closeable {
         return true;
     }
 
-    /** Loads bytes of the file into the window, none from behind the limit: they may still change. */
+    /** Loads bytes of the file into the window, but none after the limit: they may still change. */
     private void load(long at, int length, long limit) throws IOException {
         if (at >= windowAt && at + length <= windowAt + window.limit()) {
             return;

@@ -18,13 +18,13 @@ import io.furrow.connect.journal.SegmentFormat.Header;
 
 /**
  * Finds the segments of a journal and the end of each. Each segment stores the end of its predecessor, so only the last
- * file, and one whose successor is damaged, is read to its end; a corruption elsewhere is noted when it is read.
+ * file, and one whose successor is damaged, is read to its end; a corruption elsewhere is detected when it is read.
  */
 record Recovery(Path folder, long salt, Corruptions damages) {
-    /** A file, its length and its header if that could be read. */
+    /** A file, its length and its header if that is readable. */
     private record Candidate(long base, Path file, long length, Optional<Header> header) {}
 
-    /** The segments in their order. Files that were being made are deleted. */
+    /** The segments in order. Unfinished files are deleted. */
     List<Segment> segments() throws IOException {
         List<Candidate> candidates = candidates();
         List<Segment> segments = new ArrayList<>();
@@ -66,7 +66,7 @@ record Recovery(Path folder, long salt, Corruptions damages) {
         }
     }
 
-    /** Between files, numbers may be left out on purpose; the header says so. */
+    /** Between files, numbers may be skipped on purpose; the header records this. */
     private void noteMissingBetween(Candidate candidate, End end, Candidate next) {
         long expected =
                 next.header().map(header -> header.previousEnd().sequence()).orElse(next.base());

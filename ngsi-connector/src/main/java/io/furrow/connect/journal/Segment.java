@@ -4,7 +4,7 @@ import java.nio.file.Path;
 
 import io.furrow.connect.journal.SegmentFormat.End;
 
-/** A segment file that belongs to the journal: one that is being written, or one that will not grow any more. */
+/** A segment file of the journal: one that is being written, or one that does not grow any more. */
 final class Segment {
     private final long base;
     private final Path file;
@@ -20,12 +20,12 @@ final class Segment {
         this.sealed = sealed;
     }
 
-    /** A new one, to be written. */
+    /** A new segment for writing. */
     static Segment created(long base, Path file, long capacity) {
         return new Segment(base, file, capacity, new End(SegmentFormat.HEADER, base), false);
     }
 
-    /** One that was found, with the end of its durable records. */
+    /** An existing segment, with the end of its durable records. */
     static Segment found(long base, Path file, long length, End end) {
         return new Segment(base, file, length, end, true);
     }
@@ -38,12 +38,12 @@ final class Segment {
         return file;
     }
 
-    /** Bytes that it takes on the disk. */
+    /** Size on the disk. */
     long capacity() {
         return capacity;
     }
 
-    /** The end of its durable records; whoever also asks {@link #sealed} asks that first. */
+    /** The end of its durable records; read {@link #sealed} before this if both are needed. */
     End end() {
         return end;
     }

@@ -23,12 +23,12 @@ final class SegmentFormat {
     private static final Pattern NAME = Pattern.compile("(\\d{19})\\.segment");
 
     /**
-     * What a segment's header says.
+     * The header of a segment.
      *
      * @param base the first sequence number of the segment
-     * @param capacity length of the file as it was made
-     * @param previous the base of the segment before, or {@link #NONE}
-     * @param previousEnd where the durable records of the segment before end; what stands behind them counts for nothing
+     * @param capacity length of the file at its creation
+     * @param previous the base of the previous segment, or {@link #NONE}
+     * @param previousEnd the end of the durable records of the previous segment; bytes after it are ignored
      */
     record Header(long base, long capacity, long previous, End previousEnd) {
         static final long NONE = -1;
@@ -38,7 +38,7 @@ final class SegmentFormat {
      * An end of durable records.
      *
      * @param position in the file
-     * @param sequence number behind the last record
+     * @param sequence number after the last record
      */
     record End(long position, long sequence) {}
 
@@ -53,7 +53,7 @@ final class SegmentFormat {
         return matcher.matches() ? Optional.of(Long.parseLong(matcher.group(1))) : Optional.empty();
     }
 
-    /** A journal's own number, which goes into each checksum. */
+    /** A number of the journal that is part of each checksum. */
     static long saltOf(String journal) {
         return UUID.nameUUIDFromBytes(journal.getBytes(StandardCharsets.UTF_8)).getMostSignificantBits();
     }
@@ -72,7 +72,7 @@ final class SegmentFormat {
         return bytes.clear();
     }
 
-    /** The header, unless its bytes were changed or are missing. */
+    /** The header, unless it is corrupt or missing. */
     static Optional<Header> readHeader(ByteBuffer bytes, long salt) {
         if (bytes.remaining() < HEADER
                 || bytes.getLong(0) != MAGIC
@@ -90,7 +90,7 @@ final class SegmentFormat {
         return (int) crc.getValue();
     }
 
-    /** The header of a record in {@code into}, which is then ready to be read. */
+    /** Writes the header of a record to {@code into}, which is then ready to be read. */
     static void writeRecordHeader(ByteBuffer into, long salt, long sequence, byte[] payload) {
         into.clear().putInt(payload.length).putLong(sequence);
         CRC32C crc = seeded(salt, payload.length, sequence);
@@ -98,7 +98,7 @@ final class SegmentFormat {
         into.putInt((int) crc.getValue()).flip();
     }
 
-    /** The checksum of a record whose payload is what remains in {@code payload}. */
+    /** The checksum of a record whose payload is the remaining bytes of {@code payload}. */
     static int checksum(long salt, long sequence, ByteBuffer payload) {
         CRC32C crc = seeded(salt, payload.remaining(), sequence);
         crc.update(payload);

@@ -47,7 +47,7 @@ final class SegmentWriter {
         return sequence;
     }
 
-    /** Gives the next record a higher number; only before the first. */
+    /** Raises the number of the next record; only before the first. */
     void skipTo(long number) {
         if (segment != null || number < sequence) {
             throw new IllegalStateException("cannot go from " + sequence + " to " + number);
@@ -55,14 +55,14 @@ final class SegmentWriter {
         sequence = number;
     }
 
-    /** The number behind the last record that a {@link #sync} made durable, or that was found. */
+    /** The number after the last record that a {@link #sync} made durable, or that existed at the opening. */
     long durable() {
         return durable;
     }
 
     /**
-     * Writes the records of one append, not necessarily to the disk before {@link #sync}. One file holds them all, and what was
-     * written before a new file is made is durable then: an error leaves no append that is durable in part.
+     * Writes the records of one append, without a sync to the disk before {@link #sync}. One file holds them all, and earlier
+     * records are made durable before a new file is created: an error leaves no append that is partly durable.
      *
      * @param bytes that the records take in a file
      */
@@ -97,7 +97,7 @@ final class SegmentWriter {
         buffer.clear();
     }
 
-    /** Makes durable, and visible to readers, what was written. */
+    /** Makes the written records durable, and visible to readers. */
     void sync() throws IOException {
         if (segment == null || segment.end().sequence() == sequence) {
             return;
@@ -140,7 +140,7 @@ final class SegmentWriter {
         }
     }
 
-    /** Leaves the file after an error: its records end where they were durable. */
+    /** Abandons the file after an error: it ends at its last durable record. */
     void abandon() {
         buffer.clear();
         if (segment != null) {

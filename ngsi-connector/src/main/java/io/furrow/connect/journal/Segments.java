@@ -7,7 +7,7 @@ import java.util.Map;
 import java.util.concurrent.ConcurrentSkipListMap;
 import java.util.concurrent.atomic.AtomicLong;
 
-/** The segment files of an open journal, by the sequence number that each begins with. */
+/** The segment files of an open journal, by their first sequence number. */
 final class Segments {
     private final ConcurrentSkipListMap<Long, Segment> byBase = new ConcurrentSkipListMap<>();
     private final AtomicLong bytes = new AtomicLong();
@@ -31,7 +31,7 @@ final class Segments {
         return last == null ? null : last.getValue();
     }
 
-    /** The last that begins below a number, or null. */
+    /** The last segment that begins below a number, or null. */
     Segment lastBefore(long sequence) {
         Map.Entry<Long, Segment> before = byBase.lowerEntry(sequence);
         return before == null ? null : before.getValue();
@@ -42,7 +42,7 @@ final class Segments {
         return first == null ? null : first.getValue();
     }
 
-    /** The one that holds a sequence number if any does, else the first, or null. */
+    /** The segment that contains a sequence number, else the first, or null. */
     Segment holding(long sequence) {
         Map.Entry<Long, Segment> floor = byBase.floorEntry(sequence);
         return floor == null ? first() : floor.getValue();
@@ -53,7 +53,7 @@ final class Segments {
         return next == null ? null : next.getValue();
     }
 
-    /** How many records there are from a sequence number on; numbers that were left out between files count not. */
+    /** The number of records from a sequence number on, without numbers skipped between files. */
     long recordsFrom(long sequence) {
         long records = 0;
         for (Segment segment : byBase.values()) {
@@ -62,7 +62,7 @@ final class Segments {
         return records;
     }
 
-    /** Deletes files that only hold numbers below one; the last stays, it remembers the next number. */
+    /** Deletes files with numbers below one only; the last stays, because it determines the next number. */
     void release(long below) throws IOException {
         for (Segment segment : byBase.values()) {
             if (!segment.sealed() || segment.end().sequence() > below || segment == last()) {

@@ -18,7 +18,7 @@ import static java.nio.file.StandardOpenOption.WRITE;
 
 /**
  * Preallocates a file of zeros in the background, so that no append waits for the next segment. It leaves half of the
- * disk time to others until the file is needed. Its methods are called by one thread.
+ * disk time to others until the file is needed. Not thread-safe.
  */
 final class SpareFile {
     private static final Logger LOG = LoggerFactory.getLogger(SpareFile.class);
@@ -30,7 +30,7 @@ final class SpareFile {
     private volatile boolean hurry;
     private volatile boolean undesired;
 
-    /** Begins to make it, unless there is one already. */
+    /** Begins to create the file, unless there is one already. */
     void make(Path path, long bytes) {
         if (made != null) {
             return;
@@ -52,7 +52,7 @@ final class SpareFile {
         thread.start();
     }
 
-    /** The file if one of this size was begun and could be made; the caller has it from now on. */
+    /** The file if one of this size could be created; the caller then owns it. */
     Optional<Path> take(long bytes) {
         if (made == null || capacity != bytes) {
             return Optional.empty();
@@ -63,7 +63,7 @@ final class SpareFile {
         return whole ? Optional.of(file) : Optional.empty();
     }
 
-    /** Deletes it. */
+    /** Deletes the file. */
     void discard() {
         if (made == null) {
             return;

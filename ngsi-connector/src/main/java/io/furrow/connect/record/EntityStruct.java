@@ -58,7 +58,7 @@ public final class EntityStruct {
 
     private EntityStruct() {}
 
-    /** Whether a struct of this schema is an entity, also one that a transform took fields from. */
+    /** Whether a struct of this schema is an entity, even if a transform removed fields. */
     public static boolean isOf(Schema schema) {
         return ENTITY.name().equals(schema.name()) && schema.field("attributes") != null;
     }
@@ -102,7 +102,7 @@ public final class EntityStruct {
     }
 
     /**
-     * The entity as normalized JSON; what was null or is not there any more is left out.
+     * The entity as normalized JSON, without null and missing values.
      *
      * @throws UnreadableException if a value is not JSON
      */

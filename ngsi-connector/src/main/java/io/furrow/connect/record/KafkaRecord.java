@@ -12,8 +12,8 @@ import io.furrow.connect.repair.EntityVersion;
  *
  * @param key null if there is none
  * @param value null for a tombstone, which deletes the entity of the key
- * @param headers text, in the order in which they are written
- * @param version the state of the entity that the record holds; null if it holds none. Not written to Kafka
+ * @param headers text, in order
+ * @param version the state of the entity in the record; null if there is none. Not written to Kafka
  */
 public record KafkaRecord(
         String topic, String key, byte[] value, Instant time, Map<String, String> headers, EntityVersion version) {

@@ -23,13 +23,13 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 /**
- * What is known of entities as a file of lines: the sign of a kind and the identity as a JSON string. A line that was not
- * finished, or is damaged, is left out. Locks are the caller's.
+ * Stores the status of entities as a file of lines: the sign of a kind and the identity as a JSON string. An unfinished
+ * or damaged line is skipped. The caller must lock.
  */
 final class EntityIdFile implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(EntityIdFile.class);
 
-    /** Escapes whatever UTF-8 cannot hold, such as half a surrogate pair. */
+    /** Escapes everything that UTF-8 cannot encode, such as half a surrogate pair. */
     private static final ObjectMapper JSON = JsonMapper.builder()
             .enable(JsonWriteFeature.ESCAPE_NON_ASCII)
             .enable(DeserializationFeature.FAIL_ON_TRAILING_TOKENS)
@@ -46,11 +46,11 @@ final class EntityIdFile implements AutoCloseable {
         enum Kind {
             ADDED,
             REMOVED,
-            /** It has to be read again. */
+            /** The entity has to be read again. */
             STALE,
-            /** None has to be read again any more. */
+            /** No entity has to be read again any more. */
             SETTLED,
-            /** More than can be known. */
+            /** There are more entities than can be stored. */
             TOO_MANY;
 
             private static final String SIGNS = "+-?.!";
@@ -166,7 +166,7 @@ final class EntityIdFile implements AutoCloseable {
         }
     }
 
-    /** Keeps the file as it is; for instance because the disk is full. */
+    /** Discards the rewritten file, for instance because the disk is full. */
     void abandonRewrite() {
         meanwhile = null;
     }

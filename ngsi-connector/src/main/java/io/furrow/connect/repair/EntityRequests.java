@@ -18,7 +18,7 @@ final class EntityRequests {
 
     private EntityRequests() {}
 
-    /** The requested attributes and metadata; no names of metadata for all of their own. */
+    /** The requested attributes and metadata; without names of metadata, all custom ones. */
     record NotifiedAttributes(Set<String> attrs, List<String> metadata) {
         private String query() {
             return "&attrs=" + encoded(String.join(",", attrs))

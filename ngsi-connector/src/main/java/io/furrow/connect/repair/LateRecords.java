@@ -12,10 +12,10 @@ import java.util.Optional;
  */
 final class LateRecords {
     /**
-     * The records up to now.
+     * The records so far.
      *
      * @param from time of the oldest
-     * @param count how many there were, to tell later ones from these
+     * @param count their number, to detect later ones
      */
     record Late(Instant from, long count) {}
 
@@ -50,7 +50,7 @@ final class LateRecords {
         }
     }
 
-    /** These were read again; keeps all if others were added meanwhile. */
+    /** Removes these after they were read again, unless others were added meanwhile. */
     synchronized void settle(Optional<Late> these) throws IOException {
         if (late.isPresent() && late.equals(these)) {
             file.delete();

@@ -21,7 +21,7 @@ public record RepairSettings(Path folder, Duration overlap, Mode mode, Reading r
     public enum Mode {
         /** None: missed changes stay missed. */
         OFF,
-        /** Changes since the last time known good; none for a new subscription. */
+        /** Changes since the last known good time; none for a new subscription. */
         CHANGES,
         /** The same and, for a new subscription, every entity. */
         INITIAL

@@ -175,12 +175,12 @@ public final class SubscriptionReconciler implements AutoCloseable {
         known.flush();
     }
 
-    /** Where its notifications go. */
+    /** The address for its notifications. */
     String url() {
         return desired.target().url();
     }
 
-    /** What the context broker said about its notifications at the last poll. */
+    /** The delivery report of the context broker at the last poll. */
     DeliveryReport delivered() {
         return delivered;
     }
@@ -214,7 +214,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
         return result instanceof Result.Missing found ? Optional.of(found.reason()) : Optional.empty();
     }
 
-    /** The first reason is the one that is logged. */
+    /** Only the first reason is logged. */
     private void miss(String reason) {
         if (missing.isEmpty()) {
             services.ledger().gaps.increment();

@@ -175,7 +175,7 @@ public class NgsiSourceConfig extends AbstractConfig {
         return Integer.parseInt(originalsStrings().getOrDefault(TASK_INDEX, "0"));
     }
 
-    /** How many tasks the connector has. */
+    /** The number of tasks of the connector. */
     int taskCount() {
         return Integer.parseInt(originalsStrings().getOrDefault(TASK_COUNT, "1"));
     }
@@ -208,7 +208,7 @@ public class NgsiSourceConfig extends AbstractConfig {
         return overload;
     }
 
-    /** The rule for the requests that are answered at all. */
+    /** The rule by which requests are accepted. */
     AccessRule accessRule() {
         return AccessRule.allowing(access.allowed(), AccessOptions.NAMES)
                 .servedAs(listening.host())
@@ -240,7 +240,7 @@ public class NgsiSourceConfig extends AbstractConfig {
         return JournalSettings.of(journal.maxBytes(), journal.maxPendingBytes(), journal.minFreeBytes());
     }
 
-    /** What is done for the case that Kafka loses what it acknowledged; transforms may give records another form or topic. */
+    /** The protection against a Kafka that loses acknowledged records; transforms may change a record's value or topic. */
     TaskJournals.Safety safety() {
         Map<String, Object> client = sizes.admin();
         boolean isVerifiable = client.containsKey("bootstrap.servers")

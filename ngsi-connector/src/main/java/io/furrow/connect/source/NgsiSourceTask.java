@@ -31,7 +31,7 @@ public class NgsiSourceTask extends SourceTask {
 
     private final AtomicReference<SourceRuntime> source = new AtomicReference<>();
     private final AtomicReference<JournalMaintenance> maintenance = new AtomicReference<>();
-    /** By partition, the offset of the newest record. */
+    /** The offset of the newest record, by partition. */
     private final Map<String, Long> offsets = new ConcurrentHashMap<>();
 
     private volatile boolean hasLost;
@@ -146,7 +146,7 @@ public class NgsiSourceTask extends SourceTask {
         }
     }
 
-    /** A broker that has lost records gives their offsets again. */
+    /** A broker that has lost records assigns their offsets again. */
     private void watch(RecordMetadata metadata) {
         if (metadata.hasOffset()) {
             Long before = offsets.put(metadata.topic() + "-" + metadata.partition(), metadata.offset());

@@ -96,7 +96,7 @@ public final class NotificationEndpoint implements AutoCloseable {
         }
     }
 
-    /** Plain HTTP with threads of its own, so that the pages stay available whatever happens to the listener. */
+    /** Plain HTTP with separate threads, so that the pages stay available whatever happens to the listener. */
     private static Optional<NotificationServer> health(NgsiSourceConfig config, Ledger ledger, Duration timeout) {
         ListeningOptions listening = config.listening();
         OptionalInt port = listening.healthPort();

@@ -8,7 +8,7 @@ import org.apache.kafka.connect.storage.OffsetStorageReader;
 
 /**
  * The source's partitions and offsets: {@code {"journal": id}} and {@code {"record": n}}. n is the number of the first
- * record that is not known to be in Kafka.
+ * record that is not confirmed in Kafka.
  */
 final class SourceOffsets {
     private static final String JOURNAL = "journal";

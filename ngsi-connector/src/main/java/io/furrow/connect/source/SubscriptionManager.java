@@ -96,7 +96,7 @@ final class SubscriptionManager implements AutoCloseable {
         live.arrived(subscription);
     }
 
-    /** Records left the journal; the first ones may date from before the start, and the repair sees them now. */
+    /** Registers records that left the journal; the first ones may date from before the start. */
     void handedOn(List<SourceRecord> records) {
         if (unseen.get() > 0) {
             unseen.addAndGet(-records.size());

@@ -21,10 +21,10 @@ import io.furrow.model.time.Instants;
 public record DesiredSubscription(
         Name name, Subject subject, NotificationContent notificationContent, Target target, Throttling throttling) {
     /**
-     * The description of the subscription: {@code furrow farm 1/2}, with its service path where that is not {@code /#}.
+     * The description of the subscription: {@code furrow farm 1/2}, with its service path unless that is {@code /#}.
      *
      * @param base of all subscriptions of this connector
-     * @param scope the tenant, and the service path that it is for, which may end in {@code /#}
+     * @param scope the tenant, and the service path, which may end in {@code /#}
      */
     public record Name(String base, IdPartition partition, FiwareScope scope) {
         private static final String EVERYWHERE = "/#";

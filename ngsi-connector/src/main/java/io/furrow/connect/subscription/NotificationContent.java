@@ -8,8 +8,8 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  * The content of a notification.
  *
  * @param attrs in this order, {@code *} and built-in ones among them
- * @param metadata of each attribute, {@code *} for all of its own and built-in ones among them; empty for all of
- *     its own
+ * @param metadata of each attribute, {@code *} for all custom ones and built-in ones among them; empty for all custom
+ *     ones
  * @param format {@code normalized}, {@code keyValues}, {@code simplifiedNormalized} or {@code simplifiedKeyValues}
  * @param onlyChanged only the attributes that changed
  */
@@ -19,7 +19,7 @@ public record NotificationContent(List<String> attrs, List<String> metadata, Str
         metadata = List.copyOf(metadata);
     }
 
-    /** With all metadata of the attributes' own. */
+    /** With all custom metadata of the attributes. */
     public NotificationContent(List<String> attrs, String format, boolean onlyChanged) {
         this(attrs, List.of(), format, onlyChanged);
     }

@@ -18,7 +18,7 @@ import io.furrow.cli.control.TemplateCommandGroup;
 import io.furrow.cli.option.CommandException;
 import io.furrow.flink.job.JobCommandLine;
 
-/** The commands that start nothing: they use the control plane, Kafka and stored missions wherever these run. */
+/** Commands that start nothing: they use the control plane, Kafka and stored missions wherever these run. */
 public final class Commands {
     private static final List<Class<?>> ALL = List.of(
             DomainCommandGroup.class,

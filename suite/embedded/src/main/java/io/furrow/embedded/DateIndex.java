@@ -17,25 +17,27 @@ import org.h2.mvstore.Cursor;
 import org.h2.mvstore.MVMap;
 
 /**
- * Documents in the order of a date, for queries that ask for this date alone. Those that compare it find no value of another type, so
- * that other values have no entry; but they find an array that holds a date: with one in the collection the index answers nothing.
+ * Indexes documents by a date, for queries on this date alone. Queries that compare it match no value of another type, so that such
+ * values have no entry; but they match an array that contains a date: if the collection has one, the index is not used.
  */
 final class DateIndex extends Index<Object> {
     private static final String ID = "_id";
 
-    /** A date in epoch ms, or null for an array, and the key of the document. Every entry has the same value. */
+    /** A date in epoch ms, or null for an array, and the key of the document. All entries have the same value. */
     private final MVMap<KeyValue, Object> entries;
 
     private final String field;
 
-    /** @param key a field of the document itself */
+    /**
+     * @param key a top-level field of the document
+     */
     DateIndex(String name, IndexKey key, MVMap<KeyValue, Object> entries) {
         super(name, List.of(key), true);
         this.field = key.getKey();
         this.entries = entries;
     }
 
-    /** The keys of all documents that a query may find, in its order; empty where the index does not know them. */
+    /** The keys of all documents that may match a query, in its order; empty if the index does not apply. */
     Optional<Stream<Object>> keys(Document query, Document order) {
         Range range = new Range();
         if (!isByDate(order) || !range.narrow(query) || !range.compares || hasArrays()) {
@@ -59,13 +61,13 @@ final class DateIndex extends Index<Object> {
         return first != null && first.get(0) == null;
     }
 
-    /** What a query demands of the date, both ends included. */
+    /** A query's range of the date, both ends included. */
     private final class Range {
         private long from = Long.MIN_VALUE;
         private long to = Long.MAX_VALUE;
         private boolean compares;
 
-        /** @return whether it demands nothing else */
+        /** @return whether the query has no other condition */
         boolean narrow(Document query) {
             for (Map.Entry<String, Object> condition : query.entrySet()) {
                 if (condition.getKey().equals(field)) {
@@ -87,7 +89,7 @@ final class DateIndex extends Index<Object> {
             }
         }
 
-        /** Others only take away. */
+        /** Ignores other operators, which only exclude documents. */
         private void narrowTo(String operator, Object value) {
             if (!(value instanceof Instant date)) {
                 return;
@@ -138,7 +140,7 @@ final class DateIndex extends Index<Object> {
         return null;
     }
 
-    /** Never by the library, which would sort what it finds. */
+    /** Always false, because the library would sort the documents. */
     @Override
     public boolean canHandle(Document query) {
         return false;

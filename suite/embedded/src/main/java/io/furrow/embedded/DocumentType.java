@@ -13,11 +13,14 @@ import org.h2.mvstore.WriteBuffer;
 import org.h2.mvstore.type.BasicDataType;
 import org.h2.mvstore.type.ObjectDataType;
 
-/** Documents as BSON behind a byte that no other type begins with. Those that earlier releases wrote as Java objects are read, too. */
+/**
+ * Serializes documents as BSON after a byte that no other type begins with. Also reads documents that earlier releases wrote as Java
+ * objects.
+ */
 final class DocumentType extends BasicDataType<Document> {
     private static final byte BSON = 127;
     private static final int FIRST_BYTES = 1024;
-    /** Of a map, of a member of one, and of a value, about; on the heap of a 64-bit JVM. */
+    /** Approximate heap sizes of a map, its member and a value, on a 64-bit JVM. */
     private static final int DOCUMENT_MEMORY = 160;
 
     private static final int MEMBER_MEMORY = 96;
@@ -30,7 +33,7 @@ final class DocumentType extends BasicDataType<Document> {
         return new Document[size];
     }
 
-    /** Of a sample the cache would hold many times its size where documents of a mission differ from those before it. */
+    /** False: with estimates from samples the cache would hold many times its size if documents of missions differ. */
     @Override
     public boolean isMemoryEstimationAllowed() {
         return false;

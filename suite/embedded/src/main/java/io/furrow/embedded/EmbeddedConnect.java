@@ -24,19 +24,21 @@ public final class EmbeddedConnect implements AutoCloseable {
     }
 
     /**
-     * Starts and waits until the REST API answers. Connectors come as JSON through it.
+     * Starts and waits until the REST API answers. Connectors are created through it, as JSON.
      *
      * @param bootstrapServers the cluster that holds offsets, configurations and status
      * @param pluginPath a directory with one folder per plugin
      * @param restPort 0 for a free one
-     * @param extra worker settings that come before the defaults, for instance security
+     * @param extra worker settings that override the defaults, for instance security
      */
     public static EmbeddedConnect start(
             String bootstrapServers, Path pluginPath, int restPort, Map<String, String> extra) {
         return start(bootstrapServers, pluginPath, restPort, extra, AllowedNames.NONE);
     }
 
-    /** @param allowed hosts and origins of the REST API beside its own */
+    /**
+     * @param allowed further hosts and origins of the REST API
+     */
     public static EmbeddedConnect start(
             String bootstrapServers, Path pluginPath, int restPort, Map<String, String> extra, AllowedNames allowed) {
         int port = FreePort.orFree(restPort);
@@ -82,7 +84,7 @@ public final class EmbeddedConnect implements AutoCloseable {
                 Map.entry("offset.flush.interval.ms", "5000"),
                 Map.entry("connector.client.config.override.policy", "All"),
                 Map.entry("producer.max.request.size", Integer.toString(16 * 1024 * 1024)),
-                // A worker that is alone need not wait for others to come back.
+                // A single worker need not wait for others to return.
                 Map.entry("scheduled.rebalance.max.delay.ms", "0"));
     }
 }

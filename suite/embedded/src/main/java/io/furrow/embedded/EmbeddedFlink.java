@@ -22,8 +22,8 @@ import io.furrow.http.AllowedNames;
 import io.furrow.http.flink.AccessOptions;
 
 /**
- * A Flink cluster of one job manager and one task manager in this JVM, with the web UI on 127.0.0.1. The web UI and its REST API show
- * the jobs and change nothing; jobs come and go through this class.
+ * A Flink cluster of one job manager and one task manager in this JVM, with the web UI on 127.0.0.1. The web UI and its REST API are
+ * read-only; jobs are submitted and cancelled through this class.
  */
 public final class EmbeddedFlink implements AutoCloseable {
     private static final String HOST = "127.0.0.1";
@@ -41,14 +41,16 @@ public final class EmbeddedFlink implements AutoCloseable {
     /**
      * Starts and waits until the web UI answers.
      *
-     * @param slots how many subtasks of different jobs fit in
+     * @param slots number of task slots
      * @param webPort 0 for a free one
      */
     public static EmbeddedFlink start(int slots, int webPort) {
         return start(slots, webPort, AllowedNames.NONE);
     }
 
-    /** @param allowed hosts and origins of the web UI beside its own */
+    /**
+     * @param allowed further hosts and origins of the web UI
+     */
     public static EmbeddedFlink start(int slots, int webPort, AllowedNames allowed) {
         Configuration configuration = new Configuration();
         configuration.set(RestOptions.BIND_PORT, Integer.toString(webPort));
@@ -57,9 +59,9 @@ public final class EmbeddedFlink implements AutoCloseable {
         configuration.set(AccessOptions.READ_ONLY, true);
         configuration.set(AccessOptions.ALLOWED_HOSTS, allowed.hosts());
         configuration.set(AccessOptions.ALLOWED_ORIGINS, allowed.origins());
-        // One process needs no tokens to speak with itself, and Flink would warn that there are none.
+        // One process needs no delegation tokens, and Flink would warn that there are none.
         configuration.set(SecurityOptions.DELEGATION_TOKENS_ENABLED, false);
-        // What the web UI would otherwise offer.
+        // Disables what the web UI offers by default.
         configuration.set(WebOptions.SUBMIT_ENABLE, false);
         configuration.set(WebOptions.CANCEL_ENABLE, false);
         configuration.set(WebOptions.RESCALE_ENABLE, false);
@@ -95,12 +97,12 @@ public final class EmbeddedFlink implements AutoCloseable {
         return cluster.getJobStatus(job).join();
     }
 
-    /** The task manager's and job manager's own view, for waiting on a job's subtasks. */
+    /** The underlying cluster, to wait for a job's subtasks. */
     public MiniCluster cluster() {
         return cluster;
     }
 
-    /** Cancels what runs and stops; checkpoints that jobs retain stay. */
+    /** Cancels running jobs and stops; retained checkpoints stay. */
     @Override
     public void close() {
         try {

@@ -23,11 +23,11 @@ import org.apache.kafka.common.utils.Time;
 import org.apache.kafka.metadata.storage.Formatter;
 
 /**
- * One KRaft broker and controller in this JVM, on 127.0.0.1. A directory that holds an earlier broker's log is continued.
- * Topics are made on first use with {@value #PARTITIONS} partitions; records may have 16 MiB.
+ * One KRaft broker and controller in this JVM, on 127.0.0.1. An existing log directory is continued. Topics are created on first use with
+ * {@value #PARTITIONS} partitions; records may have 16 MiB.
  */
 public final class EmbeddedKafka implements AutoCloseable {
-    /** Partitions of a topic that is made on first use. */
+    /** Partitions of an automatically created topic. */
     public static final int PARTITIONS = 4;
 
     private static final String HOST = "127.0.0.1";
@@ -48,7 +48,7 @@ public final class EmbeddedKafka implements AutoCloseable {
         this.port = port;
     }
 
-    /** A broker on a free port. */
+    /** Starts a broker on a free port. */
     public static EmbeddedKafka start(Path directory) {
         return start(directory, 0);
     }
@@ -56,14 +56,14 @@ public final class EmbeddedKafka implements AutoCloseable {
     /**
      * Starts and waits until it serves.
      *
-     * @param directory the log directory; made where it is missing
+     * @param directory the log directory; created if missing
      * @param port 0 for a free one
      */
     public static EmbeddedKafka start(Path directory, int port) {
         return start(directory, port, Map.of());
     }
 
-    /** The same with settings of the broker's own names, which go before what is set here. */
+    /** The same with broker settings that override those set here. */
     public static EmbeddedKafka start(Path directory, int port, Map<String, String> more) {
         int brokerPort = FreePort.orFree(port);
         Properties settings = asProperties(settings(directory, brokerPort, FreePort.otherThan(brokerPort)));
@@ -78,7 +78,7 @@ public final class EmbeddedKafka implements AutoCloseable {
         return HOST + ":" + port;
     }
 
-    /** What a client needs that connects to it. */
+    /** The settings of a client that connects to it. */
     public Properties client() {
         Properties client = new Properties();
         client.setProperty("bootstrap.servers", bootstrapServers());
@@ -86,14 +86,14 @@ public final class EmbeddedKafka implements AutoCloseable {
     }
 
     /**
-     * For a producer of topics that were made just now, with one request at a time: of two under way the broker could refuse the
-     * first, whose partition is not there yet, and take the second, and would then refuse the first forever (KAFKA-15591).
+     * Settings of a producer for newly created topics, with one request in flight: of two, the broker could refuse the first, whose
+     * partition does not exist yet, and accept the second, and would then refuse the first forever (KAFKA-15591).
      */
     public Map<String, Object> producerSettings() {
         return Map.of("bootstrap.servers", bootstrapServers(), "max.in.flight.requests.per.connection", 1);
     }
 
-    /** Creates topics and waits until the broker serves them: it learns of them some time after the controller has created them. */
+    /** Creates topics and waits until the broker serves them, which is some time after the controller has created them. */
     public void createTopics(Collection<NewTopic> topics) {
         Set<String> names = topics.stream().map(NewTopic::name).collect(Collectors.toSet());
         try (Admin admin = Admin.create(Map.of("bootstrap.servers", bootstrapServers()))) {
@@ -115,7 +115,7 @@ public final class EmbeddedKafka implements AutoCloseable {
         server.awaitShutdown();
     }
 
-    /** Kafka ends the process at a fault that it cannot handle. Its log may be lost by that, so where it was goes straight to standard error. */
+    /** Kafka exits the process at a fatal fault. Its log may be lost then, so the cause is printed to standard error. */
     private static void end(int status, String message, Runnable ending) {
         try (PrintStream error = new PrintStream(new FileOutputStream(FileDescriptor.err))) {
             String why = message == null ? "" : ": " + message;
@@ -141,7 +141,7 @@ public final class EmbeddedKafka implements AutoCloseable {
         }
     }
 
-    /** An earlier broker's cluster id, because the formatter refuses a directory of another cluster. */
+    /** The cluster id of an earlier broker, because the formatter refuses a directory of another cluster. */
     private static String clusterId(Path directory) throws java.io.IOException {
         Path meta = directory.resolve("meta.properties");
         if (!Files.exists(meta)) {
@@ -169,30 +169,30 @@ public final class EmbeddedKafka implements AutoCloseable {
                 Map.entry("log.dirs", directory.toString()),
                 Map.entry("num.partitions", PARTITIONS),
                 Map.entry("message.max.bytes", MAX_RECORD_BYTES),
-                // There is no replica: after a power cut the last second is missing at most.
+                // There is no replica: a power cut loses the last second at most.
                 Map.entry("log.flush.interval.ms", 1_000),
                 Map.entry("log.flush.scheduler.interval.ms", 1_000),
                 Map.entry("offsets.topic.num.partitions", PARTITIONS),
                 Map.entry("offsets.topic.replication.factor", 1),
-                // A single node loses and regains its own leadership at each start. A load that was begun before may
-                // then be taken for
-                // that of the new state, and groups get offsets of long ago; with small reads it notices and stops.
+                // A single node loses and regains its own leadership at each start. A load begun before may then be
+                // taken for that of the
+                // new state, and groups get old offsets; with small reads it notices and stops.
                 Map.entry("offsets.load.buffer.size", 64 * 1024),
-                // How long the broker itself waits for the markers of a transaction before it refuses the first batch
-                // of the next.
+                // How long the broker waits for the markers of a transaction before it refuses the first batch of the
+                // next.
                 Map.entry("add.partitions.to.txn.retry.backoff.max.ms", 10_000),
                 Map.entry("transaction.state.log.num.partitions", PARTITIONS),
                 Map.entry("transaction.state.log.replication.factor", 1),
                 Map.entry("transaction.state.log.min.isr", 1),
                 Map.entry("share.coordinator.state.topic.replication.factor", 1),
                 Map.entry("share.coordinator.state.topic.min.isr", 1),
-                // The defaults are for a machine that does nothing else.
+                // The defaults are for a dedicated machine.
                 Map.entry("num.network.threads", 1),
                 Map.entry("num.io.threads", 4),
                 Map.entry("background.threads", 2),
                 Map.entry("group.coordinator.threads", 1),
                 Map.entry("log.cleaner.dedupe.buffer.size", 8 * 1024 * 1024),
-                // A consumer of a fresh group would otherwise wait three seconds for company.
+                // Otherwise a new group waits three seconds for further members.
                 Map.entry("group.initial.rebalance.delay.ms", 0));
     }
 

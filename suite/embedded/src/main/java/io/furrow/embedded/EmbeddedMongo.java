@@ -13,12 +13,12 @@ import de.bwaldvogel.mongo.ServerVersion;
 import de.bwaldvogel.mongo.backend.memory.MemoryBackend;
 
 /**
- * A server in this JVM that speaks MongoDB's protocol, on 127.0.0.1, with its documents in one file unless said. What it has acknowledged
- * outlives the end of its process, also a sudden one; not that of the machine. It keeps indexes of unique keys and of one date, and
- * removes nothing by itself.
+ * A server in this JVM that speaks MongoDB's protocol, on 127.0.0.1, with its documents in one file unless in memory. Acknowledged writes
+ * survive the end of the process, also a sudden one, but not that of the machine. It maintains indexes of unique keys and of one date; it
+ * has no retention.
  */
 public final class EmbeddedMongo implements AutoCloseable {
-    /** Of the protocol of 5.0. The library's own constant claims that of 4.2, which current drivers refuse. */
+    /** Claims the protocol of 5.0. The library's constant claims that of 4.2, which current drivers refuse. */
     static final MongoVersion VERSION = new MongoVersion() {
         @Override
         public List<Integer> getVersionArray() {
@@ -41,12 +41,12 @@ public final class EmbeddedMongo implements AutoCloseable {
         this.port = port;
     }
 
-    /** A server on a free port that keeps its documents on the heap, several times their size, and forgets them. */
+    /** Starts a server on a free port that holds its documents on the heap, at several times their size, and loses them. */
     public static EmbeddedMongo inMemory() {
         return serve(new MemoryBackend().version(VERSION), FreePort.orFree(0));
     }
 
-    /** A server on a free port. */
+    /** Starts a server on a free port. */
     public static EmbeddedMongo start(Path directory) {
         return start(directory, 0);
     }
@@ -54,7 +54,7 @@ public final class EmbeddedMongo implements AutoCloseable {
     /**
      * Starts and waits until it serves.
      *
-     * @param directory for its file; made where it is missing, continued where an earlier server left one
+     * @param directory for its file; created if missing, continued if it has one
      * @param port 0 for a free one
      */
     public static EmbeddedMongo start(Path directory, int port) {

@@ -16,8 +16,8 @@ import io.moquette.broker.security.IAuthorizatorPolicy;
 import io.moquette.broker.subscriptions.Topic;
 
 /**
- * An MQTT 3.1.1 broker in this JVM, on 127.0.0.1 unless told otherwise, that lets nobody in without a user and password. A message to a
- * topic to which its sender may not publish is acknowledged and discarded, as Mosquitto does it.
+ * An MQTT 3.1.1 broker in this JVM, on 127.0.0.1 by default, that requires a user and password. A message to a topic to which its
+ * sender may not publish is acknowledged and discarded, as in Mosquitto.
  */
 public final class EmbeddedMqtt implements AutoCloseable {
     private static final String HOST = "127.0.0.1";
@@ -29,10 +29,10 @@ public final class EmbeddedMqtt implements AutoCloseable {
     private final int port;
 
     /**
-     * Users who come and go while the broker runs; asked at each connection, subscription and message.
+     * Users that may change while the broker runs; checked at each connection, subscription and message.
      *
-     * @param exists connections of others are closed
-     * @param mayRead asked with the filter of a subscription, with wildcards or without
+     * @param exists connections of users that do not exist are closed
+     * @param mayRead called with the filter of a subscription, with wildcards or without
      */
     public record Users(
             BiPredicate<String, byte[]> authenticates,
@@ -49,7 +49,7 @@ public final class EmbeddedMqtt implements AutoCloseable {
         this.port = port;
     }
 
-    /** A broker on a free port. */
+    /** Starts a broker on a free port. */
     public static EmbeddedMqtt start(Map<String, String> passwords) {
         return start(0, passwords);
     }
@@ -64,8 +64,8 @@ public final class EmbeddedMqtt implements AutoCloseable {
 
     /**
      * @param port 0 for a free one
-     * @param passwords of each user who may do everything
-     * @param others who may do what they may
+     * @param passwords of users with all permissions
+     * @param others further users
      */
     public static EmbeddedMqtt start(int port, Map<String, String> passwords, Users others) {
         return start(HOST, port, passwords, others);
@@ -74,21 +74,21 @@ public final class EmbeddedMqtt implements AutoCloseable {
     /**
      * @param host address to listen on
      * @param port 0 for a free one
-     * @param passwords of each user who may do everything
-     * @param others who may do what they may
+     * @param passwords of users with all permissions
+     * @param others further users
      */
     public static EmbeddedMqtt start(String host, int port, Map<String, String> passwords, Users others) {
-        // Found here because Moquette itself learns its port only some time after its start.
+        // Chosen here because Moquette learns its port only some time after its start.
         int bound = FreePort.orFree(port);
         Properties properties = new Properties();
         properties.setProperty("host", host);
         properties.setProperty("port", Integer.toString(bound));
         properties.setProperty("allow_anonymous", "false");
-        // Clients without an id of their own, such as mosquitto_pub, leave it to the broker to give one.
+        // The broker assigns an id to clients without one, such as mosquitto_pub.
         properties.setProperty("allow_zero_byte_client_id", "true");
         properties.setProperty("persistence_enabled", "false");
         properties.setProperty("telemetry_enabled", "false");
-        // Of messages beyond these it takes no notice, and notifies nobody.
+        // Further messages are dropped silently.
         properties.setProperty("session_queue_size", Integer.toString(MAX_WAITING));
         properties.setProperty("netty.mqtt.message_size", Integer.toString(MAX_MESSAGE_BYTES));
         IAuthenticator authenticator = (clientId, user, password) -> user != null
@@ -103,7 +103,7 @@ public final class EmbeddedMqtt implements AutoCloseable {
         return new EmbeddedMqtt(server, host, bound);
     }
 
-    /** {@code tcp://<host>:<port>}, of one that listens on all addresses that of 127.0.0.1. */
+    /** {@code tcp://<host>:<port>}; with 127.0.0.1 if it listens on all addresses. */
     public URI uri() {
         String reached = host.equals("0.0.0.0") || host.equals("::") ? HOST : host;
         return URI.create("tcp://" + (reached.contains(":") ? "[" + reached + "]" : reached) + ":" + port);
@@ -118,7 +118,7 @@ public final class EmbeddedMqtt implements AutoCloseable {
         return expected != null && MessageDigest.isEqual(expected.getBytes(StandardCharsets.UTF_8), password);
     }
 
-    /** Whoever has a password of the start may do everything. */
+    /** Grants all permissions to users with a password from the start. */
     private record Rights(Set<String> trusted, Users others) implements IAuthorizatorPolicy {
         @Override
         public boolean canWrite(Topic topic, String user, String client) {

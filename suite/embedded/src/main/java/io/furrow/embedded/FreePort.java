@@ -7,25 +7,25 @@ import java.util.concurrent.ThreadLocalRandom;
 import java.util.concurrent.atomic.AtomicInteger;
 
 /**
- * Ports on loopback that nobody listens on at the moment of the call. They are below the ports that operating systems give to outgoing
- * connections (from 32768 on Linux): one of those could otherwise take a port before its server listens.
+ * Finds ports on loopback that are free at the moment of the call. They are below the range of outgoing connections (from 32768 on
+ * Linux), which could otherwise take a port before its server listens.
  */
 public final class FreePort {
     private static final int FIRST = 20_000;
     private static final int COUNT = 7_000;
-    /** Begins anywhere, so that processes started together rarely try the same ports. */
+    /** A random start, so that processes started together rarely try the same ports. */
     private static final AtomicInteger NEXT =
             new AtomicInteger(ThreadLocalRandom.current().nextInt(COUNT));
 
     private FreePort() {}
 
-    /** A free port that differs from one that is assigned but not listened on yet. */
+    /** A free port other than one that is assigned but not in use yet. */
     static int otherThan(int assigned) {
         int port = orFree(0);
         return port == assigned ? orFree(0) : port;
     }
 
-    /** The port itself, or a free one where it is 0; a process gets the same port again only after {@value #COUNT} calls. */
+    /** The port itself, or a free one if it is 0; a process gets the same port again only after {@value #COUNT} calls. */
     public static int orFree(int port) {
         if (port != 0) {
             return port;

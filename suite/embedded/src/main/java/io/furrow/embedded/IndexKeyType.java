@@ -8,7 +8,7 @@ import org.h2.mvstore.WriteBuffer;
 import org.h2.mvstore.type.BasicDataType;
 import org.h2.mvstore.type.ObjectDataType;
 
-/** Keys of an index: their values one after the other, and so compared. As Java objects they would be serialized for each comparison. */
+/** Serializes keys of an index value by value, in comparable order. Java objects would be serialized for each comparison. */
 final class IndexKeyType extends BasicDataType<KeyValue> {
     private static final int HEAP_OVERHEAD = 64;
 

@@ -13,7 +13,7 @@ import de.bwaldvogel.mongo.backend.h2.H2Collection;
 import de.bwaldvogel.mongo.bson.Document;
 import org.h2.mvstore.MVMap;
 
-/** Holds of what a query sorts no more than it returns, where the library holds the whole collection. */
+/** Sorts a query holding no more documents than it returns, whereas the library holds the whole collection. */
 final class LimitedSortCollection extends H2Collection {
     LimitedSortCollection(
             MongoDatabase database,
@@ -57,7 +57,7 @@ final class LimitedSortCollection extends H2Collection {
         return super.matchDocumentsFromStream(query, first.stream(), skip, limit, batchSize, null, fields);
     }
 
-    /** As {@code sorted(order).limit(count)}. */
+    /** Equivalent to {@code sorted(order).limit(count)}. */
     private static List<Document> first(Stream<Document> documents, long count, Comparator<Document> order) {
         Comparator<Numbered> stable =
                 Comparator.comparing(Numbered::document, order).thenComparingLong(Numbered::number);

@@ -24,13 +24,13 @@ import org.h2.mvstore.MVMap;
 import org.h2.mvstore.MVStore;
 
 /**
- * Documents in one file, as BSON. It writes before it answers, and while no other request is half done: a document and its entry in
- * the index are two changes, of which a sudden end may not leave one.
+ * Stores documents in one file, as BSON. It writes before it answers and while no other request is half done, because a document
+ * and its index entry are two changes that a sudden end must not separate.
  */
 final class MongoFile extends H2Backend {
-    /** Of what was read or written last, as it lies on the heap. */
+    /** Cache of recently read or written data, as on the heap. */
     private static final int CACHE_MEGABYTES = 48;
-    /** Of the file. In those of version 0 documents and keys are Java objects, keys in the order of their bytes. */
+    /** Version of the file. In version 0, documents and keys are Java objects, keys in the order of their bytes. */
     private static final int VERSION = 1;
 
     private static final String INDEX = "._index_";
@@ -42,7 +42,7 @@ final class MongoFile extends H2Backend {
         version(EmbeddedMongo.VERSION);
     }
 
-    /** Goes on with a file that an earlier release left. */
+    /** Opens a file, also one of an earlier release. */
     static MongoFile open(Path file) {
         MVStore store = new MVStore.Builder()
                 .fileName(file.toString())
@@ -74,7 +74,7 @@ final class MongoFile extends H2Backend {
         return new Database(name);
     }
 
-    /** The library knows the greeting of current drivers and shells by its former name only. */
+    /** The library knows the handshake of current drivers and shells only by its former name. */
     @Override
     public Document handleCommand(Channel channel, String database, String command, Document query) {
         return command.equals("hello")
@@ -103,7 +103,7 @@ final class MongoFile extends H2Backend {
         }
     }
 
-    /** Opens each map with its own types; of an index, the one it derives from then finds it open. */
+    /** Opens each map with its own types; the library's index then finds it open. */
     private final class Database extends H2Database {
         Database(String name) {
             super(name, getMvStore(), getCursorRegistry());
@@ -125,7 +125,7 @@ final class MongoFile extends H2Backend {
             return super.openOrCreateUniqueIndex(collection, index, keys, sparse);
         }
 
-        /** A date that queries sort by is one field; other indexes than of such and of unique keys the library leaves empty. */
+        /** Uses a date index for a single top-level field. The library leaves its other indexes empty unless unique. */
         @Override
         protected Index<Object> openOrCreateSecondaryIndex(
                 String collection, String index, List<IndexKey> keys, boolean sparse) {

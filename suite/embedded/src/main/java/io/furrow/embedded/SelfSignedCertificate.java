@@ -11,8 +11,7 @@ import java.util.Base64;
 import java.util.List;
 
 /**
- * A key and its certificate for 127.0.0.1 and localhost that nobody has signed but itself, for tests of TLS, made by the JDK's
- * keytool.
+ * A self-signed certificate for 127.0.0.1 and localhost with its key, for tests of TLS, made by the JDK's keytool.
  *
  * @param certificate in PEM
  * @param key in PEM, PKCS #8
@@ -23,7 +22,7 @@ public record SelfSignedCertificate(Path certificate, Path key, Path keystore, P
     private static final String PASSWORD = "changeit";
     private static final String ALIAS = "server";
 
-    /** @throws IOException if keytool fails; with its words */
+    /** @throws IOException if keytool fails; with its output */
     public static SelfSignedCertificate make(Path directory, String name) throws IOException {
         Path keystore = directory.resolve(name + ".p12");
         List<String> words = new ArrayList<>(List.of("-keystore", keystore.toString(), "-dname", "CN=" + name));

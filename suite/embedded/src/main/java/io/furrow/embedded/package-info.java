@@ -1,6 +1,5 @@
 /**
- * The real engines in one JVM, on loopback: used by the one-command start and by tests, never by what runs on a
- * cluster.
+ * The engines in one JVM, on loopback: for the one-command start and for tests, never on a cluster.
  *
  * <p><b>In</b>: ports and folders.
  *

@@ -29,9 +29,9 @@ import io.netty.util.ReferenceCountUtil;
 import io.netty.util.concurrent.ImmediateEventExecutor;
 
 /**
- * Moquette in memory, as {@link Server} assembles it, but as strict as Mosquitto: a message that its sender may not publish is
- * acknowledged and discarded, where {@link Server} never answers; a will is published only where its owner may; a connection of
- * a user who exists no longer is closed within a second.
+ * Moquette in memory, assembled as by {@link Server}, but as strict as Mosquitto: a message that its sender may not publish is
+ * acknowledged and discarded, where {@link Server} never answers; a will is published only if its owner may; a connection of a
+ * removed user is closed within a second.
  */
 public final class MqttServer implements AutoCloseable {
     private static final long SECOND = 1;
@@ -44,7 +44,7 @@ public final class MqttServer implements AutoCloseable {
     private final PostOffice messages;
 
     /**
-     * Who may do what.
+     * Authentication and authorization.
      *
      * @param exists whether there is a user of this name
      */
@@ -91,7 +91,7 @@ public final class MqttServer implements AutoCloseable {
         messages.terminate();
     }
 
-    /** Remembers whose a will is. */
+    /** Records the owner of each will. */
     private static final class Sessions extends SessionRegistry {
         private final Map<Session.Will, String> owners = Collections.synchronizedMap(new WeakHashMap<>());
 
@@ -173,7 +173,7 @@ public final class MqttServer implements AutoCloseable {
                     : refuse(from, user, message, () -> from.sendPubRec(id));
         }
 
-        /** Whose account was removed shall send it again with another one, so nothing is acknowledged. */
+        /** A removed user should send the message again with another account, so it is not acknowledged. */
         private RoutingResults refuse(
                 MQTTConnection from, String user, MqttPublishMessage message, Runnable acknowledgment) {
             if (user != null && exists.test(user)) {

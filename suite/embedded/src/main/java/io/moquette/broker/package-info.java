@@ -1,2 +1,2 @@
-/** A server of Moquette's parts. In Moquette's package, because they are visible nowhere else. */
+/** A server assembled of Moquette's parts, in Moquette's package because they are package-private. */
 package io.moquette.broker;

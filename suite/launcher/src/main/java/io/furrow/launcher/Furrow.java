@@ -49,13 +49,13 @@ public final class Furrow {
     private Furrow() {}
 
     public static void main(String... args) {
-        // Kafka and Connect write their logs through log4j, which must know its file before the first of them loads.
+        // Kafka and Connect log through log4j, which must know its file before the first of them loads.
         System.setProperty("java.awt.headless", "true");
         int exitCode = commandLine().execute(args);
         System.exit(exitCode);
     }
 
-    /** The command with all that it has. */
+    /** The command with all subcommands. */
     public static CommandLine commandLine() {
         CommandLine furrow = Commands.commandLine(new Furrow());
         furrow.getSubcommands().get("replay").addSubcommand(new AnalyticsCommand());

@@ -1,6 +1,6 @@
 package io.furrow.launcher;
 
-/** Prints which release this is, as the manifest of its jar says. Needs no other class: {@code furrow --version} waits for it alone. */
+/** Prints the release from the manifest of its jar. Needs no other class, so that {@code furrow --version} is fast. */
 final class Version {
     static final String TEXT = "furrow " + release();
 

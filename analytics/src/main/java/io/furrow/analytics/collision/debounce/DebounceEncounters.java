@@ -14,13 +14,13 @@ import io.furrow.analytics.eventtime.SingleTimer;
 /**
  * Suppresses encounters that flicker. Key: the pair.
  *
- * <p><b>State</b>: the encounter under way, whether it was emitted.
+ * <p><b>State</b>: the current encounter, whether it was emitted.
  *
  * <p><b>Cleared</b>: when the exact stages see its end.
  *
- * <p><b>Late</b>: nothing can be, the stage before reports a pair in the order of time and before the watermark.
+ * <p><b>Late</b>: impossible; the previous stage emits a pair in order of time and before the watermark.
  *
- * <p><b>Emits</b>: records of the encounters that started within the threshold and lasted for the dwell.
+ * <p><b>Emits</b>: records of encounters that started within the threshold and lasted for the dwell.
  */
 public final class DebounceEncounters extends KeyedProcessFunction<Pair, Encounter, Encounter> {
     private static final long serialVersionUID = 1L;

@@ -8,8 +8,8 @@ import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.collision.rules.CollisionRules;
 
 /**
- * Emits an encounter once it has lasted for the dwell: at exactly that instant, with where both were last seen, and
- * unless it ends at that instant. What ends sooner is never emitted.
+ * Emits an encounter once it has lasted for the dwell: at exactly that instant, with the last known positions, unless
+ * it ends at that instant. A shorter encounter is never emitted.
  */
 final class Dwell implements Serializable {
     private static final long serialVersionUID = 1L;
@@ -20,15 +20,15 @@ final class Dwell implements Serializable {
         millis = rules.steadiness().dwell().toMillis();
     }
 
-    /** When the start of an encounter is emitted if it lasts. */
+    /** The time at which the start of an encounter is emitted if it lasts. */
     long due(Encounter encounter) {
         return encounter.startTime() + millis;
     }
 
     /**
-     * Emits the start if its instant has come.
+     * Emits the start if it is due.
      *
-     * @param until everything of the pair up to this instant has been seen
+     * @param until up to when all records of the pair have been applied
      */
     SteadyState advance(SteadyState course, long until, Consumer<Encounter> out) {
         if (course.emitted() || due(course.newest()) > until) {

@@ -7,7 +7,7 @@ import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.collision.rules.CollisionRules;
 
-/** What becomes of the encounters of a pair behind the exact stages: hysteresis, then dwell, then the rate of records. */
+/** Debounces the encounters that the exact stages found for a pair: hysteresis, then dwell, then rate limit. */
 public final class EncounterDebouncer implements Serializable {
     private static final long serialVersionUID = 1L;
 
@@ -21,15 +21,15 @@ public final class EncounterDebouncer implements Serializable {
         ongoingEvery = rules.ongoingEvery().toMillis();
     }
 
-    /** When {@link #advance} has something to emit if nothing is seen until then; null if it has not. */
+    /** When {@link #advance} next emits if no record arrives until then; null for never. */
     Long due(SteadyState course) {
         return course == null || course.emitted() ? null : Long.valueOf(dwell.due(course.newest()));
     }
 
     /**
      * @param before null if the pair is not close
-     * @param seen what the exact stages report it next
-     * @return null if it is close no more
+     * @param seen the next record of the exact stages
+     * @return null if the pair is no longer close
      */
     public SteadyState next(SteadyState before, Encounter seen, Consumer<Encounter> out) {
         SteadyState known = advance(before, seen.time() - 1, out);
@@ -53,7 +53,7 @@ public final class EncounterDebouncer implements Serializable {
         return new SteadyState(now, true, report ? now.time() : known.reported());
     }
 
-    /** Everything of the pair up to an instant has been seen. */
+    /** Advances to an instant up to which all records of the pair have been applied. */
     public SteadyState advance(SteadyState course, long until, Consumer<Encounter> out) {
         return course == null ? null : dwell.advance(course, until, out);
     }

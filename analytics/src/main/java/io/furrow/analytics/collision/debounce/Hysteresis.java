@@ -8,8 +8,8 @@ import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.rules.Thresholds;
 
 /**
- * Delays the start of an encounter to the threshold of its pair where the exact stages found it at a greater distance:
- * from the first instant at which the devices are within the threshold until the exact stages see the end.
+ * Delays the start of an encounter that the exact stages found beyond the pair's threshold: it lasts from the first
+ * instant at which the devices are within the threshold until the exact stages see the end.
  */
 final class Hysteresis implements Serializable {
     private static final long serialVersionUID = 1L;
@@ -21,8 +21,8 @@ final class Hysteresis implements Serializable {
     }
 
     /**
-     * @param running what this gave for the pair's record before; null if nothing is under way
-     * @param seen what the exact stages emit next for the pair
+     * @param running the previous result for the pair; null if there is no encounter
+     * @param seen the next record of the exact stages for the pair
      * @return null if the pair has not been within the threshold
      */
     Encounter next(Encounter running, Encounter seen) {

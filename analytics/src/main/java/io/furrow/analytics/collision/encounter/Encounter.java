@@ -7,12 +7,12 @@ import io.furrow.flink.record.Epochs;
 /**
  * One moment in the life of an encounter of two devices; complete in itself, a reader needs no earlier record.
  *
- * @param first the device with the lesser id and where it was last seen close to the other
+ * @param first the device with the lesser id at its last position close to the other
  * @param second the other device
  * @param distance meters between these two positions
  * @param minDistance meters, the closest so far
- * @param startTime when the encounter started, epoch milliseconds
- * @param time when this phase was reached, epoch milliseconds
+ * @param startTime start of the encounter, epoch milliseconds
+ * @param time start of this phase, epoch milliseconds
  */
 public record Encounter(
         Phase phase,
@@ -24,20 +24,19 @@ public record Encounter(
         long time)
         implements HasEventTime {
 
-    /**
-     * The pair and the start: a second skip the same events names its encounters the same, another epoch of a replay does
-     * not.
-     */
+    /** Pair and start: a second pass over the same events yields the same id, another epoch of a replay does not. */
     public String id() {
         return id(pairId());
     }
 
-    /** @param pairId {@link #pairId()}, which costs a digest */
+    /**
+     * @param pairId {@link #pairId()}, which costs a digest
+     */
     public String id(String pairId) {
         return pairId + "@" + Epochs.text(startTime);
     }
 
-    /** The same pair and places in another phase, or of an encounter with another start. */
+    /** The same pair and places in another phase, or with another start. */
     public Encounter of(Phase other, double distance, double closest, long start, long time) {
         return new Encounter(other, first, second, distance, closest, start, time);
     }
@@ -46,7 +45,7 @@ public record Encounter(
         return Pair.of(first, second);
     }
 
-    /** 32 hexadecimal digits that stand for the pair. */
+    /** The pair's id: 32 hexadecimal digits. */
     public String pairId() {
         return PairId.of(first.identity(), second.identity());
     }

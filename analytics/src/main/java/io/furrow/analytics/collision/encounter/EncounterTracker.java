@@ -8,8 +8,8 @@ import io.furrow.analytics.collision.grid.Geodesy;
 import io.furrow.analytics.collision.rules.CollisionRules;
 
 /**
- * Joins what all cells saw of one pair into encounters. A pair is close in no cell or in one: the changes of all cells at
- * one instant sum up to a start, an end, or a hand-over between cells, which is neither.
+ * Joins the observations of one pair in all cells into encounters. A pair is close in at most one cell: the changes of
+ * all cells at one instant add up to a start, an end, or neither when one cell replaces another.
  */
 public final class EncounterTracker implements Serializable {
     private static final long serialVersionUID = 1L;
@@ -21,19 +21,19 @@ public final class EncounterTracker implements Serializable {
     }
 
     /**
-     * What a pair's observations come to.
+     * The result of applying a pair's observations.
      *
      * @param encounter null while the pair is not close
-     * @param violations instants that no grid could have brought about
+     * @param violations number of contradictory instants, which no grid could produce
      */
     public record Followed(OpenEncounter encounter, int violations) {}
 
     /**
-     * Follows a pair through its observations.
+     * Applies a pair's observations.
      *
      * @param before null while the pair is not close
      * @param observations in the order of {@link PairObservation#SEQUENCE}
-     * @param out takes the records in the order of time
+     * @param out receives the records in order of time
      */
     public Followed follow(OpenEncounter before, List<PairObservation> observations, Consumer<Encounter> out) {
         OpenEncounter encounter = before;
@@ -86,7 +86,7 @@ public final class EncounterTracker implements Serializable {
         return null;
     }
 
-    /** The end of an encounter by other rules, at the newest of its positions. */
+    /** Ends an encounter because of changed rules, at its newest position. */
     static Encounter cutOff(OpenEncounter open) {
         long time = Math.max(open.first().time(), open.second().time());
         PairObservation last = new PairObservation(open.first(), open.second(), time, -1);

@@ -5,11 +5,11 @@ import org.apache.flink.api.common.typeinfo.TypeInfo;
 import io.furrow.analytics.position.PositionFix;
 
 /**
- * What is remembered of a pair while it is close.
+ * The state of a pair while it is close.
  *
- * @param startTime since when, epoch milliseconds
+ * @param startTime start of the encounter, epoch milliseconds
  * @param minDistance meters, the closest so far
- * @param reported event time of the newest record about it
+ * @param reported event time of its newest record
  * @param first the newest position of one device, in the order of {@link PositionFix#NAMING}
  * @param second that of the other
  */

@@ -8,7 +8,7 @@ import org.apache.flink.core.memory.DataOutputView;
 import io.furrow.analytics.position.PositionFixSerializer;
 import io.furrow.flink.format.VersionedSerializer;
 
-/** How a {@link OpenEncounter} is written. */
+/** Serializes {@link OpenEncounter}. */
 public final class OpenEncounterSerializer extends VersionedSerializer<OpenEncounter> {
     private static final long serialVersionUID = 1L;
     /** Start, closest distance, newest report, both fixes as parts. */

@@ -25,12 +25,12 @@ public final class Pair {
         return topic;
     }
 
-    /** Identity of the one. */
+    /** Identity of the first device. */
     public String first() {
         return first;
     }
 
-    /** Identity of the other. */
+    /** Identity of the second device. */
     public String second() {
         return second;
     }

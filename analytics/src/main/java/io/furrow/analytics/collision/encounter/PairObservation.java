@@ -8,12 +8,12 @@ import io.furrow.analytics.eventtime.HasEventTime;
 import io.furrow.analytics.position.PositionFix;
 
 /**
- * What one grid cell saw of a pair at an instant at which either device reported or left.
+ * An observation of a pair in one grid cell, at an instant at which either device reported or left.
  *
- * @param first where the one device is, in the order of {@link PositionFix#NAMING}; after a change of −1, where it was
- * @param second where the other is, or was
+ * @param first position of the one device, in the order of {@link PositionFix#NAMING}; after a change of −1, its last
+ * @param second position, or last position, of the other
  * @param time epoch milliseconds
- * @param change +1 close in this cell from now on, −1 no more, 0 still
+ * @param change +1 close in this cell from now on, −1 no longer, 0 still
  */
 @TypeInfo(PairObservationSerializer.class)
 public record PairObservation(PositionFix first, PositionFix second, long time, int change) implements HasEventTime {

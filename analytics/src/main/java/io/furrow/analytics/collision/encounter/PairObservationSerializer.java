@@ -8,7 +8,7 @@ import org.apache.flink.core.memory.DataOutputView;
 import io.furrow.analytics.position.PositionFixSerializer;
 import io.furrow.flink.format.VersionedSerializer;
 
-/** How a {@link PairObservation} is written. */
+/** Serializes {@link PairObservation}. */
 public final class PairObservationSerializer extends VersionedSerializer<PairObservation> {
     private static final long serialVersionUID = 1L;
     /** Both fixes as parts, time, change. */

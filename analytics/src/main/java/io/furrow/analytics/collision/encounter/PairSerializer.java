@@ -8,7 +8,7 @@ import org.apache.flink.core.memory.DataOutputView;
 import io.furrow.flink.format.StringCodec;
 import io.furrow.flink.format.VersionedSerializer;
 
-/** How a {@link Pair} is written. */
+/** Serializes {@link Pair}. */
 public final class PairSerializer extends VersionedSerializer<Pair> {
 
     private static final long serialVersionUID = 1L;

@@ -2,7 +2,7 @@ package io.furrow.analytics.collision.encounter;
 
 import io.furrow.analytics.eventtime.KeyStateSerializer;
 
-/** What waits and is remembered of a pair. */
+/** Serializes a pair's pending observations and open encounter. */
 public final class PendingObservationsSerializer extends KeyStateSerializer<PairObservation, OpenEncounter> {
     private static final long serialVersionUID = 1L;
 

@@ -8,12 +8,12 @@ public enum Phase {
     /** The devices are still close; reported at a limited rate. */
     ONGOING,
     ENDED,
-    /** The devices are on courses that will bring them close. */
+    /** The devices' courses will bring them close. */
     PREDICTED,
-    /** The devices came close between their reports, though no report shows it. */
+    /** The devices came close between their reports, but no report shows it. */
     CROSSED;
 
-    /** The name as it stands in messages, for instance {@code started}. */
+    /** The name in messages, for instance {@code started}. */
     public String code() {
         return name().toLowerCase(Locale.ROOT);
     }

@@ -17,13 +17,13 @@ import io.furrow.analytics.eventtime.EventTimeOperator;
  *
  * <p><b>State</b>: observations that wait for the watermark; start, closest distance and newest report of an encounter.
  *
- * <p><b>Cleared</b>: when the encounter has ended and no sighting waits. Where restored with other rules, each encounter ends at its
- * newest position.
+ * <p><b>Cleared</b>: when the encounter has ended and no observation waits. When restored with changed rules, each encounter ends at
+ * its newest position.
  *
- * <p><b>Late</b>: nothing can be, the stage before acts before it forwards a watermark.
+ * <p><b>Late</b>: impossible; the previous stage acts before it forwards a watermark.
  *
- * <p><b>Emits</b>: records of encounters, a pair's in the order of their time. Instants at which the cells contradict each
- * other are counted as {@code violations}: always 0 unless the code is wrong.
+ * <p><b>Emits</b>: records of encounters, a pair's in order of time. {@code violations} counts instants at which cells contradict
+ * each other: always 0 unless the code is wrong.
  */
 public final class TrackEncounters extends EventTimeOperator<Pair, PairObservation, OpenEncounter, Encounter> {
     private static final long serialVersionUID = 1L;

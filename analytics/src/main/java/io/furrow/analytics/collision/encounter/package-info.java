@@ -1,2 +1,2 @@
-/** Third stage: joins what the cells observed of a pair into encounters. */
+/** Third stage: joins the observations of a pair into encounters. */
 package io.furrow.analytics.collision.encounter;

@@ -22,13 +22,13 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.FiwareScope;
 
 /**
- * Assigns to each position what carries its device: what the entity named, else what {@code service.devices} says as
- * of the position's time. The ground carries a stationary device. Key: the device, which has no state here; its positions are on their way to the stage that
- * has.
+ * Assigns to each position the carrier of its device: the one that the entity names, else the one that {@code service.devices} states as of
+ * the position's time. A stationary device is carried by the ground. Key: the device, so that its positions are already partitioned for the
+ * next stage; no keyed state.
  *
- * <p><b>State</b>: every device's versions, the same at each subtask.
+ * <p><b>State</b>: the versions of all devices, the same in each subtask.
  *
- * <p><b>Cleared</b>: versions, 30 days after they ended; where a replay is read, never.
+ * <p><b>Cleared</b>: versions, 30 days after their end; never while a replay is read.
  *
  * <p><b>Late</b>: a position gets its carrier as of its own time.
  *
@@ -41,10 +41,10 @@ public final class AssignCarriers
             new MapStateDescriptor<>("devices", Types.STRING, TypeInformation.of(DeviceVersions.class));
 
     private static final long serialVersionUID = 1L;
-    /** Longer than the job is down: all changes are read before the backlog is. As ingest has it. */
+    /** Longer than a job is down, because all changes are read before the backlog. The same as in ingest. */
     private static final Duration KEPT = Duration.ofDays(30);
 
-    /** Carries the devices that do not move, so that they are parts of one aggregate; no identity is without a scope. */
+    /** The carrier of stationary devices, so that they are parts of one aggregate; no identity lacks a scope. */
     private static final String GROUND = "ground";
 
     private static final Duration FOR_EVER = Duration.ofMillis(Epochs.SPAN);
@@ -55,12 +55,14 @@ public final class AssignCarriers
         this(devicesAtStart, false);
     }
 
-    /** @param isReplay whether positions come of any time before now, again and again */
+    /**
+     * @param isReplay whether positions may have any past time, repeatedly
+     */
     public AssignCarriers(TopicSnapshot devicesAtStart, boolean isReplay) {
         devices = new DeviceLookup(devicesAtStart, isReplay ? FOR_EVER : KEPT);
     }
 
-    /** Reads what is known of devices before the first position comes, here and after each restart. */
+    /** Reads the stored versions of devices before the first position, also after each restart. */
     @Override
     public void open(OpenContext context) throws IOException {
         devices.open();

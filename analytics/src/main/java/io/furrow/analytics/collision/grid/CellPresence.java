@@ -2,13 +2,13 @@ package io.furrow.analytics.collision.grid;
 
 import java.io.IOException;
 
-/** What a device is to a grid cell. */
+/** The role of a device in a grid cell. */
 public enum CellPresence {
-    /** It stands in the cell. */
+    /** Its position is in the cell. */
     RESIDENT(0),
-    /** It stands in a lesser cell, and its surroundings touch this one. */
+    /** Its position is in a cell with a lesser id, and its surroundings touch this one. */
     HALO(1),
-    /** Neither any more. */
+    /** Neither any longer. */
     GONE(2);
 
     private final int code;
@@ -17,7 +17,7 @@ public enum CellPresence {
         this.code = code;
     }
 
-    /** By which savepoints know it; never changes. */
+    /** The code in savepoints; never changes. */
     public int code() {
         return code;
     }

@@ -8,12 +8,12 @@ import io.furrow.analytics.eventtime.HasEventTime;
 import io.furrow.analytics.position.PositionFix;
 
 /**
- * What becomes of a device in one grid cell.
+ * A change of a device in one grid cell.
  *
  * @param cell id of the cell
- * @param time when, in epoch milliseconds
- * @param cellPresence what the device is to the cell from then on
- * @param fix where it is from then on; where {@link CellPresence#GONE}, its last position in the cell
+ * @param time epoch milliseconds
+ * @param cellPresence role of the device in the cell from then on
+ * @param fix its position from then on; if {@link CellPresence#GONE}, its last in the cell
  */
 @TypeInfo(CellUpdateSerializer.class)
 public record CellUpdate(long cell, long time, CellPresence cellPresence, PositionFix fix) implements HasEventTime {

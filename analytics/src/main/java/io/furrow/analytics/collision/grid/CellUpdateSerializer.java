@@ -8,7 +8,7 @@ import org.apache.flink.core.memory.DataOutputView;
 import io.furrow.analytics.position.PositionFixSerializer;
 import io.furrow.flink.format.VersionedSerializer;
 
-/** How a {@link CellUpdate} is written. */
+/** Serializes {@link CellUpdate}. */
 public final class CellUpdateSerializer extends VersionedSerializer<CellUpdate> {
     private static final long serialVersionUID = 1L;
     /** Cell, time, code of the presence, fix as a part. */

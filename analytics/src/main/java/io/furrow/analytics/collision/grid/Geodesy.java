@@ -11,7 +11,7 @@ public final class Geodesy {
     /** The great-circle distance in meters by the haversine formula; symmetric, also across the antimeridian. */
     public static double distance(PositionFix a, PositionFix b) {
         double halfLatitudes = Math.toRadians(b.latitude() - a.latitude()) / 2;
-        // The remainder is exact: two devices astride the antimeridian keep all digits of their difference.
+        // The remainder is exact: two devices on both sides of the antimeridian keep all digits of their difference.
         double halfLongitudes = Math.toRadians(Math.IEEEremainder(b.longitude() - a.longitude(), 360)) / 2;
         double cosines = StrictMath.cos(Math.toRadians(a.latitude())) * StrictMath.cos(Math.toRadians(b.latitude()));
         double h = square(StrictMath.sin(halfLatitudes)) + cosines * square(StrictMath.sin(halfLongitudes));

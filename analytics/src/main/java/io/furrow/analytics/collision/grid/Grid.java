@@ -6,20 +6,20 @@ import java.util.Arrays;
 import io.furrow.analytics.collision.rules.CollisionRules;
 
 /**
- * Cells over the whole Earth: bands of latitude of equal height, each cut into its own number of columns, so that cells are
+ * A grid of cells over the whole Earth: bands of latitude of equal height, each divided into columns so that cells are
  * roughly square. A position belongs to its home cell and, as a halo copy, to every cell <em>with a greater id</em> that the
- * circle of the threshold around it touches. Of two close positions the one with the lesser home therefore also is in the
- * home of the other, and both meet in exactly one cell where at least one is at home. This holds on any grid; nothing is
- * assumed of neighbors, so that the antimeridian, the poles and columns that do not line up are no special cases.
+ * circle of the threshold around it touches. Of two close positions, the one with the lesser home is therefore also in the
+ * home of the other, and both meet in exactly one cell that is home to at least one. This holds on any grid and assumes
+ * nothing about neighbors, so that the antimeridian, the poles and unaligned columns are no special cases.
  */
 public final class Grid implements Serializable {
     private static final long serialVersionUID = 1L;
 
-    /** Radians (6 µm): a thousand times the rounding of any angle here, and a copy too many does no harm. */
+    /** Radians (6 µm): a thousand times the rounding of any angle here; a superfluous copy is harmless. */
     private static final double GUARD = 1e-12;
 
     private static final long SPREAD = 0x9E3779B97F4A7C15L;
-    /** Its inverse. */
+    /** The inverse of the multiplier above. */
     private static final long GATHER = 0xF1DE83E19937733DL;
 
     private static final double POLE = Math.PI / 2;
@@ -36,7 +36,7 @@ public final class Grid implements Serializable {
         height = Math.PI / bands;
     }
 
-    /** The ids of the home cell, which comes first, and of the cells that need a halo copy; degrees. */
+    /** The ids of the home cell, first, and of the cells that need a halo copy; degrees. */
     public long[] cells(double latitude, double longitude) {
         double phi = Math.toRadians(latitude);
         double lambda = Math.toRadians(longitude);
@@ -79,7 +79,7 @@ public final class Grid implements Serializable {
         };
     }
 
-    /** How far east and west the circle reaches, in radians of longitude: all around where it holds a pole. */
+    /** Half the width of the circle, in radians of longitude: all around if it contains a pole. */
     private double halfWidth(double phi) {
         boolean holdsPole = Math.abs(phi) + reach >= POLE;
         return holdsPole ? CIRCLE : StrictMath.asin(StrictMath.sin(reach) / StrictMath.cos(phi)) + GUARD;
@@ -89,18 +89,18 @@ public final class Grid implements Serializable {
         return Math.max(0, Math.min(bands - 1, (int) Math.floor((phi + POLE) / height)));
     }
 
-    /** As many as keep a column at least as wide as a band is high where the band is narrowest. */
+    /** The largest number of columns that are at least as wide as the band is high, where the band is narrowest. */
     private int columns(int band) {
         double towardsPole = Math.max(Math.abs(band * height - POLE), Math.abs((band + 1) * height - POLE));
         return Math.max(1, (int) (CIRCLE * StrictMath.cos(towardsPole) / height));
     }
 
-    /** The column before it is wrapped around; ascends with the longitude. */
+    /** The column before wrapping around; ascends with the longitude. */
     private static int column(double lambda, int columns) {
         return (int) Math.floor((lambda + Math.PI) / CIRCLE * columns);
     }
 
-    /** One to one, with bits spread so that neighboring cells fall into different key groups and hash buckets. */
+    /** A bijection that spreads the bits, so that neighboring cells fall into different key groups and hash buckets. */
     private static long id(int band, int column) {
         return ((long) band << 32 | column) * SPREAD;
     }

@@ -4,7 +4,7 @@ import io.furrow.analytics.eventtime.KeyStateSerializer;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.position.PositionFixSerializer;
 
-/** What waits and is remembered of a device. */
+/** Serializes a device's pending positions and track. */
 public final class PendingFixesSerializer extends KeyStateSerializer<PositionFix, Track> {
     private static final long serialVersionUID = 1L;
 

@@ -5,9 +5,9 @@ import org.apache.flink.api.common.typeinfo.TypeInfo;
 import io.furrow.analytics.position.PositionFix;
 
 /**
- * Where a device is and which cells know of it.
+ * The current position of a device and the cells that contain it.
  *
- * @param last the newest position, which still counts
+ * @param last the newest position, which is still valid
  * @param cells ids of the cells, the home first
  */
 @TypeInfo(TrackSerializer.class)

@@ -20,18 +20,17 @@ import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.time.EventTimeProgress;
 
 /**
- * Puts each device into the grid cells that have to know of it. Key: the device.
+ * Assigns each device to grid cells. Key: the device.
  *
- * <p><b>State</b>: positions that wait for the watermark, the newest that counts with its cells; how far event time
- * has come, because a restored job starts without a watermark and must not go back behind what it has emitted.
+ * <p><b>State</b>: positions that wait for the watermark, the newest valid one with its cells; the event time reached, because a restored
+ * job starts without a watermark and must not fall behind its output.
  *
- * <p><b>Cleared</b>: when the position's time-to-live ends and none waits; where restored with other rules, all but the positions that
- * wait.
+ * <p><b>Cleared</b>: when the position's time-to-live ends and none waits; when restored with changed rules, all but the waiting positions.
  *
- * <p><b>Late</b>: a position not after the watermark goes to {@link #LATE}, and to {@link #LAGGING} if the device has reported no newer one.
- * So does, to {@code LATE}, a position of which {@value #MAX_WAITING} wait, counted as {@code rejectedCrowded}.
+ * <p><b>Late</b>: a position not after the watermark goes to {@link #LATE}, and to {@link #LAGGING} if the device has reported no newer
+ * one. A position beyond the {@value #MAX_WAITING} waiting ones goes to {@code LATE} too, counted as {@code rejectedCrowded}.
  *
- * <p><b>Emits</b>: updates of cells, a device's in the order of their time, before the watermark that brings them about.
+ * <p><b>Emits</b>: updates of cells, a device's in order of time, before the watermark that causes them.
  */
 public final class TrackDevices extends EventTimeOperator<Device, PositionFix, Track, CellUpdate> {
     public static final OutputTag<PositionFix> LATE = new OutputTag<>("late") {
@@ -42,7 +41,7 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
         private static final long serialVersionUID = 1L;
     };
 
-    /** Positions of a device. */
+    /** Maximum per device. */
     static final int MAX_WAITING = 100_000;
 
     private static final long serialVersionUID = 1L;

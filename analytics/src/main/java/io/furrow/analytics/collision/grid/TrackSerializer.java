@@ -9,7 +9,7 @@ import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.position.PositionFixSerializer;
 import io.furrow.flink.format.VersionedSerializer;
 
-/** How a {@link Track} is written. */
+/** Serializes {@link Track}. */
 public final class TrackSerializer extends VersionedSerializer<Track> {
     private static final long serialVersionUID = 1L;
     /** The fix as a part, number of cells, cells. */

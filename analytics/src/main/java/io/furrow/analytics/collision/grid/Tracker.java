@@ -8,7 +8,7 @@ import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.rules.ExclusionZones;
 import io.furrow.analytics.position.PositionFix;
 
-/** Moves a device through the grid: what its positions, and their end, mean for which cell at which instant. */
+/** Moves a device through the grid: turns its positions, and their expiry, into updates of cells. */
 public final class Tracker implements Serializable {
     private static final long serialVersionUID = 1L;
     private static final long[] NO_CELLS = {};
@@ -27,7 +27,7 @@ public final class Tracker implements Serializable {
      * The track after all positions of one device up to an instant; null for none, as before the first.
      *
      * @param due in the order of {@link PositionFix#SEQUENCE}, none later than {@code until}
-     * @param out takes the updates of cells in the order of time
+     * @param out receives the updates of cells in order of time
      */
     public Track advance(Track track, List<PositionFix> due, long until, Consumer<CellUpdate> out) {
         Track now = track;
@@ -41,7 +41,7 @@ public final class Tracker implements Serializable {
         return expire(now, until, out);
     }
 
-    /** The first instant at which the track's position counts no more. */
+    /** The first instant at which the track's position is no longer valid. */
     long expiry(Track track) {
         return track.last().time() + timeToLive;
     }
@@ -61,9 +61,9 @@ public final class Tracker implements Serializable {
     }
 
     /**
-     * The track of a device that is somewhere else now.
+     * Moves the track of a device to a position.
      *
-     * @param track null if it was nowhere
+     * @param track null before the first
      */
     public Track move(Track track, PositionFix fix, Consumer<CellUpdate> out) {
         boolean excluded = zones.cover(fix.latitude(), fix.longitude());

@@ -1,2 +1,2 @@
-/** First stage: keeps each device in the cells of a grid over the Earth that its surroundings touch. */
+/** First stage: assigns each device to the grid cells that its surroundings touch. */
 package io.furrow.analytics.collision.grid;

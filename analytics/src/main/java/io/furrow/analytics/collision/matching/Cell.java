@@ -11,16 +11,16 @@ import io.furrow.analytics.collision.encounter.PairObservation;
 import io.furrow.analytics.collision.grid.CellUpdate;
 
 /**
- * The devices of one grid cell; changed in place. Which pairs are followed follows from where the members are and from the
- * shortlists of those in crowds, and is not stored.
+ * The devices of one grid cell; changed in place. Which pairs are followed results from the positions and the shortlists of
+ * its members and is not stored.
  */
 @TypeInfo(CellSerializer.class)
 public final class Cell {
-    /** Made again for the first member. */
+    /** Recreated for the first member. */
     private CellIndex members = new CellIndex(0);
-    /** How many members have a shortlist. */
+    /** Number of members with a shortlist. */
     private int crowded;
-    /** What was last emitted about crowds; null if nothing was within a minute. */
+    /** The last report about crowds; null if there was none within a minute. */
     private CrowdReport report;
 
     private Cell() {}
@@ -45,7 +45,7 @@ public final class Cell {
         report = now;
     }
 
-    /** How many devices are in the cell, halo copies included. */
+    /** Number of devices in the cell, halo copies included. */
     int devices() {
         return members.size();
     }
@@ -54,23 +54,23 @@ public final class Cell {
         return members.all();
     }
 
-    /** Only before the first updates are applied. */
+    /** May only be called before the first updates are applied. */
     void put(CellEntry cellEntry) {
         crowded += cellEntry.shortlist() == null ? 0 : 1;
         members.add(cellEntry);
     }
 
-    /** Adds all others to {@code near} that are near a member, at home or not. */
+    /** Adds all other devices near a member to {@code near}, resident or not. */
     void near(CellEntry cellEntry, Proximity proximity, List<CellEntry> near) {
         prepare(proximity);
         members.near(cellEntry, proximity, near);
     }
 
     /**
-     * Applies updates instant by instant and emits what that means for pairs.
+     * Applies updates instant by instant and emits the resulting observations of pairs.
      *
      * @param updates in the order of {@link CellUpdate#SEQUENCE}, at most one per device and instant
-     * @param out takes the observations; their order within an instant has no meaning
+     * @param out receives the observations; their order within an instant has no meaning
      */
     public void apply(List<CellUpdate> updates, PairSelection pairSelection, Consumer<PairObservation> out) {
         int from = 0;
@@ -87,7 +87,7 @@ public final class Cell {
         putIn(takeOut(updates, pairSelection), pairSelection, updates.get(0).time(), out);
     }
 
-    /** The first update of a later instant than that of the given one. */
+    /** The index of the first update that is later than the given one. */
     public static int endOfInstant(List<CellUpdate> updates, int from) {
         int to = from + 1;
         while (to < updates.size()
@@ -106,8 +106,8 @@ public final class Cell {
     }
 
     /**
-     * A pair whose devices both change is seen once, by the one that comes first in the updates: it leaves before the other,
-     * whom it still meets.
+     * Removes the devices that change. A pair whose devices both change is observed once, by the one first in the updates:
+     * it is removed before the other, which is then still present.
      */
     private List<CellChange> takeOut(List<CellUpdate> updates, PairSelection pairSelection) {
         List<CellChange> changes = new ArrayList<>(updates.size());
@@ -160,7 +160,7 @@ public final class Cell {
         }
     }
 
-    /** By what was before the instant and where all are now. */
+    /** From the positions before the instant and those after it. */
     private void makeShortlist(CellChange cellChange, PairSelection pairSelection, List<CellEntry> near) {
         if (cellChange.after() != null) {
             NearestNeighbors nearestNeighbors = pairSelection.shortlist(cellChange.before(), cellChange.after(), near);
@@ -169,7 +169,7 @@ public final class Cell {
         }
     }
 
-    /** Takes a step per partner of before and of now: partners of before are marked, so that nobody has to be looked for. */
+    /** Takes a step per former and current partner: former partners are marked, so that no search is needed. */
     private static void compare(CellChange cellChange, List<CellEntry> near, long time, Consumer<PairObservation> out) {
         for (CellEntry partner : cellChange.partners()) {
             partner.partnerOf(cellChange);

@@ -12,19 +12,21 @@ public final class CellEntry {
     private final double y;
     private final double z;
 
-    /** Of its identity: {@link NearestNeighbors#bit}. */
+    /** The {@link NearestNeighbors#bit} of its identity. */
     private final long bit;
 
-    /** Null if it follows all that are close. */
+    /** Null if it follows all close devices. */
     private NearestNeighbors nearestNeighbors;
-    /** Of the shortlist; here because it is looked at much more often than that. */
+    /** Bits of the shortlist; stored here because they are read much more often than the rest of it. */
     private long listed;
-    /** What brought it here at the instant that is being applied; null for a member that was here before. */
+    /** The change of the current instant that added it; null for an older member. */
     private CellChange cellChange;
-    /** The change that is being compared, where this member is a partner of before that has not been met again. */
+    /** The change being compared, if this member is a former partner not yet met again. */
     private CellChange partnerOf;
 
-    /** @param resident whether it stands in the cell; else the cell has a halo copy of it */
+    /**
+     * @param resident whether the cell is its home; else it is a halo copy
+     */
     private CellEntry(PositionFix fix, boolean resident, double x, double y, double z) {
         this.fix = fix;
         this.resident = resident;
@@ -41,14 +43,13 @@ public final class CellEntry {
         return new CellEntry(fix, resident, cosine * Math.cos(lambda), cosine * Math.sin(lambda), Math.sin(phi));
     }
 
-    /** The same, for another cell: what a change leaves in one does not show in the other. */
+    /** An equal entry for another cell; changes of one do not affect the other. */
     CellEntry copy() {
         CellEntry copy = new CellEntry(fix, resident, x, y, z);
         copy.shortlist(nearestNeighbors);
         return copy;
     }
 
-    /** Where it is. */
     PositionFix fix() {
         return fix;
     }
@@ -76,13 +77,13 @@ public final class CellEntry {
         return nearestNeighbors;
     }
 
-    /** Only before the instant at which it comes is over. */
+    /** May only be called during the instant that adds it. */
     void shortlist(NearestNeighbors now) {
         nearestNeighbors = now;
         listed = now == null ? 0 : now.bits();
     }
 
-    /** Whether it has a shortlist and the other is on it. */
+    /** Whether the other is on its shortlist. */
     boolean lists(CellEntry other) {
         return (listed & other.bit) != 0 && nearestNeighbors.has(other.fix);
     }
@@ -103,7 +104,7 @@ public final class CellEntry {
         partnerOf = now;
     }
 
-    /** As it is written: the device, where it is, whether it stands in the cell, whom it follows. */
+    /** Equality of what is serialized: device, position, residence, followed devices. */
     @Override
     public boolean equals(Object other) {
         return other instanceof CellEntry cellEntry

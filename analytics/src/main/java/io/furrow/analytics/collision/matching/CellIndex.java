@@ -7,11 +7,11 @@ import io.furrow.analytics.collision.grid.Geodesy;
 import io.furrow.analytics.position.PositionFix;
 
 /**
- * The devices of a grid cell, found by their names and by where they are: in squares of twice the threshold. The squares lie
- * in the plane of two of the three axes in which unit vectors are given, the two that the first member's surroundings are
- * flattest to. Who is close in space is close along every axis, so nothing is missed anywhere on the sphere, and nothing has
- * to be wrapped around. All of it is in a few arrays, because at a million comparisons a second what costs is memory that
- * lies scattered: a member is a number, both ways to find it are chains of numbers.
+ * An index of the devices of a grid cell, by name and by location: in squares of twice the threshold. The squares lie in the
+ * plane of two of the three axes of the unit vectors, the two to which the first member's surroundings are flattest. Devices
+ * that are close in space are close along every axis, so that none is missed anywhere on the sphere and no wrapping is
+ * needed. The index consists of a few arrays, because at a million comparisons a second scattered memory is the bottleneck:
+ * a member is a number, both lookups follow chains of numbers.
  */
 final class CellIndex {
     /** Twice the rounding of a coordinate, in Earth radii: 6 nm. */
@@ -62,7 +62,7 @@ final class CellIndex {
         return List.of(Arrays.copyOf(members, size));
     }
 
-    /** A device that is not there. */
+    /** Adds a device that is not a member. */
     void add(CellEntry cellEntry) {
         if (axes == null) {
             axes = flattest(cellEntry);
@@ -73,7 +73,7 @@ final class CellIndex {
         set(size++, cellEntry, square(index(u(cellEntry)), index(v(cellEntry))));
     }
 
-    /** Takes a device out; null if it is not there. */
+    /** Removes a device; null if it is not a member. */
     CellEntry remove(PositionFix device) {
         int name = device.identity().hashCode();
         int number = firstOfName[slot(name, firstOfName)];
@@ -96,12 +96,12 @@ final class CellIndex {
         return removed;
     }
 
-    /** Adds all others to {@code near} that are close to a member, halo copies of a halo copy too. */
+    /** Adds all other devices close to a member to {@code near}, also halo copies close to a halo copy. */
     void near(CellEntry cellEntry, Proximity proximity, List<CellEntry> near) {
         find(cellEntry, proximity, false, near);
     }
 
-    /** Adds all to {@code partners} with whom a member has an encounter; in a crowd few of those that are close. */
+    /** Adds all devices with which a member has an encounter to {@code partners}; in a crowd, few of the close ones. */
     void partners(CellEntry cellEntry, Proximity proximity, List<CellEntry> partners) {
         find(cellEntry, proximity, true, partners);
     }

@@ -3,16 +3,16 @@ package io.furrow.analytics.collision.matching;
 import io.furrow.analytics.position.PositionFix;
 
 /**
- * A grid cell with a crowd, in which not all pairs that are close are followed, or, where none is left out, no more.
+ * A crowded grid cell in which not all close pairs are followed, or, if no pair is left out, the end of its crowd.
  *
  * @param witness a device of the crowd; has its topic and scope
  * @param cell id of the cell
  * @param latitude of its center, degrees
  * @param longitude of its center, degrees
- * @param devices how many are in the cell or so near it that they may meet one that is
- * @param pairs how many are close
- * @param pairsLeftOut how many of them are not followed
- * @param nearest how many of the devices close to it are followed for the device that has the most of them
+ * @param devices number of devices in the cell or near enough to meet one that is
+ * @param pairs number of close pairs
+ * @param pairsLeftOut number of close pairs that are not followed
+ * @param nearest the greatest number of close devices followed for any one device
  * @param time epoch milliseconds
  */
 public record CellOverflow(

@@ -11,12 +11,12 @@ import io.furrow.analytics.position.PositionFixSerializer;
 import io.furrow.flink.format.StringCodec;
 import io.furrow.flink.format.VersionedSerializer;
 
-/** How a {@link Cell} is written. */
+/** Serializes {@link Cell}. */
 public final class CellSerializer extends VersionedSerializer<Cell> {
     private static final long serialVersionUID = 1L;
     /**
      * Number of members; of each a byte of {@link #RESIDENT} and {@link #SHORTLIST}, the fix as a part, and its shortlist; whether
-     * something was notified of crowds, and when, whether one was there, and its witness as a part.
+     * there is a crowd report, its time, whether there was a crowd, and its witness as a part.
      */
     private static final int VERSION = 3;
 

@@ -3,17 +3,17 @@ package io.furrow.analytics.collision.matching;
 import io.furrow.analytics.position.PositionFix;
 
 /**
- * The state of a grid cell's crowds as last emitted.
+ * The last emitted state of a grid cell's crowds.
  *
- * @param time when, epoch milliseconds
+ * @param time epoch milliseconds
  * @param over whether a device was in a crowd then
  * @param witness a device that is, or was, in it; has its topic and scope
  */
 record CrowdReport(long time, boolean over, PositionFix witness) {
-    /** Between two records of a cell, in milliseconds. */
+    /** Milliseconds between two records of a cell. */
     static final long EVERY = 60_000;
 
-    /** When there may be something to emit again. */
+    /** When the next record may be due. */
     long next() {
         return time + EVERY;
     }

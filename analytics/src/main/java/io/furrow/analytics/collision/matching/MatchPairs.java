@@ -21,16 +21,16 @@ import io.furrow.analytics.eventtime.EventTimeOperator;
 /**
  * Finds the close pairs of each grid cell. Key: the cell's id.
  *
- * <p><b>State</b>: updates that wait for the watermark, the devices in the cell and around it with the shortlists of those in
- * crowds, what was notified of crowds within the last minute.
+ * <p><b>State</b>: updates that wait for the watermark, the devices in the cell and around it with the shortlists of those in crowds, the
+ * last report of crowds if within a minute.
  *
- * <p><b>Cleared</b>: when the last device has gone, no update waits and there is nothing to report a crowd; all of it where restored with
- * other rules.
+ * <p><b>Cleared</b>: when the last device has left, no update waits and no crowd is to be reported; all of it when restored with changed
+ * rules.
  *
- * <p><b>Late</b>: nothing can be, the stage before acts before it forwards a watermark.
+ * <p><b>Late</b>: impossible; the previous stage acts before it forwards a watermark.
  *
- * <p><b>Emits</b>: a sighting for each instant at which a pair that is followed is or was close and either device reported or
- * left. Crowds go to {@link #OVERFLOWS}; {@code pairsLeftOut} counts the pairs without an encounter that these report.
+ * <p><b>Emits</b>: an observation for each instant at which a followed pair is or was close and either device reported or left. Crowds go
+ * to {@link #OVERFLOWS}; {@code pairsLeftOut} counts the pairs without an encounter that these report.
  */
 public final class MatchPairs extends EventTimeOperator<Long, CellUpdate, Cell, PairObservation> {
     public static final OutputTag<CellOverflow> OVERFLOWS = new OutputTag<>("overflows") {
@@ -101,7 +101,7 @@ public final class MatchPairs extends EventTimeOperator<Long, CellUpdate, Cell, 
         restored.snapshot();
     }
 
-    /** When the next minute is full. */
+    /** The next full minute of a crowd report. */
     @Override
     protected long expiry(Cell cell) {
         return cell.report() == null ? NEVER : cell.report().next();

@@ -7,9 +7,9 @@ import java.util.PriorityQueue;
 import io.furrow.analytics.position.PositionFix;
 
 /**
- * The nearest devices of those that are offered, so many at most. Near is reported in quarters of the threshold, so that the
- * noise of receivers does not change the choice all the time; of those in one quarter the ones that were chosen before come
- * first, then the nearer, then by name.
+ * Selects a limited number of nearest devices. Distance counts in quarters of the threshold, so that the noise of receivers
+ * does not change the choice all the time; within a quarter, previously chosen devices come first, then the nearer, then by
+ * name.
  */
 final class Nearest {
     private static final Comparator<Candidate> ORDER = Comparator.comparingInt(Candidate::quarter)
@@ -18,7 +18,7 @@ final class Nearest {
             .thenComparing(Candidate::fix, PositionFix.NAMING);
 
     private final int room;
-    /** The last of them first. */
+    /** The last in order first. */
     private final PriorityQueue<Candidate> chosen = new PriorityQueue<>(ORDER.reversed());
 
     private record Candidate(PositionFix fix, int quarter, boolean known, double nearness) {}
@@ -28,7 +28,7 @@ final class Nearest {
     }
 
     /**
-     * @param nearness the square of the distance, as a share of that of the threshold
+     * @param nearness the squared distance divided by the squared threshold
      * @param known whether it was chosen before
      */
     void offer(PositionFix fix, double nearness, boolean known) {

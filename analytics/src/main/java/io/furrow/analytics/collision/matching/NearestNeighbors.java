@@ -4,10 +4,10 @@ import java.util.List;
 
 import io.furrow.analytics.position.PositionFix;
 
-/** The devices with which a device of a crowd has encounters, as of its newest report; of its own topic. */
+/** The devices of its topic with which a device of a crowd has encounters, as of its newest report. */
 final class NearestNeighbors {
     private static final int SPREAD = 0x9E3779B9;
-    /** Slots for each identity: nearly every device that is asked for is not here, and then its slot is mostly empty. */
+    /** Slots per identity: lookups nearly always miss, and should then hit an empty slot. */
     private static final int ROOM = 8;
 
     private final List<String> identities;
@@ -17,7 +17,9 @@ final class NearestNeighbors {
     private final String[] slots;
     private final int shift;
 
-    /** @param identities of the devices, none twice */
+    /**
+     * @param identities of the devices, distinct
+     */
     NearestNeighbors(List<String> identities) {
         this.identities = List.copyOf(identities);
         shift = Integer.numberOfLeadingZeros(ROOM * Math.max(1, identities.size()));
@@ -34,7 +36,7 @@ final class NearestNeighbors {
         return identities;
     }
 
-    /** One of 64, by which most devices that are not on a list are reported from those that are. */
+    /** One of 64 bits, which rules out most devices that are not on a list. */
     static long bit(String identity) {
         return 1L << (identity.hashCode() * SPREAD >>> Integer.SIZE - 6);
     }
@@ -47,7 +49,7 @@ final class NearestNeighbors {
         return slots[slot(device.identity())] != null;
     }
 
-    /** Where it is, or would be. */
+    /** The slot of an identity, or the free one for it. */
     private int slot(String identity) {
         int slot = identity.hashCode() * SPREAD >>> shift;
         while (slots[slot] != null && !slots[slot].equals(identity)) {

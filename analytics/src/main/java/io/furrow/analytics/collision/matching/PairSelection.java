@@ -8,13 +8,13 @@ import java.util.Set;
 import io.furrow.analytics.collision.rules.CollisionRules;
 
 /**
- * Which pairs of a grid cell are followed: all that are close, but for those of crowds. A device that has more than
- * {@code crowd} others near when it reports is in a crowd and makes a {@link NearestNeighbors}. It holds the nearest
- * {@code crowd² / others}, one at least, so that a spot has about as many encounters however many devices crowd there. A
- * device without a shortlist follows all that are close to it.
+ * Decides which close pairs of a grid cell are followed: all, except in crowds. A device with more than {@code crowd} others
+ * near when it reports is in a crowd and gets a shortlist, {@link NearestNeighbors}, of the nearest {@code crowd² / others},
+ * at least one, so that a spot has about as many encounters however many devices crowd there. A device without a shortlist
+ * follows all that are close to it.
  *
- * <p>Whether a pair is followed depends on the shortlists and times of both, which change with their own reports only. So
- * does nothing change for a pair of which neither reports.
+ * <p>Whether a pair is followed depends on the shortlists and times of both, which change with their own reports only.
+ * Nothing changes, therefore, for a pair of which neither reports.
  */
 public final class PairSelection implements Serializable {
     private static final long serialVersionUID = 1L;
@@ -31,22 +31,22 @@ public final class PairSelection implements Serializable {
         return proximity;
     }
 
-    /** Whether so many devices can be a crowd. */
+    /** Whether this number of devices can be a crowd. */
     boolean canCrowd(int devices) {
         return devices - 1 > crowd;
     }
 
-    /** How many of this many others a device chooses. */
+    /** The number of devices followed out of this many others. */
     int chosenOf(int others) {
         return others <= crowd ? others : (int) Math.max(1, (long) crowd * crowd / others);
     }
 
-    /** Whether two members that are near each other are a pair of this cell. Two halo copies meet elsewhere. */
+    /** Whether two members that are near each other are a pair of this cell. Two halo copies meet in another. */
     static boolean meet(CellEntry a, CellEntry b) {
         return a.resident() || b.resident();
     }
 
-    /** Whether a pair that is close is followed. */
+    /** Whether a close pair is followed. */
     static boolean follows(CellEntry a, CellEntry b) {
         boolean anyOf = a.shortlist() == null && (b.shortlist() == null || isNotBefore(a, b));
         return anyOf || b.shortlist() == null && isNotBefore(b, a) || a.lists(b) || b.lists(a);
@@ -57,10 +57,10 @@ public final class PairSelection implements Serializable {
     }
 
     /**
-     * What the member that has just reported goes by from now on; null for all that are close.
+     * The new shortlist of the member that has just reported; null to follow all close devices.
      *
-     * @param before the same device until then; null if it was not in the cell
-     * @param near all that are near it, halo copies of a halo copy too: nobody is a crowd on one side of a border only
+     * @param before the device's previous entry; null if it was not in the cell
+     * @param near all members near it, also halo copies near a halo copy: a crowd is the same on both sides of a border
      */
     NearestNeighbors shortlist(CellEntry before, CellEntry after, List<CellEntry> near) {
         if (near.size() <= crowd) {
@@ -81,7 +81,7 @@ public final class PairSelection implements Serializable {
         return new NearestNeighbors(List.copyOf(listed));
     }
 
-    /** Whether an encounter with a device without a shortlist continues, which would begin it again with its next report. */
+    /** Whether an encounter with a device without a shortlist continues; its next report would start it again. */
     private boolean goesOn(CellEntry before, CellEntry other) {
         return other.change() == null
                 && other.shortlist() == null

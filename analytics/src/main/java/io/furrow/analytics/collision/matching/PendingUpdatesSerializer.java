@@ -4,7 +4,7 @@ import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.CellUpdateSerializer;
 import io.furrow.analytics.eventtime.KeyStateSerializer;
 
-/** What waits for a grid cell and is remembered of it. */
+/** Serializes a grid cell's pending updates and members. */
 public final class PendingUpdatesSerializer extends KeyStateSerializer<CellUpdate, Cell> {
     private static final long serialVersionUID = 1L;
 

@@ -9,8 +9,8 @@ import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.rules.Thresholds;
 
 /**
- * Whether two devices of a cell are close. The squared chord between unit vectors answers nearly always; within a
- * millionth of the threshold's own {@link Geodesy#distance} decides, so that the answer is that of the definition to the
+ * Decides whether two devices of a cell are close. The squared chord between unit vectors nearly always suffices; within
+ * a millionth of the threshold {@link Geodesy#distance} decides, so that the result is that of the definition to the
  * last bit.
  */
 public final class Proximity implements Serializable {
@@ -21,10 +21,10 @@ public final class Proximity implements Serializable {
     private final long maxSkewMillis;
     private final Limit greatest;
     private final double reach;
-    /** By types; null if all have one threshold. Grows with the pairs of types that are met. */
+    /** Limits by types; null if all have one threshold. Grows with the pairs of types that meet. */
     private final Map<String, Map<String, Limit>> limits;
 
-    /** A threshold in meters, and the squared chords below and above which it need not be asked. */
+    /** A threshold in meters, and the squared chords outside which the exact distance is not needed. */
     private record Limit(double meters, double surelyClose, double surelyApart) implements Serializable {
         static Limit of(double meters) {
             double chord = 2 * Math.sin(meters / Geodesy.EARTH_RADIUS_METERS / 2);
@@ -46,12 +46,12 @@ public final class Proximity implements Serializable {
         return reach;
     }
 
-    /** Two halo copies are not compared here: they meet in a cell where one of them is at home. */
+    /** Also excludes two halo copies: they are compared in a cell that is home to one of them. */
     public boolean holds(CellEntry a, CellEntry b) {
         return PairSelection.meet(a, b) && near(a, b);
     }
 
-    /** Whether two devices are close, wherever they are at home. */
+    /** Whether two devices are close, whatever their home cells. */
     boolean near(CellEntry a, CellEntry b) {
         double squaredChord = squaredChord(a, b);
         return squaredChord <= greatest.surelyApart
@@ -61,7 +61,7 @@ public final class Proximity implements Serializable {
                 && !a.fix().sharesAggregateWith(b.fix());
     }
 
-    /** Of two close devices the square of their distance, as a share of that of their threshold. */
+    /** The squared distance of two close devices divided by the square of their threshold. */
     double nearness(CellEntry a, CellEntry b) {
         return squaredChord(a, b) / limit(a.fix().type(), b.fix().type()).surelyApart;
     }

@@ -10,13 +10,13 @@ import io.furrow.analytics.collision.grid.Grid;
 import io.furrow.analytics.position.PositionFix;
 
 /**
- * Reports the crowds of a grid cell: at the first instant at which a device makes a shortlist, then each minute of event time
- * while one has it, and once, at a full minute too, when none has it any more. What is emitted is the state of that instant, so
- * that it is the same whatever the watermarks.
+ * Reports the crowds of a grid cell: at the first instant at which a device has a shortlist, then each minute of event time
+ * while one has, and once, also at a full minute, when none has any longer. A report shows the state of its instant, so that it
+ * is the same whatever the watermarks.
  */
 public final class ReportCrowds implements Serializable {
     private static final long serialVersionUID = 1L;
-    /** Of the members with a shortlist, the one by whose place and scope a cell is reported. */
+    /** Selects the member with a shortlist whose position and scope the report of a cell has. */
     private static final Comparator<CellEntry> BY_NAME = Comparator.comparing(
                     CellEntry::resident, Comparator.reverseOrder())
             .thenComparing(CellEntry::fix, PositionFix.NAMING);
@@ -29,7 +29,7 @@ public final class ReportCrowds implements Serializable {
         this.grid = grid;
     }
 
-    /** All minutes that are full at an instant, whose updates have been applied if there are any. */
+    /** Reports all full minutes up to an instant, after its updates, if any, have been applied. */
     public void advance(long id, Cell cell, long until, Consumer<CellOverflow> out) {
         while (cell.report() != null && cell.report().next() <= until) {
             CrowdReport report = cell.report();
@@ -41,7 +41,7 @@ public final class ReportCrowds implements Serializable {
         }
     }
 
-    /** The updates of an instant have been applied. */
+    /** Reports a new crowd after the updates of an instant have been applied. */
     public void applied(long id, Cell cell, long time, Consumer<CellOverflow> out) {
         if (cell.isCrowded() && cell.report() == null) {
             tell(id, cell, time, out);
@@ -58,7 +58,7 @@ public final class ReportCrowds implements Serializable {
         cell.report(new CrowdReport(time, cell.isCrowded(), witness));
     }
 
-    /** Looks at all pairs of the cell, once a minute. */
+    /** Goes through all pairs of the cell, once a minute. */
     private CellOverflow describe(long id, Cell cell, PositionFix witness, long time) {
         long ends = 0;
         long followed = 0;

@@ -6,16 +6,17 @@ import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.record.Epochs;
 
 /**
- * That two devices will come, or came between their reports, within the threshold; complete in itself.
+ * A prediction that two devices will come within the threshold, or a crossing: they did so between their reports.
+ * Complete in itself.
  *
  * @param phase {@link Phase#PREDICTED} or {@link Phase#CROSSED}
- * @param first the device with the lesser id; predicted: at its newest position; crossed: where it was at the closest
+ * @param first the device with the lesser id; predicted: at its newest position; crossed: at the closest point
  * @param second the other device
  * @param distance meters between these two positions
  * @param dcpa meters at the closest point of approach
- * @param tcpa seconds from {@code time} to the closest point of approach; 0 where that is in the past
- * @param startTime predicted: when that was first emitted; crossed: when the contact began; epoch milliseconds
- * @param time predicted: the newer of both positions; crossed: when they were closest; epoch milliseconds
+ * @param tcpa seconds from {@code time} to the closest point of approach; 0 if that is in the past
+ * @param startTime predicted: first emitted; crossed: start of the contact; epoch milliseconds
+ * @param time predicted: the newer of both positions; crossed: the closest point; epoch milliseconds
  */
 public record Approach(
         Phase phase,
@@ -52,12 +53,12 @@ public record Approach(
                 Epochs.begin(nearest.time()) + (long) nearest.closest());
     }
 
-    /** The pair, the start and the phase: never the id of an encounter, the same in a second pass. */
+    /** Pair, start and phase: distinct from the ids of encounters, the same in a second pass. */
     public String id() {
         return pairId() + "@" + Epochs.text(startTime) + "-" + phase.code();
     }
 
-    /** 32 hexadecimal digits that stand for the pair. */
+    /** The pair's id: 32 hexadecimal digits. */
     public String pairId() {
         return PairId.of(first.identity(), second.identity());
     }

@@ -6,11 +6,11 @@ import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.record.Epochs;
 
 /**
- * Finds out whether two segments come within the threshold, for one cube.
+ * Detects in one cube whether two segments come within the threshold.
  *
- * @param cube only what is closest in it is emitted, so that everything is reported in one cube
- * @param predictions takes candidates about segments ahead
- * @param contacts takes candidates about segments behind
+ * @param cube only approaches whose closest point is in it are emitted, so that each is emitted once
+ * @param predictions receives candidates about segments ahead
+ * @param contacts receives candidates about segments behind
  */
 record ApproachDetector(
         MotionRules rules,
@@ -19,7 +19,7 @@ record ApproachDetector(
         Consumer<ApproachCandidate> predictions,
         Consumer<ApproachCandidate> contacts) {
 
-    /** Two segments from the newest positions on; {@code now} is the instant at which one of them was reported. */
+    /** Compares two segments ahead of the newest positions; {@code now} is the instant at which one of them was reported. */
     void ahead(MotionSegment one, MotionSegment other, long now) {
         long oldest = Math.min(one.from(), other.from());
         CartesianPoint start = one.start();
@@ -30,7 +30,7 @@ record ApproachDetector(
         }
     }
 
-    /** Two segments up to a position each. */
+    /** Compares two segments that end at a position each. */
     void behind(MotionSegment one, MotionSegment other) {
         long from = Math.max(one.from(), other.from());
         long until = Math.min(one.until(), other.until());
@@ -42,15 +42,15 @@ record ApproachDetector(
         }
     }
 
-    /** From when to when two segments are compared, and when that is known. */
+    /** The interval in which two segments are compared, and the time from which it is known. */
     private record Interval(long from, long until, long known) {
-        /** What lies ahead begins now; what lies behind began before. */
+        /** An interval ahead begins now, one behind began before. */
         boolean isAhead() {
             return known == from;
         }
     }
 
-    /** The newest position reported by then, which is what the encounters are found by. */
+    /** The newest position reported by then, which encounters are based on. */
     private static CartesianPoint held(MotionSegment segment, long time) {
         return segment.until() == time ? segment.at(Epochs.original(time)) : segment.start();
     }

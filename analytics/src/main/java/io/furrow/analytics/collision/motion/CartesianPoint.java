@@ -22,7 +22,7 @@ record CartesianPoint(double x, double y, double z) {
                 EARTH_RADIUS_METERS * StrictMath.sin(phi));
     }
 
-    /** The direction of length 1 in which someone looks who stands there and turns so many degrees from north to east. */
+    /** The unit vector at the position's place in a direction, in degrees clockwise from north. */
     static CartesianPoint heading(PositionFix fix, double degrees) {
         double phi = Math.toRadians(fix.latitude());
         double lambda = Math.toRadians(fix.longitude());
@@ -55,13 +55,13 @@ record CartesianPoint(double x, double y, double z) {
         return Math.sqrt(dot(this));
     }
 
-    /** Meters along the ground between two places on it. */
+    /** Meters along the ground between two points on it. */
     double distance(CartesianPoint other) {
         double chord = minus(other).length();
         return 2 * EARTH_RADIUS_METERS * StrictMath.asin(Math.min(1, chord / (2 * EARTH_RADIUS_METERS)));
     }
 
-    /** Without the part that leads away from the ground at that place. */
+    /** Without the component perpendicular to the ground at that point. */
     CartesianPoint alongTheGroundAt(CartesianPoint ground) {
         return minus(ground.times(dot(ground) / ground.dot(ground)));
     }

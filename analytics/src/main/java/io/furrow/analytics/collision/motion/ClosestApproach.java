@@ -3,15 +3,15 @@ package io.furrow.analytics.collision.motion;
 import java.util.Optional;
 
 /**
- * How near two straight motions come to each other during a time.
+ * The closest approach of two straight motions within an interval.
  *
- * @param time when they are closest, epoch milliseconds with a fraction, of the original time as all here
+ * @param time of the closest point, epoch milliseconds with a fraction, original time like all here
  * @param distance meters between them then
- * @param contactFrom from when on they are within the threshold, epoch milliseconds with a fraction
- * @param contactUntil until when
+ * @param contactFrom start of the contact within the threshold, epoch milliseconds with a fraction
+ * @param contactUntil its end
  */
 record ClosestApproach(double time, double distance, double contactFrom, double contactUntil) {
-    /** Slower than this against each other (a meter in 30 years) both keep their distance. */
+    /** Below this relative speed (a meter in 30 years) the distance is constant. */
     private static final double STANDSTILL = 1e-24;
 
     /** Empty if they do not come within the threshold, in meters, between {@code from} and {@code until}. */

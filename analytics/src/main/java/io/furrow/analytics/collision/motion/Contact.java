@@ -4,12 +4,12 @@ import java.util.List;
 import java.util.function.Consumer;
 
 /**
- * Segments of a pair that are within the threshold and may continue to be so.
+ * Segments of a pair that are within the threshold and may remain so.
  *
- * @param nearest what was found where they were closest
- * @param from when it began, epoch milliseconds
- * @param until up to when the segments are known
- * @param reportedClose whether the reports saw the devices close as well: then it is an encounter, and not emitted here
+ * @param nearest the candidate with the closest point
+ * @param from start of the contact, epoch milliseconds
+ * @param until end of the segments received so far
+ * @param reportedClose whether reports show the devices close as well: then it is an encounter, and not emitted here
  */
 public record Contact(ApproachCandidate nearest, long from, long until, boolean reportedClose) {
 
@@ -18,9 +18,9 @@ public record Contact(ApproachCandidate nearest, long from, long until, boolean 
     }
 
     /**
-     * What the segments of a pair come to; null if no contact is open at the end.
+     * Joins a pair's candidates into contacts; returns the open one, or null.
      *
-     * @param before null if none was
+     * @param before null if no contact was open
      * @param candidates in the order of {@link ApproachCandidate#SEQUENCE}
      */
     static Contact join(Contact before, List<ApproachCandidate> candidates, Consumer<Approach> out) {
@@ -40,7 +40,7 @@ public record Contact(ApproachCandidate nearest, long from, long until, boolean 
         return open;
     }
 
-    /** Reports it if only the ways came close. */
+    /** Emits the contact if no report shows it. */
     static void close(Contact contact, Consumer<Approach> out) {
         if (contact != null && !contact.reportedClose) {
             out.accept(Approach.crossed(contact));

@@ -19,7 +19,7 @@ public record CubeIndex(Map<String, MovingDevice> movers) {
     }
 
     /**
-     * Applies updates instant by instant and emits what the new segments come close to.
+     * Applies updates instant by instant and emits the approaches of new segments.
      *
      * @param updates in the order of {@link SegmentUpdate#SEQUENCE}
      */
@@ -52,7 +52,7 @@ public record CubeIndex(Map<String, MovingDevice> movers) {
         }
     }
 
-    /** Two segments that are new at the same instant are compared once, when it is the turn of the lesser device. */
+    /** Two segments that are new at the same instant are compared once, with the update of the lesser device. */
     private static void compare(SegmentUpdate update, MovingDevice other, boolean lesser, ApproachDetector watch) {
         long now = update.time();
         if (update.change() == SegmentUpdate.Change.PREDICTED) {
@@ -71,13 +71,13 @@ public record CubeIndex(Map<String, MovingDevice> movers) {
         }
     }
 
-    /** Forgets what can meet nothing that comes after the instant. */
+    /** Removes segments that can meet nothing after the instant. */
     void forget(long until, long timeToLive) {
         movers.replaceAll((device, mover) -> mover.without(until, timeToLive));
         movers.values().removeIf(MovingDevice::isGone);
     }
 
-    /** The first instant at which something is to be forgotten. */
+    /** The first instant at which a segment expires. */
     long nextEnd(long timeToLive) {
         long end = Long.MAX_VALUE;
         for (MovingDevice mover : movers.values()) {

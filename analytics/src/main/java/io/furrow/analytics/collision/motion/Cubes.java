@@ -6,9 +6,9 @@ import java.util.Arrays;
 import io.furrow.flink.record.Epochs;
 
 /**
- * Space cut into cubes. A segment belongs to every cube that the threshold's surroundings of it may touch; what two segments have to do
- * with each other is reported in one cube only, that of the place where the one is when they are closest. Both know that cube,
- * because the other is within the threshold then. Two cubes may share an id, which does no harm: they are one then.
+ * Space divided into cubes. A segment belongs to every cube that the threshold's surroundings of it may touch; an approach of two
+ * segments is reported in one cube only, that of the first one's closest point. Both segments belong to that cube, because the other is
+ * within the threshold then. Two cubes may share an id; they then act as one, which is harmless.
  */
 final class Cubes implements Serializable {
     private static final long serialVersionUID = 1L;

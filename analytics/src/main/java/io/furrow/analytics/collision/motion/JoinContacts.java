@@ -12,13 +12,13 @@ import io.furrow.analytics.eventtime.EventTimeBuffer;
 import io.furrow.analytics.eventtime.SingleTimer;
 
 /**
- * Joins the contacts of segments that follow each other to one crossing. Key: the pair.
+ * Joins contacts of consecutive segments into one crossing. Key: the pair.
  *
  * <p><b>State</b>: candidates that wait for the watermark; a contact that may continue.
  *
  * <p><b>Cleared</b>: when the contact ended, at the latest one time-to-live after its last segment, and no candidate waits.
  *
- * <p><b>Late</b>: nothing can be, the stage before acts before it forwards a watermark.
+ * <p><b>Late</b>: impossible; the previous stage acts before it forwards a watermark.
  *
  * <p><b>Emits</b>: one record for each contact that no report shows.
  */

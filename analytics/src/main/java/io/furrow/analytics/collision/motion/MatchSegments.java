@@ -15,12 +15,12 @@ import io.furrow.analytics.eventtime.SingleTimer;
 /**
  * Finds the segments of each cube that come close to each other. Key: the cube's id.
  *
- * <p><b>State</b>: updates that wait for the watermark; of each device whose segments touch the cube the segment ahead, and those
- * behind for one time-to-live, because another device may report as late as that what happened meanwhile.
+ * <p><b>State</b>: updates that wait for the watermark; of each device whose segments touch the cube, the segment ahead, and
+ * those behind for one time-to-live, because another device may report with that delay what happened meanwhile.
  *
- * <p><b>Cleared</b>: when the last segment can meet nothing any more and no update waits.
+ * <p><b>Cleared</b>: when no segment can meet another any longer and no update waits.
  *
- * <p><b>Late</b>: nothing can be, the stage before acts before it forwards a watermark.
+ * <p><b>Late</b>: impossible; the previous stage acts before it forwards a watermark.
  *
  * <p><b>Emits</b>: candidates about segments ahead; those about segments behind to {@link #CONTACTS}.
  */

@@ -7,7 +7,7 @@ import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.time.KeyedLatenessOperator;
 
-/** What is predicted and what crossed among positions, as defined for this package; beside the encounters. */
+/** Detects predictions and crossings among positions, as defined for this package, in addition to encounters. */
 public final class MotionDetection {
     private MotionDetection() {}
 

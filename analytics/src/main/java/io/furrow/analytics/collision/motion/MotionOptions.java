@@ -8,7 +8,7 @@ import picocli.CommandLine.Option;
 
 import io.furrow.analytics.collision.rules.CollisionRules;
 
-/** The options of the job {@code collision} about what lies ahead of devices and between their reports. */
+/** The options of the job {@code collision} for predictions and crossings. */
 public final class MotionOptions {
     @Option(
             names = "--horizon",
@@ -48,7 +48,7 @@ public final class MotionOptions {
 
     /**
      * @param common the rules of encounters
-     * @throws IllegalArgumentException with a sentence for whoever set the options
+     * @throws IllegalArgumentException if the options are invalid; the message is for the user
      */
     public MotionRules rules(CollisionRules common) {
         return new MotionRules(common, horizon, crossed, maxSpeed, Set.copyOf(movingTypes));

@@ -7,21 +7,21 @@ import java.util.Set;
 import io.furrow.analytics.collision.rules.CollisionRules;
 
 /**
- * What counts as predicted and as crossed.
+ * The rules of predictions and crossings.
  *
- * @param common thresholds, time-to-live, zones, the rate of records and the cell: as for encounters
- * @param horizon how far ahead of a position its course is followed; zero for no predictions
- * @param crossed whether the ways between two positions are compared
- * @param maxSpeed meters per second; what seems faster is a faulty position and no way
- * @param movingTypes entity types that are looked at; empty for all
+ * @param common thresholds, time-to-live, zones, rate of records and cell, as for encounters
+ * @param horizon how far ahead of a position its course is extrapolated; zero for no predictions
+ * @param crossed whether motions between two positions are compared
+ * @param maxSpeed meters per second; a faster motion is attributed to a faulty position
+ * @param movingTypes entity types that take part; empty for all
  */
 public record MotionRules(
         CollisionRules common, Duration horizon, boolean crossed, double maxSpeed, Set<String> movingTypes)
         implements Serializable {
-    /** Beyond it the Earth is too round for a straight line: the end of such a segment would be 8 m above the ground. */
+    /** Beyond it the curvature of the Earth matters: the end of such a segment would be 8 m above the ground. */
     private static final double MAX_WAY_METERS = 10_000;
 
-    /** Into how many cubes at most the fastest machine's way ahead leads, about. */
+    /** The maximum number of cubes, approximately, that the fastest machine's segment ahead crosses. */
     private static final double CUBES_AHEAD = 4;
 
     public MotionRules {
@@ -34,7 +34,7 @@ public record MotionRules(
                         + " m/s leads more than " + MAX_WAY_METERS + " m ahead; make one of them less");
     }
 
-    /** Whether there is anything to find. */
+    /** Whether predictions or crossings are enabled. */
     public boolean any() {
         return crossed || predicts();
     }

@@ -6,10 +6,10 @@ import io.furrow.flink.record.Epochs;
 /**
  * A straight, uniform motion of one device.
  *
- * @param fix the newer position of a segment behind, or the one from which a segment ahead begins
- * @param from when the device is at the beginning, epoch milliseconds
- * @param until when it is at the end
- * @param x where it begins, meters from the Earth's center towards 0° N 0° E
+ * @param fix the newer position of a segment behind, or the start of a segment ahead
+ * @param from time at its start, epoch milliseconds
+ * @param until time at its end
+ * @param x start, meters from the Earth's center towards 0° N 0° E
  * @param y meters towards 0° N 90° E
  * @param z meters towards the north pole
  * @param vx meters per millisecond
@@ -24,7 +24,7 @@ public record MotionSegment(
     }
 
     /**
-     * Where the device is on its segment; the newest position itself where the segment ends with it.
+     * The location on the segment at a time; at its end, the newest position itself.
      *
      * @param time the original one, epoch milliseconds: a double cannot represent the milliseconds of a late epoch's event time
      */

@@ -3,9 +3,9 @@ package io.furrow.analytics.collision.motion;
 import io.furrow.analytics.position.PositionFix;
 
 /**
- * What is known of one device's motion.
+ * The motion of one device.
  *
  * @param last the newest position
- * @param ahead the segment that begins there; null if no course is known
+ * @param ahead the segment that begins there; null if the course is unknown
  */
 public record MotionState(PositionFix last, MotionSegment ahead) {}

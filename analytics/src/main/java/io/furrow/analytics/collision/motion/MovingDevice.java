@@ -6,7 +6,7 @@ import java.util.List;
 /**
  * A device whose segments touch a cube.
  *
- * @param ahead the segment from its newest position on; null if none is known or it does not touch the cube
+ * @param ahead the segment from its newest position on; null if unknown or outside the cube
  * @param behind the segments up to its newest position, the oldest first
  */
 public record MovingDevice(MotionSegment ahead, List<MotionSegment> behind) {
@@ -24,7 +24,7 @@ public record MovingDevice(MotionSegment ahead, List<MotionSegment> behind) {
         };
     }
 
-    /** Without what can meet nothing any more that is reported after the instant. */
+    /** Removes segments that can meet nothing reported after the instant. */
     MovingDevice without(long until, long timeToLive) {
         MotionSegment counting = ahead != null && aheadEnd(timeToLive) > until ? ahead : null;
         List<MotionSegment> recent = behind.stream()
@@ -37,7 +37,7 @@ public record MovingDevice(MotionSegment ahead, List<MotionSegment> behind) {
         return ahead == null && behind.isEmpty();
     }
 
-    /** The first instant at which something of it is to be forgotten. */
+    /** The first instant at which one of its segments expires. */
     long nextEnd(long timeToLive) {
         long end = ahead == null ? Long.MAX_VALUE : aheadEnd(timeToLive);
         return behind.isEmpty() ? end : Math.min(end, behind.get(0).until() + timeToLive);

@@ -4,23 +4,23 @@ import java.util.List;
 import java.util.function.Consumer;
 
 /**
- * A prediction that lasts.
+ * An ongoing prediction.
  *
- * @param startTime when it was first emitted, epoch milliseconds
- * @param held when it last held
- * @param reported event time of the newest record about it
+ * @param startTime first emitted, epoch milliseconds
+ * @param held last instant at which it held
+ * @param reported event time of its newest record
  */
 public record OngoingPrediction(long startTime, long held, long reported) {
 
-    /** When it is over unless it holds again before. */
+    /** When the prediction ends unless it holds again before. */
     long lapse(MotionRules rules) {
         return held + rules.horizon().toMillis();
     }
 
     /**
-     * What a pair's predictions come to.
+     * Applies a pair's candidates and returns the ongoing prediction, if any.
      *
-     * @param before null if none lasts
+     * @param before null if none is ongoing
      * @param candidates in the order of {@link ApproachCandidate#SEQUENCE}
      */
     static OngoingPrediction follow(

@@ -21,13 +21,13 @@ final class SegmentBuilder implements Serializable {
         cubes = new Cubes(rules);
     }
 
-    /** What is known of the device in the end, null for nothing; {@code tooFast} counts what no machine could have made. */
+    /** The resulting state, null for none; {@code tooFast} counts positions that no machine could have reached. */
     record Advanced(MotionState known, int tooFast) {}
 
     /**
      * Follows a device through its positions.
      *
-     * @param before null if nothing is known
+     * @param before null without earlier state
      * @param due in the order of {@link PositionFix#SEQUENCE}
      */
     Advanced advance(MotionState before, List<PositionFix> due, Consumer<SegmentUpdate> out) {
@@ -55,7 +55,7 @@ final class SegmentBuilder implements Serializable {
         return new Advanced(known, tooFast);
     }
 
-    /** The first instant at which nothing that is known counts any more. */
+    /** The first instant at which the state is no longer valid. */
     long expiry(MotionState known) {
         return known.last().time() + rules.timeToLive();
     }
@@ -96,7 +96,7 @@ final class SegmentBuilder implements Serializable {
                 .orElse(null);
     }
 
-    /** Meters per millisecond: as reported, else as from the position before. */
+    /** Meters per millisecond: as reported, else derived from the previous position. */
     private static Optional<CartesianPoint> velocity(MotionSegment behind, PositionFix fix, CartesianPoint start) {
         boolean hasCourse = fix.speed() == 0 || !Double.isNaN(fix.speed()) && !Double.isNaN(fix.heading());
         if (hasCourse) {

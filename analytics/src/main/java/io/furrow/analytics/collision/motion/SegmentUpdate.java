@@ -5,14 +5,14 @@ import java.util.Comparator;
 import io.furrow.analytics.eventtime.HasEventTime;
 
 /**
- * What becomes of a device's segments in one cube.
+ * A change of a device's segments in one cube.
  *
  * @param cube id of the cube
- * @param time when this is known, epoch milliseconds: that of the device's newest position
- * @param segment the segment; of {@link Change#PREDICTION_ENDED} the one that holds no more
+ * @param time of the device's newest position, epoch milliseconds
+ * @param segment the segment; of {@link Change#PREDICTION_ENDED} the one that no longer holds
  */
 public record SegmentUpdate(long cube, long time, Change change, MotionSegment segment) implements HasEventTime {
-    /** What is new. */
+    /** The kind of change. */
     public enum Change {
         OBSERVED,
         PREDICTED,

@@ -18,21 +18,20 @@ import io.furrow.flink.time.LatenessAware;
 /**
  * Creates segments from the positions of each device and adds them to the cubes that they touch. Key: the device.
  *
- * <p><b>State</b>: positions that wait for the watermark, the newest with the segment that begins there; how far event time has
- * come, because a restored job starts without a watermark.
+ * <p><b>State</b>: positions that wait for the watermark, the newest with the segment that begins there; the event time
+ * reached, because a restored job starts without a watermark.
  *
  * <p><b>Cleared</b>: when the position's time-to-live ends and none waits.
  *
- * <p><b>Late</b>: a position not after the watermark is counted as {@code late} and left out; the stage that finds the
- * encounters sets the same one aside.
+ * <p><b>Late</b>: a position not after the watermark is counted as {@code late} and dropped; the stage that finds encounters
+ * emits it as late.
  *
- * <p><b>Emits</b>: updates of cubes, a device's in the order of their time, before the watermark that brings them about.
- * {@code positionsTooFast} counts positions that are further from the one before, or report a greater speed, than the
- * greatest speed allows.
+ * <p><b>Emits</b>: updates of cubes, a device's in order of time, before the watermark that causes them.
+ * {@code positionsTooFast} counts positions whose distance from the previous one, or reported speed, exceeds the maximum speed.
  */
 final class TrackMotion extends KeyedProcessFunction<String, PositionFix, SegmentUpdate> implements LatenessAware {
     private static final long serialVersionUID = 1L;
-    /** Positions of a device; the stage that finds the encounters sets aside what is beyond. */
+    /** Waiting positions per device; the stage that finds encounters emits further ones as late. */
     private static final int MAX_WAITING = 100_000;
 
     private final SegmentBuilder navigator;

@@ -18,7 +18,7 @@ import io.furrow.analytics.eventtime.SingleTimer;
  *
  * <p><b>Cleared</b>: when the prediction has not held for as long as the horizon and no candidate waits.
  *
- * <p><b>Late</b>: nothing can be, the stage before acts before it forwards a watermark.
+ * <p><b>Late</b>: impossible; the previous stage acts before it forwards a watermark.
  *
  * <p><b>Emits</b>: a record when a prediction is new, and at a limited rate while it lasts.
  */

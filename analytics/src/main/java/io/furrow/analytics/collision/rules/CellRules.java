@@ -3,16 +3,16 @@ package io.furrow.analytics.collision.rules;
 import java.io.Serializable;
 
 /**
- * How the Earth is cut into cells.
+ * The division of the Earth into cells.
  *
- * @param meters height of a cell; but in crowds no result depends on it, only speed
- * @param crowd of a device with more others close to it than this only the nearest are followed; 0 follows all
+ * @param meters height of a cell; except in crowds it affects only speed, not results
+ * @param crowd a device with more close devices than this follows only the nearest; 0 follows all
  */
 public record CellRules(double meters, int crowd) implements Serializable {
-    /** Cells of this many thresholds keep about 1.1 copies of each position. */
+    /** Cells of this many thresholds yield about 1.1 copies of each position. */
     public static final double THRESHOLDS = 20;
 
-    /** More machines than a yard holds within 5 m. */
+    /** More machines than fit within 5 m. */
     public static final int CROWD = 64;
 
     public CellRules {

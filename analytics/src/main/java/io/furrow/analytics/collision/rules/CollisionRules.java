@@ -5,13 +5,13 @@ import java.time.Duration;
 import java.util.TreeMap;
 
 /**
- * What counts as an encounter, and how it is reported.
+ * The rules by which encounters are detected and reported.
  *
  * @param thresholds up to which distance two devices are close
  * @param positions which positions count
- * @param steadiness what keeps encounters from flickering
- * @param ongoingEvery least event time between two records of a lasting encounter; zero reports every sighting
- * @param cells how the Earth is cut into cells, each at least as high as the threshold at which encounters end
+ * @param steadiness debouncing
+ * @param ongoingEvery least event time between two records of a lasting encounter; zero reports every observation
+ * @param cells how the Earth is divided into cells, each at least as high as the threshold at which encounters end
  */
 public record CollisionRules(
         Thresholds thresholds,
@@ -36,7 +36,7 @@ public record CollisionRules(
         }
     }
 
-    /** One threshold for all types, no zones, no steadiness, the usual crowds. */
+    /** One threshold for all types, no zones, no debouncing, the default crowd limit. */
     public CollisionRules(
             double thresholdMeters, Duration timeToLive, Duration maxSkew, Duration ongoingEvery, double cellMeters) {
         this(
@@ -63,7 +63,7 @@ public record CollisionRules(
         return new CollisionRules(thresholds, positions, steadiness, ongoingEvery, other);
     }
 
-    /** What the exact stages go by: encounters up to where they end, and everything of them for the stage behind. */
+    /** The rules of the exact stages when debouncing follows: wider thresholds, every observation. */
     public CollisionRules exact() {
         return steadiness.isNone()
                 ? this

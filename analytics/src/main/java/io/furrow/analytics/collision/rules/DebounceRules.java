@@ -4,13 +4,13 @@ import java.io.Serializable;
 import java.time.Duration;
 
 /**
- * What keeps encounters from flickering.
+ * The rules that keep encounters from flickering.
  *
  * @param leaveFactor an encounter lasts while the devices are within this many thresholds, 1 to 100
  * @param dwell an encounter counts when it lasts longer than this; zero for any
  */
 public record DebounceRules(double leaveFactor, Duration dwell) implements Serializable {
-    /** An encounter is what the definition says, no more. */
+    /** No debouncing: encounters exactly as defined. */
     public static final DebounceRules NONE = new DebounceRules(1, Duration.ZERO);
 
     private static final double GREATEST = 100;

@@ -12,11 +12,11 @@ import org.locationtech.jts.geom.prep.PreparedGeometryFactory;
 import org.locationtech.jts.index.strtree.STRtree;
 
 /**
- * Yards and other places where devices stand close to each other and it means nothing: a device inside takes no part. The
- * boundary is inside. Edges are straight in the plane of longitude and latitude, as RFC 7946 has them.
+ * Yards and other places where closeness of devices is meaningless: a device inside takes no part. The boundary is
+ * inside. Edges are straight in the plane of longitude and latitude, as in RFC 7946.
  */
 public final class ExclusionZones implements Serializable {
-    /** No such place. */
+    /** No zone. */
     public static final ExclusionZones NONE = new ExclusionZones(List.of());
 
     private static final long serialVersionUID = 1L;
@@ -32,7 +32,7 @@ public final class ExclusionZones implements Serializable {
         this.areas = List.copyOf(areas);
     }
 
-    /** Whether a position lies in one of them; degrees. */
+    /** Whether one of them covers a position; degrees. */
     public boolean cover(double latitude, double longitude) {
         if (areas.isEmpty()) {
             return false;

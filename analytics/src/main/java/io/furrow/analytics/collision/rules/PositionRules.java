@@ -4,9 +4,9 @@ import java.io.Serializable;
 import java.time.Duration;
 
 /**
- * Which positions count.
+ * The rules by which positions are valid.
  *
- * @param timeToLive how long a position counts when no newer one comes, at least 1 ms
+ * @param timeToLive how long a position is valid if no newer one arrives, at least 1 ms
  * @param maxSkew how far apart in time the positions of a close pair may be; zero for any
  * @param zones where no position counts
  */

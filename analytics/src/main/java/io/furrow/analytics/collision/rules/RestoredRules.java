@@ -8,7 +8,7 @@ import org.apache.flink.api.common.state.OperatorStateStore;
 import org.apache.flink.api.common.typeinfo.Types;
 
 /**
- * Compares the rules of a stage with those by which its state was made.
+ * Compares the rules of a stage with those of its restored state.
  *
  * <p>State: the union list {@code rules-digest}.
  */
@@ -32,7 +32,7 @@ public final class RestoredRules {
         return new RestoredRules(state, rules.digest(), changed);
     }
 
-    /** Whether the state that was restored was made by other rules. */
+    /** Whether the restored state was made with other rules. */
     public boolean changed() {
         return changed;
     }

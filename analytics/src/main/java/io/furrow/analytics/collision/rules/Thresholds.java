@@ -5,15 +5,15 @@ import java.util.Map;
 import java.util.TreeMap;
 
 /**
- * Up to which distance two devices are close. A pair of types may have a threshold of its own; else the greater of both
- * types' counts, where a type that is not named has the common one.
+ * Up to which distance two devices are close. A pair of types may have its own threshold; else the greater of both
+ * types' thresholds counts, by default the common one.
  *
  * @param meters the common threshold, 0.1 to 100,000
  * @param ofTypes meters by type, or by two types with {@code +} between them
  */
 public record Thresholds(double meters, Map<String, Double> ofTypes) implements Serializable {
     private static final String AND = "+";
-    /** Below this the rounding of unit vectors would leave the guard band of {@code Proximity}. */
+    /** Below this, the rounding of unit vectors would exceed the guard band of {@code Proximity}. */
     private static final double MIN = 0.1;
 
     private static final double GREATEST = 100_000;
@@ -35,7 +35,7 @@ public record Thresholds(double meters, Map<String, Double> ofTypes) implements 
         return new Thresholds(meters, Map.of());
     }
 
-    /** The threshold of a pair, whichever comes first. */
+    /** The threshold of a pair of types, in either order. */
     public double between(String type, String other) {
         if (ofTypes.isEmpty()) {
             return meters;
@@ -44,12 +44,12 @@ public record Thresholds(double meters, Map<String, Double> ofTypes) implements 
         return named != null ? named : Math.max(of(type), of(other));
     }
 
-    /** No pair has a greater one. */
+    /** The greatest threshold of any pair. */
     public double greatest() {
         return ofTypes.values().stream().reduce(meters, Math::max);
     }
 
-    /** Each as many times as great. */
+    /** All thresholds multiplied by a factor. */
     Thresholds times(double factor) {
         Map<String, Double> wider = new TreeMap<>(ofTypes);
         wider.replaceAll((types, threshold) -> threshold * factor);

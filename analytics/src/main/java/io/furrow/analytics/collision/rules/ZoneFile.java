@@ -14,15 +14,13 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Exclusion zones from a GeoJSON FeatureCollection (RFC 7946) of Polygons and MultiPolygons in degrees. A zone that crosses
- * the antimeridian is cut there into a MultiPolygon, as the RFC asks.
+ * Reads exclusion zones from a GeoJSON FeatureCollection (RFC 7946) of Polygons and MultiPolygons in degrees. A zone that
+ * crosses the antimeridian is cut there into a MultiPolygon, as the RFC demands.
  */
 public final class ZoneFile {
     private ZoneFile() {}
 
-    /**
-     * @throws IllegalArgumentException if a single feature cannot be used: a zone that is silently missing would be worse
-     */
+    /** @throws IllegalArgumentException if a single feature is invalid: a zone that is silently missing would be worse */
     public static ExclusionZones read(Path file) {
         JsonNode features = json(file).path("features");
         if (!features.isArray() || features.isEmpty()) {

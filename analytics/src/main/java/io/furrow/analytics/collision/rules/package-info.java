@@ -1,2 +1,2 @@
-/** What counts as an encounter: the rules of all stages. */
+/** The rules of encounters, for all stages. */
 package io.furrow.analytics.collision.rules;

@@ -8,7 +8,7 @@ import java.util.function.Consumer;
 
 import io.furrow.analytics.position.PositionFix;
 
-/** A {@link Fleet}, and a kilometer south of it devices on one spot that do not move: their receivers have noise. */
+/** A {@link Fleet}, and a kilometer south of it stationary devices on one spot whose receivers have noise. */
 public final class CrowdedFleet {
     /** Standard deviation of the noise along each axis, in meters. */
     static final double NOISE = 0.3;
@@ -16,7 +16,7 @@ public final class CrowdedFleet {
     public static final String CROWD = "urn:ngsi-ld:Parked:";
     private static final double METER = Math.toDegrees(1 / 6_371_000.0);
     private static final double SPOT = Fleet.LATITUDE - 1000 * METER;
-    /** Those of degrees that reports have. */
+    /** The decimals of degrees in reports. */
     private static final double DECIMALS = 1e7;
 
     private final int crowd;
@@ -42,14 +42,14 @@ public final class CrowdedFleet {
         fixes.forEach(out);
     }
 
-    /** Somewhere about the spot. */
+    /** A noisy position at the spot. */
     public static PositionFix noisy(String id, double latitude, long time, Random random) {
         double east = NOISE * random.nextGaussian() / Math.cos(Math.toRadians(latitude));
         double north = NOISE * random.nextGaussian();
         return Fleet.fix("farm|/|" + id, id, latitude + METER * north, Fleet.LONGITUDE + METER * east, time);
     }
 
-    /** As a receiver of the report reads it. */
+    /** The position rounded as in a report. */
     public static PositionFix rounded(PositionFix fix) {
         return Fleet.fix(fix.identity(), fix.id(), rounded(fix.latitude()), rounded(fix.longitude()), fix.time());
     }

@@ -7,14 +7,14 @@ import io.furrow.analytics.position.DeviceInfo;
 import io.furrow.analytics.position.PositionFix;
 
 /**
- * Devices that walk at random in a square of 2 km, one meter of standard deviation a second, each reporting once per second
- * of event time at a millisecond of its own. Where a device is follows from the seed alone, not from who asks.
+ * Simulates devices that walk at random in a square of 2 km, with a standard deviation of one meter a second, each
+ * reporting once per second of event time at its own millisecond. Positions depend on the seed alone.
  */
 public final class Fleet {
     public static final long START = 1_700_000_000_000L;
     public static final int TICKS_PER_SECOND = 5;
 
-    /** Of the square, in meters, where nothing else is said. */
+    /** Default side of the square, in meters. */
     static final double SIDE = 2000;
 
     public static final double LATITUDE = 40.3125;
@@ -59,7 +59,7 @@ public final class Fleet {
         }
     }
 
-    /** Moves the devices whose turn it is and emits where they are, in the order of time. */
+    /** Moves the devices that are due and emits their positions, in order of time. */
     public void tick(long tick, Consumer<PositionFix> out) {
         long second = tick / TICKS_PER_SECOND;
         int part = (int) (tick % TICKS_PER_SECOND);
@@ -70,7 +70,7 @@ public final class Fleet {
         }
     }
 
-    /** The first device of this share that is not below the given one. */
+    /** The first device of this share at or above the given one. */
     private int atLeast(int device) {
         return device + Math.floorMod(share - device, shares);
     }
@@ -86,7 +86,7 @@ public final class Fleet {
                 time);
     }
 
-    /** A device that is so many meters from where fleets are. */
+    /** A position at a distance, in meters, from the fleet's origin. */
     public static PositionFix at(String id, double east, double north, long time) {
         double latitude = LATITUDE + north / METERS_PER_DEGREE;
         double degreeEast = METERS_PER_DEGREE * Math.cos(Math.toRadians(latitude));
@@ -105,7 +105,7 @@ public final class Fleet {
         return new PositionFix(reporter, latitude, longitude, Double.NaN, Double.NaN, time);
     }
 
-    /** Which of the devices it is, from 0 on. */
+    /** The number of the device, from 0 on. */
     public static int number(PositionFix fix) {
         return Integer.parseInt(
                 fix.id(), fix.id().lastIndexOf(':') + 1, fix.id().length(), 10);

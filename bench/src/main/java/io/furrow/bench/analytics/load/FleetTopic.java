@@ -14,7 +14,7 @@ import io.furrow.analytics.position.PositionFix;
 import io.furrow.bench.frame.Engines;
 import io.furrow.bench.frame.TopicFiller;
 
-/** A topic into which a fleet reports, and the topic of what is found in it. */
+/** A topic of a fleet's reports, and the topic of the job's results. */
 public final class FleetTopic implements AutoCloseable {
     public static final int PARTITIONS = 4;
     private static final String FOUND = ".found";
@@ -27,9 +27,9 @@ public final class FleetTopic implements AutoCloseable {
     private volatile long sent;
     private volatile long begin;
 
-    /** Devices that report. */
+    /** A source of reports. */
     public interface Reports {
-        /** What they report within a tick of {@link Fleet}, in the order of time. */
+        /** Emits the reports of a tick of {@link Fleet}, in order of time. */
         void tick(long tick, Consumer<PositionFix> out);
     }
 
@@ -39,10 +39,12 @@ public final class FleetTopic implements AutoCloseable {
         producer = new TopicFiller(kafka, Map.of("batch.size", "131072", "linger.ms", "5"));
     }
 
-    /** @param partitions of the topic into which the fleet reports */
+    /**
+     * @param partitions of the topic of reports
+     */
     public static FleetTopic create(String name, int partitions, Properties kafka)
             throws InterruptedException, ExecutionException {
-        // What the fleet reports is of a time long past.
+        // The fleet's event times are long past.
         Map<String, String> retained = Map.of("retention.ms", "-1");
         Engines.makeTopics(kafka, partitions, retained, name);
         Engines.makeTopics(kafka, PARTITIONS, retained, name + FOUND, name + OVERFLOWS);
@@ -69,7 +71,7 @@ public final class FleetTopic implements AutoCloseable {
         return sent;
     }
 
-    /** At the fleet's own event time, as fast as the broker takes them; returns when all are there. */
+    /** Writes reports at the fleet's own event time, as fast as possible; returns when all are written. */
     public void fill(int devices, long records) {
         Fleet fleet = new Fleet(devices, 0, 1);
         for (long tick = 0; sent < records; tick++) {
@@ -79,8 +81,8 @@ public final class FleetTopic implements AutoCloseable {
     }
 
     /**
-     * The same for two partitions: devices of even number on the first, those of odd number on the second, with so long an
-     * attribute beside the others that these take longer to read.
+     * The same for two partitions: devices of even number on the first, those of odd number on the second, with an
+     * additional long attribute that slows reading.
      */
     public void fillUnevenly(int devices, long records, int padding) {
         Fleet fleet = new Fleet(devices, 0, 1);
@@ -93,7 +95,7 @@ public final class FleetTopic implements AutoCloseable {
         producer.flush();
     }
 
-    /** Each device once a second at the time of sending, until {@link #stop}. */
+    /** Reports each device once a second in real time, until {@link #stop}. */
     public void report(int devices, double side) {
         report(new Fleet(devices, 0, 1, side)::tick);
     }
@@ -111,7 +113,7 @@ public final class FleetTopic implements AutoCloseable {
         }
     }
 
-    /** The time that stands for {@link Fleet#START}; 0 before anything is reported. */
+    /** The time that {@link Fleet#START} is mapped to; 0 before the first report. */
     public long begin() {
         return begin;
     }

@@ -13,9 +13,9 @@ import org.apache.flink.util.Collector;
 import io.furrow.analytics.position.PositionFix;
 
 /**
- * Generates the fixes of a {@link Fleet} inside the job, each subtask those of its share of the devices, as fast as
- * they are consumed. Shares and ticks are reported by numbers: a range of {@link #RANGE} per share, so that Flink's
- * own source of numbers gives each subtask one range.
+ * Generates the fixes of a {@link Fleet} inside the job, in each subtask those of its share of the devices, as fast as
+ * they are consumed. The input encodes shares and ticks as numbers: a range of {@link #RANGE} per share, so that
+ * Flink's number source gives each subtask one range.
  */
 public final class MoveFleet implements FlatMapFunction<Long, PositionFix> {
     private static final long serialVersionUID = 1L;
@@ -31,7 +31,7 @@ public final class MoveFleet implements FlatMapFunction<Long, PositionFix> {
         this.shares = shares;
     }
 
-    /** Event time moves on at Flink's usual interval of watermarks, as it does for a job that reads a topic. */
+    /** Emits watermarks at Flink's default interval, like a job that reads a topic. */
     public static DataStream<PositionFix> in(StreamExecutionEnvironment env, int devices) {
         int shares = env.getParallelism();
         return env.fromSource(
@@ -60,7 +60,7 @@ public final class MoveFleet implements FlatMapFunction<Long, PositionFix> {
             newest = time;
         }
 
-        /** One instant behind: more of the newest may come. */
+        /** One instant behind: more fixes of the newest may follow. */
         @Override
         public void onPeriodicEmit(WatermarkOutput output) {
             if (newest != Long.MIN_VALUE) {

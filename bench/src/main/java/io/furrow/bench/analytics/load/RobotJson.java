@@ -8,7 +8,7 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.model.event.HeaderNames;
 
-/** A fix as the entity of a robot in the form in which the NGSI source writes it. */
+/** Encodes a fix as the entity of a robot, as the NGSI source writes it. */
 final class RobotJson {
     private static final byte[] SERVICE = ascii("farm");
     private static final byte[] SERVICE_PATH = ascii("/");
@@ -20,10 +20,10 @@ final class RobotJson {
         return padded(topic, null, fix, time, 0);
     }
 
-    /** The same with an attribute {@code Notes} of as many characters, on a partition. */
+    /** The same with an attribute {@code Notes} of the given length, on a partition. */
     static ProducerRecord<byte[], byte[]> padded(
             String topic, Integer partition, PositionFix fix, long time, int characters) {
-        // Put together by hand, because formatting costs more than sending.
+        // Concatenated by hand, because formatting costs more than sending.
         StringBuilder json = new StringBuilder(400 + characters)
                 .append("{\"id\":\"")
                 .append(fix.id())
@@ -48,7 +48,7 @@ final class RobotJson {
         return record;
     }
 
-    /** With seven decimals, a centimeter, as receivers report them. */
+    /** With seven decimals, a centimeter, like receivers. */
     private static String degrees(double degrees) {
         return BigDecimal.valueOf(Math.round(degrees * 1e7), 7).toPlainString();
     }

@@ -16,8 +16,8 @@ import io.furrow.model.position.Position;
 import io.furrow.model.topic.Topics;
 
 /**
- * Fields side by side on a square grid of 0.01 degrees, each a wavy outline around the center of its cell that fills about
- * half of it; made again wherever they are read, so that only their number travels.
+ * Generates fields side by side on a square grid of 0.01 degrees, each a wavy outline around the center of its cell that
+ * fills about half of it; generated wherever they are read, so that only their number is serialized.
  */
 public record SyntheticFields(int fields, int corners) implements TopicSnapshot {
     private static final double CELL = 0.01;
@@ -36,7 +36,7 @@ public record SyntheticFields(int fields, int corners) implements TopicSnapshot 
         return records;
     }
 
-    /** Cells to a side of the square. */
+    /** Cells per side of the square. */
     private int side() {
         return (int) Math.ceil(Math.sqrt(fields));
     }

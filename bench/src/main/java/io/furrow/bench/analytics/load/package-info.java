@@ -1,2 +1,2 @@
-/** Fleets of devices as input of the measurements. */
+/** Generates fleets of devices as input of the measurements. */
 package io.furrow.bench.analytics.load;

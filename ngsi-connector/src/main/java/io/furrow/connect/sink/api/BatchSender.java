@@ -20,13 +20,13 @@ abstract class BatchSender<T> implements AutoCloseable {
     /** What the context broker rejects, and its reason. */
     record Rejected<T>(T of, String words) {}
 
-    /** What causes a 500 alone: a defect of the context broker with this entity, or with all. */
+    /** An entity that alone causes a 500: a defect of the context broker with this entity, or with all. */
     record Failing<T>(T of, Outcome.Unavailable unavailable) {}
 
-    /** The results of updates or deletions; some have none if a request failed. */
+    /** The results of updates or deletions; some are missing if a request failed. */
     static final class Result<T> {
         final List<T> accepted = new ArrayList<>();
-        /** Those whose entities do not exist, perhaps because of an earlier request. */
+        /** Items whose entities do not exist, perhaps because of an earlier request. */
         final List<T> absent = new ArrayList<>();
 
         final List<Rejected<T>> rejected = new ArrayList<>();
@@ -76,10 +76,10 @@ abstract class BatchSender<T> implements AutoCloseable {
     /** An answer other than {@code Absent} to a batch of updates, any to deletions. */
     abstract Outcome request(List<Rendered<T>> batch);
 
-    /** Whether an answer 2xx names exactly those that were rejected. */
+    /** Whether an answer 2xx names exactly the rejected items. */
     abstract boolean namesRejected(List<Rendered<T>> batch);
 
-    /** Those that have to be sent again after a batch was not accepted. */
+    /** The items to send again after a batch was not accepted. */
     abstract List<Rendered<T>> left(List<Rendered<T>> batch, Result<T> result)
             throws BrokerUnavailableException, WrongSettingException;
 
@@ -147,7 +147,7 @@ abstract class BatchSender<T> implements AutoCloseable {
         }
     }
 
-    /** The same outcome if the answer tells what became of each; otherwise the batch counts as rejected. */
+    /** The same outcome if the answer states the result of each item; otherwise the batch counts as rejected. */
     private Outcome accepted(Outcome.Done done, List<Rendered<T>> batch, Result<T> result) {
         Map<String, String> rejected;
         try {

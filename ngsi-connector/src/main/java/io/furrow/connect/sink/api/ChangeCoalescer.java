@@ -27,7 +27,9 @@ final class ChangeCoalescer {
     private int stale;
     private int coalesced;
 
-    /** @param known must contain every entity that is added */
+    /**
+     * @param known must contain every added entity
+     */
     ChangeCoalescer(EntityTimesCache known) {
         this.known = known;
     }

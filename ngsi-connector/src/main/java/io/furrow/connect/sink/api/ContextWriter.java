@@ -53,7 +53,7 @@ public final class ContextWriter implements AutoCloseable {
         this.isolation = isolation;
     }
 
-    /** If it throws, the same changes must be applied again; repeating the written ones does no harm. */
+    /** If it throws, the same changes must be applied again; repeating written ones is harmless. */
     public ChangeResults apply(List<EntityChange> changes) throws BrokerUnavailableException, WrongSettingException {
         known.evict();
         Delivery delivery = new Delivery(isolation.isDue(changes));
@@ -126,7 +126,7 @@ public final class ContextWriter implements AutoCloseable {
             }
         }
 
-        /** The values are written: what a context broker refuses to delete is no reason not to go on. */
+        /** The values are written: a rejected deletion does not stop the delivery. */
         private void clear(AttributeUpdate written) throws BrokerUnavailableException, WrongSettingException {
             for (String name : api.cleared(written)) {
                 if (known.of(written.key()).has(written.type(), name)) {

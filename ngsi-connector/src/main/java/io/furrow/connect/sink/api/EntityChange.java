@@ -5,7 +5,7 @@ import java.util.Objects;
 import io.furrow.model.ngsi.Entity;
 
 /**
- * The change of one entity by one record.
+ * A change of one entity by one record.
  *
  * @param entity null for a deletion
  * @param time event time in epoch milliseconds, {@link #NO_TIME} if the record has none

@@ -9,8 +9,8 @@ import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.sink.api.Batches.Rendered;
 
 /**
- * Deletes entities in batches. If a batch is not deleted completely, one query determines the remaining entities, of
- * which a single one is deleted by a request of its own. An absent entity counts as deleted.
+ * Deletes entities in batches. If a batch is not deleted completely, one query determines the remaining entities; a
+ * single one is then deleted by a separate request. An absent entity counts as deleted.
  */
 final class EntityDeleter extends BatchSender<EntityChange> {
     private final BrokerClient client;

@@ -39,12 +39,12 @@ final class EntityTimes {
         this.deletedAt = deletedAt;
     }
 
-    /** Of all attributes of all types. */
+    /** The newest time of all attributes of all types. */
     long newest() {
         return Arrays.stream(times).max().orElse(EntityChange.NO_TIME);
     }
 
-    /** How many attributes are known. */
+    /** The number of attributes. */
     int size() {
         return names.length;
     }

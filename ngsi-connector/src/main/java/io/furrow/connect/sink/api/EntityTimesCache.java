@@ -31,7 +31,7 @@ public final class EntityTimesCache {
         return times != null && nanoClock.getAsLong() - times.readAtNanos() < maxAgeNanos;
     }
 
-    /** Null if the entity is not cached, which differs from known to be absent. */
+    /** Null if the entity is not cached, as opposed to cached as absent. */
     EntityTimes of(EntityKey key) {
         return entities.get(key);
     }
@@ -51,7 +51,7 @@ public final class EntityTimesCache {
         change(key, times -> times.delete(time));
     }
 
-    /** A deletion that newer attributes outlive. */
+    /** Stores a deletion that newer attributes outlive. */
     void outlive(EntityKey key, long time) {
         change(key, times -> times.outlive(time));
     }

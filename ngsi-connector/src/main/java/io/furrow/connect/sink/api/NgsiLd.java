@@ -23,7 +23,7 @@ import io.furrow.model.time.Instants;
 
 /**
  * NGSI-LD: {@code POST /ngsi-ld/v1/entityOperations/upsert?options=update}, and {@code …/delete}. Each attribute carries its event time as
- * {@code observedAt}; one that has none counts as old as its {@code modifiedAt}.
+ * {@code observedAt}, by default its {@code modifiedAt}.
  *
  * @param context URL of the {@code @context} that names the types and attributes; empty for the core context alone
  */
@@ -124,8 +124,8 @@ public record NgsiLd(String context) implements ContextBrokerApi {
     }
 
     /**
-     * With the types, because a query needs a type, an attribute or a query expression; with no higher limit than necessary, because
-     * brokers refuse one that is too high for them.
+     * With the types, because a query needs a type, an attribute or a query expression; with the lowest sufficient limit, because brokers
+     * reject too high ones.
      */
     @Override
     public BrokerRequest read(FiwareScope scope, Map<String, ? extends Collection<String>> ids) {

@@ -12,16 +12,16 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * An NGSI-v2 entity as NGSI-LD. An id that is not a URI becomes {@code urn:ngsi-ld:<type>:<id>}. An attribute of type
- * {@code Relationship} becomes a Relationship; {@code geo:json}, or {@code geo:point} ("latitude, longitude"), a GeoProperty;
- * all others a Property, dates with {@code @type}. Metadata {@code unitCode} stays a member, all other metadata become
- * Properties of the Property. What is null is left out: NGSI-LD has no null, and brokers understand {@code urn:ngsi-ld:null} in a
- * merge of one entity only. In an upsert Scorpio stores that text, Stellio refuses it.
+ * Converts an NGSI-v2 entity to NGSI-LD. An id that is not a URI becomes {@code urn:ngsi-ld:<type>:<id>}. An attribute of type
+ * {@code Relationship} becomes a Relationship; {@code geo:json}, or {@code geo:point} ("latitude, longitude"), a GeoProperty; all
+ * others a Property, dates with {@code @type}. Metadata {@code unitCode} stays a member, all other metadata become Properties of
+ * the Property. Null values are omitted: NGSI-LD has no null, and brokers understand {@code urn:ngsi-ld:null} in a merge of one
+ * entity only. In an upsert Scorpio stores that text, Stellio rejects it.
  */
 final class NgsiLdCodec {
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
     private static final Pattern URI = Pattern.compile("[A-Za-z][A-Za-z0-9+.-]*:\\S+");
-    /** Each is reported in another way, or is the broker's own. */
+    /** Metadata that are represented otherwise, or set by the broker. */
     private static final Set<String> MEMBERS =
             Set.of("unitCode", "observedAt", "TimeInstant", "timestamp", "createdAt", "modifiedAt", "datasetId");
 
@@ -47,7 +47,7 @@ final class NgsiLdCodec {
         return entity;
     }
 
-    /** Null if the value is. */
+    /** Null if the value is null. */
     private static ObjectNode attribute(String name, JsonNode attribute) {
         if (isNull(attribute)) {
             return null;

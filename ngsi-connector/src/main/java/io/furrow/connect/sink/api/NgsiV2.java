@@ -24,9 +24,9 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.time.Instants;
 
 /**
- * NGSI-v2: {@code POST /v2/op/update} with action {@code append} or {@code delete}. Each attribute carries its event time as metadata, where an
- * IoT Agent puts it too. An attribute that has none was written by somebody else: it counts as old as the entity's {@code Time}
- * or {@code TimeInstant} if it was not changed after that, else as its own {@code dateModified}.
+ * NGSI-v2: {@code POST /v2/op/update} with action {@code append} or {@code delete}. Each attribute carries its event time as metadata, like
+ * those of an IoT Agent. An attribute without it was written by another client: it has the entity's {@code Time} or {@code TimeInstant} if
+ * it was not changed after that, else its own {@code dateModified}.
  *
  * @param timeMetadata name of the metadata, for instance {@code TimeInstant}
  */
@@ -36,7 +36,7 @@ public record NgsiV2(String timeMetadata) implements ContextBrokerApi {
             "{\"actionType\":\"delete\",\"entities\":[".getBytes(StandardCharsets.US_ASCII);
     private static final byte[] END = "]}".getBytes(StandardCharsets.US_ASCII);
     private static final int IDS_PER_READ = 200;
-    /** Several entities may share an id; five on average are allowed for. */
+    /** Several entities may share an id; this allows for five on average. */
     private static final int READ_LIMIT = 1000;
 
     private static final String MODIFIED = "dateModified";
@@ -126,7 +126,7 @@ public record NgsiV2(String timeMetadata) implements ContextBrokerApi {
         return IDS_PER_READ;
     }
 
-    /** Without types: that finds all that share an id, and a deletion knows none. */
+    /** Without types: finds all entities that share an id, and a deletion has no type. */
     @Override
     public BrokerRequest read(FiwareScope scope, Map<String, ? extends Collection<String>> ids) {
         ObjectNode body = JsonNodeFactory.instance.objectNode();

@@ -1,2 +1,2 @@
-/** Changes of entities, and the requests that bring them to a context broker, over NGSI-v2 or NGSI-LD. */
+/** Changes of entities, and the requests that write them to a context broker, over NGSI-v2 or NGSI-LD. */
 package io.furrow.connect.sink.api;

@@ -9,10 +9,7 @@ import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.Executor;
 import java.util.concurrent.TimeUnit;
 
-/**
- * A number of bytes that several exchanges share. A caller that finds too few bytes waits and is called, in order of
- * arrival, when enough are available.
- */
+/** A number of bytes that several exchanges share. A caller waits until enough bytes are available and is called in order of arrival. */
 public final class ByteBudget {
     private final Map<Runnable, Long> waiting = new LinkedHashMap<>();
     private final Executor callers;

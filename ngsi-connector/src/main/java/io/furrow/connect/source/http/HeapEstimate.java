@@ -8,7 +8,7 @@ import io.furrow.connect.source.option.OverloadOptions;
  * more than 100 here. The estimate errs on the high side.
  */
 final class HeapEstimate {
-    /** Per value or name in the tree, with its share of the collection that holds it. */
+    /** Per value or name in the tree, with its share of the enclosing collection. */
     private static final int PER_NODE = 96;
     /** Per object that may be an entity, mostly for the headers of its record. */
     private static final int PER_ENTITY = 3072;

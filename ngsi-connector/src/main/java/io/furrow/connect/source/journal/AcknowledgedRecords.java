@@ -32,9 +32,9 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.text.FailureText;
 
 /**
- * Looks on the topics for the records that Kafka acknowledged last. A broker that lost power, and has no replica, may come back
- * without them, though the offset store has come back with their offsets. Events are told by their id; of what is older than the
- * retention of the journal, and of dead letters by themselves, nothing is asked.
+ * Searches the topics for the records that Kafka acknowledged last. A broker without replicas that lost power may restart
+ * without them, although the offset store has their offsets. Events are identified by id; records older than the retention of
+ * the journal, and separate dead letters, are not checked.
  */
 public final class AcknowledgedRecords implements TaskJournals.Verification {
     private static final Logger LOG = LoggerFactory.getLogger(AcknowledgedRecords.class);
@@ -51,7 +51,7 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
 
     /**
      * @param client settings of a Kafka client
-     * @param topics that of events, and that of dead letters, in which an event that is too large ends
+     * @param topics that of events, and that of dead letters, which receives events that are too large
      */
     public AcknowledgedRecords(Map<String, Object> client, List<String> topics, Duration retained) {
         this.client = new HashMap<>(client);
@@ -89,7 +89,7 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
         }
     }
 
-    /** The events of the last time before the newest, in their order. */
+    /** The events within the retention before the newest, in order. */
     private List<Event> acknowledged(Journal journal, long committed) throws InterruptedException {
         List<Event> events = new ArrayList<>();
         try (JournalReader reader = journal.reader(Math.max(journal.begin(), committed - MAX_RECORDS))) {
@@ -112,7 +112,7 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
         return events;
     }
 
-    /** Empty for a record without id, or of a topic of before the configuration was changed. */
+    /** Empty for a record without id, or of a topic from an earlier configuration. */
     private Optional<Event> event(JournalRecord kept) {
         KafkaRecord record = JournalRecordCodec.read(kept.payload());
         String id = record.headers().get(HeaderNames.CE_ID);
@@ -122,14 +122,14 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
                 : Optional.of(new Event(kept.sequence(), id, Long.parseLong(received)));
     }
 
-    /** One look at the topics, from their ends backwards. */
+    /** One search of the topics, from their ends backwards. */
     private final class Search {
         private final Consumer<byte[], byte[]> consumer;
         private final List<Event> desired;
         private final Set<String> left = new HashSet<>();
         private final long oldest;
         private final Instant deadline = Instant.now().plus(TIMEOUT);
-        /** Before this Kafka may have deleted events. */
+        /** Kafka may have deleted events before this time. */
         private long deletedBefore = Long.MIN_VALUE;
 
         Search(Consumer<byte[], byte[]> consumer, List<Event> desired) {
@@ -191,7 +191,7 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
         }
     }
 
-    /** As the worker's header converter may write it. */
+    /** Whatever the worker's header converter wrote. */
     private static String text(ConsumerRecord<byte[], byte[]> record, String name) {
         Header header = record.headers().lastHeader(name);
         return header == null || header.value() == null

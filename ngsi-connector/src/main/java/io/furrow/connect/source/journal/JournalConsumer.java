@@ -35,8 +35,7 @@ final class JournalConsumer implements AutoCloseable {
     private final TreeMap<Long, Long> skipped = new TreeMap<>();
 
     /**
-     * @param committed number of the first record that is not known to be in Kafka; empty for the oldest retained
-     *     record
+     * @param committed number of the first record that is not confirmed in Kafka; empty for the oldest retained record
      * @param retention how long records stay after they were committed
      */
     JournalConsumer(Journal journal, OptionalLong committed, Duration retention) {
@@ -46,7 +45,7 @@ final class JournalConsumer implements AutoCloseable {
     /**
      * Begins at a record before the committed position, because Kafka lost it.
      *
-     * @param outdated the committed position, which says nothing until another one is committed
+     * @param outdated the committed position, to be ignored until another one is committed
      */
     JournalConsumer(Journal journal, long start, long outdated, Duration retention) {
         this.journal = journal;
@@ -66,12 +65,12 @@ final class JournalConsumer implements AutoCloseable {
         return start;
     }
 
-    /** Records that were not read yet. */
+    /** Number of records not read yet. */
     long left() {
         return reader.left();
     }
 
-    /** Records that were skipped because they cannot be read. */
+    /** Number of records skipped because they cannot be read. */
     long lost() {
         return reader.lost();
     }
@@ -116,7 +115,7 @@ final class JournalConsumer implements AutoCloseable {
         return free >= journal.end();
     }
 
-    /** The position that was reached before the retention, or now if the journal is short of space. */
+    /** The position that was reached before the retention, or the current one if the journal is short of space. */
     private long retained(long upTo) {
         long now = System.nanoTime();
         done.add(new Done(now, upTo));
@@ -127,7 +126,7 @@ final class JournalConsumer implements AutoCloseable {
         return free;
     }
 
-    /** That all below a position was in Kafka. */
+    /** The time at which everything below a position was in Kafka. */
     private record Done(long nanos, long upTo) {}
 
     private synchronized long behindSkipped(long committed) {

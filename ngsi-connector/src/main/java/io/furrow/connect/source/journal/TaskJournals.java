@@ -27,27 +27,25 @@ public final class TaskJournals implements AutoCloseable {
     /** The committed position of a journal. */
     @FunctionalInterface
     public interface Committed {
-        /**
-         * The number of the first record that is not known to be in Kafka; empty if nothing is known about the journal.
-         */
+        /** The number of the first record that is not confirmed in Kafka; empty if the journal has no offset. */
         OptionalLong of(String journal);
     }
 
-    /** Sees to it that Kafka has what it acknowledged. */
+    /** Verifies that Kafka has the acknowledged records. */
     @FunctionalInterface
     public interface Verification {
-        /** Believes the offset store. */
+        /** Trusts the offset store. */
         Verification NONE = (journal, committed) -> committed;
 
         /**
-         * The number of the first record below the committed position that Kafka has no longer; that position if it has all.
+         * The number of the first record below the committed position that is missing in Kafka; that position if none is.
          * May wait for Kafka.
          */
         long firstMissing(Journal journal, long committed) throws InterruptedException;
     }
 
     /**
-     * What is done for the case that Kafka loses what it acknowledged.
+     * The protection against loss of acknowledged records in Kafka.
      *
      * @param retention how long records stay in the journal after they were committed
      */

@@ -9,10 +9,7 @@ import org.slf4j.LoggerFactory;
 import io.furrow.connect.LogText;
 import io.furrow.model.event.EventTime;
 
-/**
- * Logs each device that gives no time that can be believed once. Remembers 10 000 devices and forgets the one that was silent
- * longest.
- */
+/** Logs once per device that it sends no plausible time. Tracks 10 000 devices and drops the one that was silent longest. */
 final class ClockWarning {
     private static final Logger LOG = LoggerFactory.getLogger(ClockWarning.class);
 
@@ -33,7 +30,7 @@ final class ClockWarning {
         };
     }
 
-    /** Whether this is the first such event of its device, as far as remembered. */
+    /** Whether this is the first such event of a tracked device. */
     synchronized boolean note(String device, EventTime.Fault fault) {
         if (reported.put(device, true) != null) {
             return false;

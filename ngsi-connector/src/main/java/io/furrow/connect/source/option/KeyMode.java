@@ -5,7 +5,7 @@ import java.nio.charset.StandardCharsets;
 import org.apache.kafka.connect.data.Schema;
 import org.apache.kafka.connect.data.SchemaAndValue;
 
-/** The form of an entity's id for the key converter: text, or its UTF-8 bytes. */
+/** The representation of an entity's id for the key converter: text, or its UTF-8 bytes. */
 public enum KeyMode {
     TEXT,
     BYTES;

@@ -11,8 +11,8 @@ import org.apache.kafka.common.config.ConfigException;
 import io.furrow.connect.OptionGroup;
 
 /**
- * Options for the form in which converters and transforms receive records; checks that the connector's own converters
- * support it.
+ * Options for the representation in which converters and transforms receive records; checks that the connector's own
+ * converters support it.
  */
 public record RecordOptions(AbstractConfig config) {
     static final String VALUE_MODE = "value.mode";

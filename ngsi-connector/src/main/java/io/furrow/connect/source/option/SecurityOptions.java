@@ -26,7 +26,7 @@ public record SecurityOptions(AbstractConfig config) {
     static final String SECRET_FILE = "secret.file";
     static final String ALLOWED_TENANTS = "allowed.tenants";
 
-    /** Stands for a notification without a tenant; no tenant can have this name. */
+    /** Denotes a notification without a tenant; no tenant can have this name. */
     static final String NO_TENANT = "-";
 
     private static final Validator HEADER_VALUE =

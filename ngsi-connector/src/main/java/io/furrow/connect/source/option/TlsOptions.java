@@ -39,7 +39,7 @@ public record TlsOptions(AbstractConfig config) {
     private static final String TURNS_ON =
             " It enables TLS for notifications; a file that has changed is loaded without a restart.";
 
-    /** Any of these turns TLS on. */
+    /** Any of these enables TLS. */
     private static final Set<String> DECIDING =
             Set.of(KEYSTORE, KEY, SslConfigs.SSL_KEYSTORE_CERTIFICATE_CHAIN_CONFIG, ENGINE_FACTORY);
     /** Without effect unless one of those is set. */

@@ -17,7 +17,7 @@ import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** The form of a value for a converter and value transforms: the bytes of the JSON, its text, or a struct. */
+/** The representation of a value for a converter and value transforms: the bytes of the JSON, its text, or a struct. */
 public enum ValueMode {
     /** JSON as bytes; a dead letter's original bytes. */
     BYTES {

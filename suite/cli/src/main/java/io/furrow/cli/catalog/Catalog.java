@@ -17,14 +17,14 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
-/** The topic {@code data.catalog}, read to its end. */
+/** Reads the topic {@code data.catalog} to its end. */
 public final class Catalog {
     private static final Duration TIMEOUT = Duration.ofSeconds(10);
 
     private Catalog() {}
 
     /**
-     * The newest entry of each tenant, domain, mission and type, in this order; none where the topic is not there.
+     * The newest entry of each tenant, domain, mission and type, in this order; empty without the topic.
      *
      * @throws IOException if Kafka does not answer, or the topic holds something else; the message says what to do
      */

@@ -15,13 +15,13 @@ import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
-/** What is stored at this moment, asked where it is stored. */
+/** Inspects what is stored at this moment, in MongoDB and in the image folder. */
 public final class StoredAssets {
     private StoredAssets() {}
 
     /**
-     * A line for each mission: {@code mission}, {@code collection}, {@code documents}, {@code bytes} (−1 where the server does
-     * not tell), {@code first}, {@code last}, {@code indexes}, {@code retentionSeconds} where the server removes documents.
+     * A line for each mission: {@code mission}, {@code collection}, {@code documents}, {@code bytes} (−1 if unknown),
+     * {@code first}, {@code last}, {@code indexes}, {@code retentionSeconds} if the server removes documents.
      *
      * @throws IOException if MongoDB does not answer; the message says what to do
      */

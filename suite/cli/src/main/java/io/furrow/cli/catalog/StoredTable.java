@@ -7,7 +7,7 @@ import java.util.Locale;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-/** What is stored, as text: a line for each mission in MongoDB, and for the images of each domain and mission. */
+/** Prints stored data as text: a line for each mission in MongoDB, and for the images of each domain and mission. */
 public final class StoredTable {
     private static final String MISSION = "%-28s %10s %9s  %-24s  %-24s  %-10s  %s";
     private static final String IMAGES = "%-28s %10s %10s %9s";

@@ -1,2 +1,2 @@
-/** The data catalog, read and printed. */
+/** Reads and prints the data catalog. */
 package io.furrow.cli.catalog;

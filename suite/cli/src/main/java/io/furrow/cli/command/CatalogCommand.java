@@ -120,7 +120,7 @@ public final class CatalogCommand implements Callable<Integer> {
         return StoredAssets.images(images);
     }
 
-    /** Those asked for; MongoDB knows no domains. */
+    /** The entries that match the options; MongoDB has no domains. */
     private List<JsonNode> entries(List<JsonNode> all) {
         return all.stream()
                 .filter(entry -> domain == null

@@ -43,7 +43,7 @@ public final class MissionCommandGroup extends MissionControl {
     @Spec
     private CommandSpec spec;
 
-    /** Where missions are kept. */
+    /** Options for the stores of missions. */
     static final class StoreOptions {
         @Spec(Spec.Target.MIXEE)
         private CommandSpec spec;
@@ -60,7 +60,7 @@ public final class MissionCommandGroup extends MissionControl {
         private final FileSystemOptions fileSystems = new FileSystemOptions();
     }
 
-    /** Something done with the missions of MongoDB. */
+    /** An operation on the missions of MongoDB. */
     private interface Work {
         void with(StoredMissions missions) throws IOException, InterruptedException;
     }

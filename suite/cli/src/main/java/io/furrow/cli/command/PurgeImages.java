@@ -27,9 +27,7 @@ import io.furrow.mission.image.ImageName;
 import io.furrow.model.text.Counts;
 import io.furrow.model.text.FailureText;
 
-/**
- * Deletes images whose event time, by the name of their file, is older than allowed; leaves every other file alone.
- */
+/** Deletes images whose event time, by their file name, is older than allowed; other files are left alone. */
 @Command(
         name = "purge",
         abbreviateSynopsis = true,
@@ -37,7 +35,7 @@ import io.furrow.model.text.FailureText;
                 + "writers. Other files stay.")
 final class PurgeImages implements Callable<Integer> {
     private static final Pattern IMAGE = Pattern.compile(".+_(\\d{17})(-[0-9a-f]{64})?\\.(png|jpg)");
-    /** No write takes that long. */
+    /** Longer than any write takes. */
     private static final Duration UNFINISHED_AGE = Duration.ofHours(1);
 
     @Spec
@@ -93,7 +91,7 @@ final class PurgeImages implements Callable<Integer> {
         return 0;
     }
 
-    /** Whether nothing is left in it. */
+    /** Whether the folder is empty afterwards. */
     private boolean purge(Path folder) throws IOException {
         boolean empty = true;
         FileStatus[] found = files.listStatus(folder);

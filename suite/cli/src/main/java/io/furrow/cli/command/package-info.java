@@ -1,2 +1,2 @@
-/** The commands by themselves; those of the control plane are in {@code control}. */
+/** The commands themselves; those of the control plane are in {@code control}. */
 package io.furrow.cli.command;

@@ -2,31 +2,31 @@ package io.furrow.cli.compare;
 
 import java.util.Set;
 
-/** A result that holds for a while, or for a window. Times are original event times, epoch ms. */
+/** A result that holds for some time, or for a window. Times are original event times, epoch ms. */
 sealed interface AnalyticsResult {
-    /** Its subject: only results with the same subject are compared. */
+    /** Only results of the same subject are compared. */
     ResultSubject subject();
 
     long start();
 
-    /** The last instant that is known of it. */
+    /** Its last known instant. */
     long end();
 
     /** Whether its end has not been emitted. */
     boolean isOpen();
 
-    /** The same of another subject. */
+    /** The same result with another subject. */
     AnalyticsResult of(ResultSubject other);
 
     /**
-     * Two devices that were close.
+     * An encounter of two devices.
      *
-     * @param end when it ended, or of an open one the newest time that was emitted
+     * @param end of the encounter; of an open one the newest emitted time
      * @param closest meters
      */
     record Encounter(ResultSubject subject, long start, long end, boolean isOpen, double closest)
             implements AnalyticsResult {
-        /** Both with one more record of the same encounter. */
+        /** Merges another record of the same encounter. */
         Encounter and(Encounter more) {
             return new Encounter(
                     subject,
@@ -43,16 +43,16 @@ sealed interface AnalyticsResult {
     }
 
     /**
-     * A device that was in a field.
+     * A device's stay in a field.
      *
-     * @param end when it left; of an open one {@link Long#MAX_VALUE}
+     * @param end of the stay; of an open one {@link Long#MAX_VALUE}
      */
     record Visit(ResultSubject subject, long start, long end, boolean isOpen) implements AnalyticsResult {
         static Visit open(ResultSubject subject, long start) {
             return new Visit(subject, start, Long.MAX_VALUE, true);
         }
 
-        /** Both with one more record of the same stay. */
+        /** Merges another record of the same stay. */
         Visit and(Visit more) {
             return isOpen ? more : this;
         }
@@ -68,8 +68,8 @@ sealed interface AnalyticsResult {
      *
      * @param start first instant of the window
      * @param end first instant after the window
-     * @param mean NaN if nothing was reported
-     * @param suspects devices that were left out
+     * @param mean NaN without readings
+     * @param suspects excluded devices
      * @param quality {@code robust} or {@code unverified}
      */
     record Average(ResultSubject subject, long start, long end, double mean, Set<String> suspects, String quality)
@@ -83,7 +83,7 @@ sealed interface AnalyticsResult {
             return false;
         }
 
-        /** Whether it says that nothing was reported. */
+        /** Whether it is of a window without readings. */
         boolean isEmpty() {
             return Double.isNaN(mean);
         }

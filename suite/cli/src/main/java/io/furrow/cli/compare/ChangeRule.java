@@ -7,9 +7,9 @@ import io.furrow.cli.compare.AnalyticsResult.Average;
 import io.furrow.cli.compare.AnalyticsResult.Encounter;
 
 /**
- * Determines in what two results of the same subject differ. Distances and means count as moved from a thousandth of
- * their unit on: sums of the same readings in another order differ far less. The end of what is open is not known and
- * counts as the same, and so does what lies outside of the range.
+ * Determines the differences between two results of the same subject. Distances and means differ from a thousandth of
+ * their unit on: sums of the same readings in another order differ far less. Unknown ends of open results, and
+ * everything outside of the range, count as equal.
  */
 final class ChangeRule {
     private static final double MIN = 0.001;

@@ -8,12 +8,12 @@ import io.furrow.cli.compare.AnalyticsResult.Average;
 import io.furrow.cli.compare.ResultMatch.Verdict;
 
 /**
- * How what analytics found on two sides differs.
+ * The differences between the analytics results of two sides.
  *
- * @param matches by kind, in the order of time
+ * @param matches by kind, in order of time
  */
 record Comparison(SideResults a, SideResults b, TimeRange range, Map<ResultKind, List<ResultMatch>> matches) {
-    /** Compares what lies within a range. */
+    /** Compares the results within a range. */
     static Comparison of(SideResults a, SideResults b, TimeRange range) {
         boolean oneScope = a.scopes() <= 1 && b.scopes() <= 1;
         Map<ResultKind, List<ResultMatch>> matches = new EnumMap<>(ResultKind.class);
@@ -22,8 +22,7 @@ record Comparison(SideResults a, SideResults b, TimeRange range, Map<ResultKind,
                     within(range, a.spans().get(kind), oneScope),
                     within(range, b.spans().get(kind), oneScope),
                     new ChangeRule(range));
-            // A window in which nothing was reported is as good as none: whether a job still reports it depends on
-            // where its input ends.
+            // A window without readings equals a missing one: whether a job reports it depends on where its input ends.
             matches.put(
                     kind,
                     all.stream()
@@ -60,7 +59,7 @@ record Comparison(SideResults a, SideResults b, TimeRange range, Map<ResultKind,
                 .toList();
     }
 
-    /** Whether neither side has a topic of it. */
+    /** Whether neither side has a topic of this kind. */
     boolean isUnknown(ResultKind kind) {
         return a.missing().contains(kind) && b.missing().contains(kind);
     }

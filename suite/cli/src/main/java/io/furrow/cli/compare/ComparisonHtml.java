@@ -21,8 +21,8 @@ import io.furrow.cli.compare.ResultMatch.Verdict;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * A comparison as one HTML file that needs nothing else: uPlot and the data are in it. Each pair, device and field has a row of A above
- * one of B, averages have two curves. Rows with differences come first in each kind; beyond {@value #MAX_ROWS} they are left out.
+ * Writes a comparison as one self-contained HTML file, with uPlot and the data. Each pair, device and field has a row of A above one of
+ * B, averages have two curves. Rows with differences come first in each kind; rows beyond {@value #MAX_ROWS} are left out.
  */
 final class ComparisonHtml {
     static final int MAX_ROWS = 40;
@@ -67,7 +67,7 @@ final class ComparisonHtml {
         return stream;
     }
 
-    /** Whatever a name says, it ends no element of the page. */
+    /** Escaped, so that no name can end an element of the page. */
     private String data() {
         ObjectNode json = JsonNodeFactory.instance.objectNode();
         json.put("a", comparison.a().name()).put("b", comparison.b().name()).put("same", comparison.isSame());
@@ -119,7 +119,7 @@ final class ComparisonHtml {
         return json;
     }
 
-    /** Times in epoch ms; one that is open has no end. */
+    /** Times in epoch ms; an open one has no end. */
     private ObjectNode span(AnalyticsResult span) {
         if (span == null) {
             return null;

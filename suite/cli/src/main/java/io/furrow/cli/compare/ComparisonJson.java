@@ -12,8 +12,8 @@ import io.furrow.cli.compare.AnalyticsResult.Encounter;
 import io.furrow.cli.compare.ResultMatch.Verdict;
 
 /**
- * A comparison as JSON: {@code {same, a, b, encounters, averages, stays}}, where each kind has the number of those that are the
- * {@code same} and the list of {@code differences}; times in epoch ms, distances in meters.
+ * Writes a comparison as JSON: {@code {same, a, b, encounters, averages, stays}}, where each kind has the number of
+ * {@code same} results and the list of {@code differences}; times in epoch ms, distances in meters.
  */
 final class ComparisonJson {
     private ComparisonJson() {}

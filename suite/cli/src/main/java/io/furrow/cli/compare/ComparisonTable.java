@@ -7,13 +7,15 @@ import java.util.stream.Collectors;
 
 import io.furrow.cli.compare.ResultMatch.Verdict;
 
-/** A comparison as lines of text: of each kind how many results are the same, and a line for each that is not. */
+/** Writes a comparison as lines of text: the number of equal results of each kind, and a line for each difference. */
 final class ComparisonTable {
     private static final String ROW = "  %-9s  %-20s  %-12s  %s  %s";
 
     private final int max;
 
-    /** @param max lines of each kind */
+    /**
+     * @param max lines of each kind
+     */
     ComparisonTable(int max) {
         this.max = max;
     }

@@ -10,7 +10,7 @@ import java.util.stream.Collectors;
 import io.furrow.cli.compare.AnalyticsResult.Average;
 import io.furrow.cli.compare.AnalyticsResult.Encounter;
 
-/** Values of results as people read them. */
+/** Formats values of results for display. */
 final class ComparisonText {
     private ComparisonText() {}
 
@@ -30,12 +30,12 @@ final class ComparisonText {
                 : String.format(Locale.ROOT, "%d min %02d s", duration.toMinutes(), duration.toSecondsPart());
     }
 
-    /** How long a result holds; of one without an end, that it is open. */
+    /** The duration of a result, or that it is open. */
     static String length(AnalyticsResult span) {
         return span.isOpen() ? "open" : duration(span.end() - span.start());
     }
 
-    /** What a result of one side says. */
+    /** The value of a result of one side. */
     private static String value(AnalyticsResult span) {
         if (span instanceof Encounter one) {
             return "closest " + number(one.closest()) + " m";
@@ -56,7 +56,7 @@ final class ComparisonText {
                 : text;
     }
 
-    /** When, how long, on which side, and what. */
+    /** Time, duration, side and content. */
     static String match(ResultMatch match) {
         String what = what(match);
         return "%s, %s, %s%s"
@@ -67,7 +67,7 @@ final class ComparisonText {
                         what.isEmpty() ? "" : ": " + what);
     }
 
-    /** What changed, or what the result of the one side says. */
+    /** The changes, or the value of the result if only one side has it. */
     static String what(ResultMatch match) {
         return match.verdict() == ResultMatch.Verdict.CHANGED
                 ? match.changes().stream().map(ComparisonText::change).collect(Collectors.joining(", "))
@@ -87,7 +87,7 @@ final class ComparisonText {
         return value.toString();
     }
 
-    /** To three places, without zeros at the end. */
+    /** To three decimal places, without trailing zeros. */
     static String number(double value) {
         return String.format(Locale.ROOT, "%.3f", value).replaceFirst("\\.?0+$", "");
     }

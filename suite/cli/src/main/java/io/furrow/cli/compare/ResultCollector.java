@@ -19,9 +19,8 @@ import io.furrow.model.result.FieldResult;
 import io.furrow.model.result.PresenceResult;
 
 /**
- * Puts records of analytics together, in any order: those of one encounter or stay become one, and of those of a window the last that
- * came counts. Of a newer epoch than before it starts over. Predictions, crossings, what is provisional, and reports of suspects are
- * skipped.
+ * Collects records of analytics, in any order: those of one encounter or stay are merged, and of a window the last one counts. A
+ * newer epoch discards the results before it. Predictions, crossings, provisional results and reports of suspects are skipped.
  */
 final class ResultCollector {
     private static final Set<String> PHASES =
@@ -35,7 +34,9 @@ final class ResultCollector {
 
     private record Window(ResultSubject subject, long start, long end) {}
 
-    /** @param mission what devices of other missions found is skipped; null for all */
+    /**
+     * @param mission results of devices of other missions are skipped; null for all
+     */
     ResultCollector(String mission) {
         this.mission = mission;
     }
@@ -139,7 +140,7 @@ final class ResultCollector {
                         entity.text(FieldResult.QUALITY).orElse("")));
     }
 
-    /** Whether the device says that it has another mission. */
+    /** Whether the device states another mission. */
     private boolean isOther(Entity entity, String attribute) {
         return mission != null
                 && entity.text(attribute).filter(one -> !one.equals(mission)).isPresent();

@@ -2,7 +2,7 @@ package io.furrow.cli.compare;
 
 import io.furrow.model.topic.Topics;
 
-/** What analytics finds: the topic of the live results, and what one result is called. */
+/** The kinds of analytics results, each with the topic of its live results and its name. */
 enum ResultKind {
     ENCOUNTERS(Topics.COLLISION, "encounters"),
     AVERAGES(Topics.TEMPERATURE, "averages"),
@@ -16,12 +16,12 @@ enum ResultKind {
         this.code = code;
     }
 
-    /** Topic of the live results; of those of a replay {@link Topics#resultOf}. */
+    /** Topic of the live results; for those of a replay see {@link Topics#resultOf}. */
     String liveTopic() {
         return liveTopic;
     }
 
-    /** As tables and JSON have it, for instance {@code encounters}. */
+    /** The name in tables and JSON, for instance {@code encounters}. */
     String code() {
         return code;
     }

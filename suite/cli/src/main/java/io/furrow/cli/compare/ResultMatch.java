@@ -3,7 +3,7 @@ package io.furrow.cli.compare;
 import java.util.List;
 
 /**
- * The same result on both sides, or one that only one of them has.
+ * A result on both sides, or on only one of them.
  *
  * @param a null if only B has it
  * @param b null if only A has it
@@ -40,7 +40,7 @@ record ResultMatch(AnalyticsResult a, AnalyticsResult b, List<MemberDifference> 
         return changes.isEmpty() ? Verdict.SAME : Verdict.CHANGED;
     }
 
-    /** That of A, else that of B. */
+    /** The result of A, else that of B. */
     AnalyticsResult either() {
         return a == null ? b : a;
     }
@@ -49,7 +49,7 @@ record ResultMatch(AnalyticsResult a, AnalyticsResult b, List<MemberDifference> 
         return either().subject();
     }
 
-    /** The earlier of both. */
+    /** The earlier start of both. */
     long start() {
         return a == null || b == null ? either().start() : Math.min(a.start(), b.start());
     }

@@ -13,12 +13,11 @@ import java.util.stream.Collectors;
 import io.furrow.cli.compare.AnalyticsResult.Average;
 
 /**
- * Finds for each result of A the equivalent result of B: of the same subject, encounters and stays with the longest
- * common time first, averages of the same window. Times that only touch are common. Each result has one counterpart at
- * most.
+ * Matches each result of A with the equivalent result of B: of the same subject, encounters and stays with the longest
+ * overlap first, averages of the same window. Times that only touch overlap. A result has at most one counterpart.
  */
 final class ResultMatcher {
-    /** Results of one subject that are equivalent. */
+    /** Two equivalent results of one subject. */
     private record Candidate(AnalyticsResult a, AnalyticsResult b) {
         long common() {
             return Math.min(a.end(), b.end()) - Math.max(a.start(), b.start());
@@ -31,7 +30,7 @@ final class ResultMatcher {
 
     private ResultMatcher() {}
 
-    /** Pairs of A and B; of those without a counterpart one is null. */
+    /** Pairs of A and B, with null for a missing counterpart. */
     static List<ResultMatch> match(List<AnalyticsResult> a, List<AnalyticsResult> b, ChangeRule rule) {
         Map<ResultSubject, List<AnalyticsResult>> bySubject =
                 b.stream().collect(Collectors.groupingBy(AnalyticsResult::subject));
@@ -64,7 +63,7 @@ final class ResultMatcher {
         return matches;
     }
 
-    /** The longest common time first. */
+    /** The longest overlap first. */
     private static List<Candidate> candidates(List<AnalyticsResult> a, List<AnalyticsResult> b) {
         if (!a.isEmpty() && a.get(0) instanceof Average) {
             return windows(a, b);
@@ -85,7 +84,7 @@ final class ResultMatcher {
         return candidates;
     }
 
-    /** A long recording has many windows of a field, each with one counterpart at most. */
+    /** Separate, because a long recording has many windows of a field, each with at most one counterpart. */
     private static List<Candidate> windows(List<AnalyticsResult> a, List<AnalyticsResult> b) {
         Map<List<Long>, AnalyticsResult> ofB = new HashMap<>();
         b.forEach(one -> ofB.put(List.of(one.start(), one.end()), one));

@@ -30,18 +30,20 @@ import io.furrow.model.text.FailureText;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** Reads results from the beginning of their topics to where they ended when the reading began; committed records only. */
+/** Reads results from the beginning of their topics to the end offsets at the start of the read; committed records only. */
 final class ResultReader implements AutoCloseable {
     private static final Duration POLL = Duration.ofMillis(200);
     private static final Duration TIMEOUT = Duration.ofSeconds(20);
-    /** The last offsets of a partition may be a transaction's marks. */
+    /** Several, because the last offsets of a partition may be a transaction's markers. */
     private static final int LAST_RECORDS = 50;
 
     private final KafkaConsumer<byte[], byte[]> consumer;
     /** By topic. */
     private final Map<String, Integer> partitions = new HashMap<>();
 
-    /** @param client of Kafka, with {@code bootstrap.servers} */
+    /**
+     * @param client settings of Kafka clients, with {@code bootstrap.servers}
+     */
     ResultReader(Properties client) {
         Properties properties = CommittedReader.settings(client);
         properties.setProperty(ConsumerConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, Long.toString(TIMEOUT.toMillis()));
@@ -100,7 +102,7 @@ final class ResultReader implements AutoCloseable {
         });
     }
 
-    /** That of the last record that was played: an epoch in which nothing was found has no result. */
+    /** The epoch of the last replayed record: an epoch may be without results. */
     private OptionalLong newestEpoch(Side side) {
         if (!partitions.containsKey(side.topic())) {
             return OptionalLong.empty();

@@ -4,10 +4,10 @@ package io.furrow.cli.compare;
  * The subject of a result.
  *
  * @param scope tenant and service path
- * @param name for instance both devices of a pair, or a field and the attribute that was averaged
+ * @param name for instance both devices of a pair, or a field and the averaged attribute
  */
 record ResultSubject(String scope, String name) implements Comparable<ResultSubject> {
-    /** The same whatever the tenant is, where there is only one. */
+    /** The same without the scope, for results of a single tenant. */
     ResultSubject anyScope() {
         return new ResultSubject("", name);
     }

@@ -8,9 +8,9 @@ import io.furrow.cli.option.CommandException;
 import io.furrow.model.topic.Topics;
 
 /**
- * One side of a comparison: a replay, or what was found live.
+ * One side of a comparison: a replay, or the live results.
  *
- * @param name as tables call it
+ * @param name for tables
  * @param topic of the replay; null of live results
  */
 record Side(String name, String topic) {
@@ -20,7 +20,7 @@ record Side(String name, String topic) {
 
     /**
      * @param code {@code live}, a replay's name, or a replay's topic
-     * @param topics that there are: a replay may play on a topic that is not called after its mission
+     * @param topics existing topics: a replay's topic need not be named after its mission
      * @throws CommandException if it is none of these, or the replay has no topic
      */
     static Side of(String code, Collection<String> topics) {
@@ -66,7 +66,7 @@ record Side(String name, String topic) {
         return isLive() ? kind.liveTopic() : Topics.resultOf(topic, kind.liveTopic());
     }
 
-    /** The mission that a replay's name begins with; null of live results. */
+    /** The mission at the beginning of a replay's name; null of live results. */
     String mission() {
         return isLive() ? null : name.substring(0, name.lastIndexOf('.'));
     }

@@ -6,12 +6,12 @@ import java.util.Map;
 import java.util.Set;
 
 /**
- * What analytics found on one side of a comparison.
+ * The analytics results of one side of a comparison.
  *
  * @param name replay, or {@code live}
  * @param epoch of the replay; 0 of live results
  * @param spans results by kind
- * @param missing kinds whose topic is not there: nothing was found, or the job never ran
+ * @param missing kinds without a topic: no result, or the job never ran
  */
 record SideResults(String name, long epoch, Map<ResultKind, List<AnalyticsResult>> spans, Set<ResultKind> missing) {
     SideResults {
@@ -23,7 +23,7 @@ record SideResults(String name, long epoch, Map<ResultKind, List<AnalyticsResult
         missing = Set.copyOf(missing);
     }
 
-    /** How many tenants and service paths it reports. */
+    /** Number of tenants and service paths. */
     long scopes() {
         return spans.values().stream()
                 .flatMap(List::stream)

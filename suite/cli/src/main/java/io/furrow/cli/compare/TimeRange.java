@@ -3,20 +3,20 @@ package io.furrow.cli.compare;
 import io.furrow.cli.compare.AnalyticsResult.Average;
 
 /**
- * Which results count, by original event time.
+ * The range of results to compare, by original event time.
  *
  * @param from epoch ms
- * @param to epoch ms, after the last instant
+ * @param to epoch ms, exclusive
  */
 record TimeRange(long from, long to) {
-    /** All that there is. */
+    /** Without limits. */
     static final TimeRange ALL = new TimeRange(Long.MIN_VALUE, Long.MAX_VALUE);
 
     boolean overlaps(AnalyticsResult span) {
         return span.start() < to && (span.end() >= from || span.isOpen());
     }
 
-    /** Whether a window lies within; one that is cut has other readings than a whole one. */
+    /** Whether it contains the whole window; part of a window has other readings. */
     boolean contains(Average window) {
         return window.start() >= from && window.end() <= to;
     }

@@ -1,2 +1,2 @@
-/** Compares what analytics found in two replays, or in a replay and live: reads, matches and shows the results. */
+/** Compares the analytics results of two replays, or of a replay and live: reads, matches and shows them. */
 package io.furrow.cli.compare;

@@ -35,7 +35,7 @@ public final class AlarmCommandGroup extends CommandGroup {
             .text("TEXT", "/text");
     private static final String ID = "Id of the alarm, as list shows it.";
 
-    /** Which alarms are listed. */
+    /** The states to list alarms by. */
     enum State {
         OPEN,
         ACKNOWLEDGED,

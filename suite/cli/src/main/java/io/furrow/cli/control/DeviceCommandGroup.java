@@ -149,7 +149,7 @@ public final class DeviceCommandGroup extends CommandGroup {
                 "POST", DEVICES + ControlApi.part(device) + "/commands" + scope.query(), ControlOptions.object(body));
     }
 
-    /** JSON as what it is, all else as text. */
+    /** Parses JSON, else returns the value as text. */
     static JsonNode valueOf(String value) {
         try {
             return NgsiJson.read(value.getBytes(StandardCharsets.UTF_8));

@@ -6,7 +6,7 @@ import java.util.StringJoiner;
 
 import picocli.CommandLine.Option;
 
-/** Which of several entities of one id a device is. */
+/** Selects one of several entities with the same id. */
 final class DeviceScope {
     @Option(
             names = "--fiware-service",
@@ -17,7 +17,7 @@ final class DeviceScope {
     @Option(names = "--fiware-service-path", paramLabel = "PATH", description = "Service path of its entity.")
     private String servicePath;
 
-    /** For the REST API; empty if neither is given. */
+    /** The query for the REST API; empty if no option is given. */
     String query() {
         StringJoiner query = new StringJoiner("&", "?", "").setEmptyValue("");
         add(query, "service", service);

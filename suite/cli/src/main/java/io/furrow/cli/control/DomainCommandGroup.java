@@ -28,7 +28,7 @@ public final class DomainCommandGroup extends CommandGroup {
     private static final String DOMAINS = "/api/domains";
     private static final String NAME = "Name of the domain: 1 to 64 of A-Z a-z 0-9 _ -.";
 
-    /** What can be said of a domain. */
+    /** The properties of a domain. */
     static final class Details {
         @Option(names = "--name", paramLabel = "TEXT", description = "Name for people.")
         private String name;
@@ -126,7 +126,7 @@ public final class DomainCommandGroup extends CommandGroup {
         });
     }
 
-    /** A count, and the names that the answer has room for. */
+    /** A count, and the names if the answer contains them. */
     private static String counted(JsonNode answer, String count, String member) {
         int all = answer.path(count).asInt();
         int named = answer.path(member).size();

@@ -10,9 +10,9 @@ final class KeyReader {
 
     private final Source source;
 
-    /** Characters. */
+    /** A source of characters. */
     interface Source {
-        /** @return −1 at the end, −2 where none came in time */
+        /** @return −1 at the end, −2 after the timeout */
         int read(long timeoutMillis) throws IOException;
     }
 
@@ -20,7 +20,7 @@ final class KeyReader {
         this.source = source;
     }
 
-    /** @return empty if none came in time; {@code end} when none will come any more */
+    /** @return empty after the timeout; {@code end} at the end of input */
     String read(long timeoutMillis) throws IOException {
         int character = source.read(timeoutMillis);
         return switch (character) {

@@ -21,12 +21,12 @@ import io.furrow.cli.control.table.MissionPage;
 import io.furrow.cli.option.CommandGroup;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** The commands of {@code ./furrow mission} that speak with the control plane. */
+/** The commands of {@code ./furrow mission} that use the control plane. */
 public class MissionControl extends CommandGroup {
     private static final String MISSIONS = "/api/missions";
     private static final String NAME = "Name of the mission: 1 to 64 of A-Z a-z 0-9 _ -.";
 
-    /** Of what devices a mission is made. */
+    /** The devices of a mission. */
     static final class Plan {
         @Option(names = "--template", paramLabel = "NAME", description = "Template, NAME or NAME@VERSION.")
         private String template;
@@ -88,7 +88,7 @@ public class MissionControl extends CommandGroup {
         return control.run(api -> control.answered(create(api, plan.json(mission, domain))));
     }
 
-    /** A list that is too long for one request goes in several. */
+    /** Splits a list that is too long for one request. */
     private static JsonNode create(ControlApi api, ObjectNode plan) {
         List<ObjectNode> parts = DeviceListParts.requests(plan);
         if (parts.size() == 1) {
@@ -133,7 +133,7 @@ public class MissionControl extends CommandGroup {
         });
     }
 
-    /** When it starts, for how long, and to which domain it belongs. */
+    /** Start, duration and domain of a mission. */
     static final class Begin {
         @Option(names = "--domain", paramLabel = "DOMAIN", description = "Its domain; required for a new mission.")
         private String domain;

@@ -9,7 +9,7 @@ import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** Follows a mission: a line for every change of its state, its progress or of what is missing. */
+/** Follows a mission: prints a line for every change of its state, its progress or its missing devices. */
 final class MissionWatch implements ControlOptions.Work {
     private static final long POLL_INTERVAL_MILLIS = 300;
     private static final int BAR = 20;
@@ -19,7 +19,9 @@ final class MissionWatch implements ControlOptions.Work {
     private final String until;
     private boolean reached;
 
-    /** @param until the state with which it ends; it also ends where that cannot come any more */
+    /**
+     * @param until the state at which it ends; it also ends when that cannot be reached any more
+     */
     MissionWatch(ControlOptions control, String path, String until) {
         this.control = control;
         this.path = path;

@@ -3,11 +3,11 @@ package io.furrow.cli.control;
 import com.fasterxml.jackson.databind.JsonNode;
 
 /**
- * What a replay plays of its recording: what lies in its plan, and in its range where it has one.
+ * The part of its recording that a replay plays: within its plan, and within its range if it has one.
  *
  * @param from event time of the beginning, epoch ms
  * @param to event time of the end, epoch ms
- * @param last event time that can be sought at most, epoch ms
+ * @param last greatest event time for a seek, epoch ms
  */
 record PlayedRange(long from, long to, long last) {
     /** @param replay as the control plane reports it */
@@ -25,7 +25,7 @@ record PlayedRange(long from, long to, long last) {
         return new PlayedRange(from, to, last);
     }
 
-    /** From 0 to 1; 0 where nothing is known. @param position event time, epoch ms */
+    /** Progress from 0 to 1; 0 if unknown. @param position event time, epoch ms */
     double share(long position) {
         return to <= from ? 0 : Math.max(0, Math.min(1, (position - from) / (double) (to - from)));
     }

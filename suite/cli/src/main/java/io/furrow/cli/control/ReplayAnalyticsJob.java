@@ -9,7 +9,7 @@ import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.topic.Topics;
 
 /**
- * An instance of an analytics job that belongs to a replay.
+ * An analytics job instance that belongs to a replay.
  *
  * @param job {@code collision}, {@code presence} or {@code temperature}
  * @param topic of the replay
@@ -18,7 +18,7 @@ public record ReplayAnalyticsJob(String job, String topic) {
     private static final Pattern NAME =
             Pattern.compile("(" + String.join("|", AnalyticsKind.jobNames()) + ")-of-([A-Za-z0-9_-]+)\\.([0-9a-f]{8})");
 
-    /** The job of a name as {@link #name} gives it; empty for what does not belong to a replay. */
+    /** Parses a name as of {@link #name}; empty for jobs that do not belong to a replay. */
     public static Optional<ReplayAnalyticsJob> named(String name) {
         Matcher matcher = NAME.matcher(name);
         return matcher.matches()
@@ -28,14 +28,14 @@ public record ReplayAnalyticsJob(String job, String topic) {
     }
 
     /**
-     * {@code <job>-of-<mission>.<id8>}: another name than that of an instance which somebody starts without {@code --name}, because what
-     * bears this name is ended with the replay.
+     * {@code <job>-of-<mission>.<id8>}. Differs from the name of an instance started by hand without {@code --name}, because jobs of
+     * this name end with the replay.
      */
     public String name() {
         return job + "-of-" + Topics.replayOf(topic).orElseThrow();
     }
 
-    /** Options that make an instance of the job this one. */
+    /** The options of this instance of the job. */
     public List<String> options() {
         return List.of("--name", name(), "--input", topic);
     }

@@ -1,17 +1,17 @@
 package io.furrow.cli.control;
 
-/** Times and speeds of a command line as requests have them; the control plane refuses what is neither. */
+/** Converts times and speeds of a command line for requests; the control plane rejects invalid ones. */
 final class ReplayArguments {
     static final String TIME = "ISO 8601 or epoch ms.";
 
     private ReplayArguments() {}
 
-    /** A number where it is epoch ms; null for none. */
+    /** A number if it is epoch ms; null if absent. */
     static Object time(String time) {
         return time != null && time.matches("[0-9]{1,15}") ? Long.valueOf(time) : time;
     }
 
-    /** A number where it is one. */
+    /** A number if it can be parsed as one. */
     static Object speed(String speed) {
         try {
             return Double.valueOf(speed);

@@ -17,8 +17,8 @@ import io.furrow.model.ngsi.UnreadableException;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
- * Follows a replay by the server-sent events of the control plane, on a thread of its own, until the event {@code over}; a connection
- * that is lost is made again. A control plane that has no events is asked every second.
+ * Follows a replay by the server-sent events of the control plane, on its own thread, until the event {@code over}; reconnects after
+ * a lost connection. A control plane without events is polled every second.
  */
 final class ReplayEvents implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(ReplayEvents.class);
@@ -36,7 +36,7 @@ final class ReplayEvents implements AutoCloseable {
 
     /**
      * @param path of the replay
-     * @param first what is known of it before the first event
+     * @param first its state before the first event
      */
     ReplayEvents(ControlApi api, String path, JsonNode first) {
         this.api = api;
@@ -49,7 +49,7 @@ final class ReplayEvents implements AutoCloseable {
         thread.start();
     }
 
-    /** The replay as the newest event has it. */
+    /** The replay as of the newest event. */
     JsonNode newest() {
         return newest;
     }
@@ -94,7 +94,7 @@ final class ReplayEvents implements AutoCloseable {
         }
     }
 
-    /** Of a control plane without events; a replay that is unknown is over. */
+    /** Polls a control plane without events; an unknown replay is over. */
     private void request() {
         try {
             newest = api.get(path);
@@ -105,7 +105,7 @@ final class ReplayEvents implements AutoCloseable {
         }
     }
 
-    /** One line of {@code text/event-stream}; an empty one ends an event. */
+    /** A line of {@code text/event-stream}; an empty one ends an event. */
     void line(String line) {
         if (line.startsWith("event:")) {
             event = line.substring("event:".length()).trim();

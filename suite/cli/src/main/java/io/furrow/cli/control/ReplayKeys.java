@@ -7,7 +7,7 @@ import java.util.Set;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-/** What keys ask for while a replay is watched; keeps what has been typed of a note, and of a range. */
+/** Translates keys into requests while a replay is watched; buffers the note or range being typed. */
 final class ReplayKeys {
     private static final Set<String> NEEDING_A_POSITION =
             Set.of("left", "right", "[", "]", "shift-left", "shift-right", "l", "m");
@@ -27,11 +27,11 @@ final class ReplayKeys {
     /**
      * A request.
      *
-     * @param path after that of the replay, or of the API where it begins with a slash
+     * @param path relative to the replay, or to the API if it begins with a slash
      */
     record Request(String path, Map<String, Object> body) {}
 
-    /** What is being typed; empty if nothing is. */
+    /** The text being typed; empty if there is none. */
     Optional<String> note() {
         return Optional.ofNullable(note).map(StringBuilder::toString);
     }
@@ -40,7 +40,7 @@ final class ReplayKeys {
         return help;
     }
 
-    /** A word to who pressed the last key; may be empty. */
+    /** The response to the last key; may be empty. */
     String message() {
         return message;
     }
@@ -48,7 +48,7 @@ final class ReplayKeys {
     /**
      * @param key a character, or the name of a {@link KeyReader}
      * @param replay as the control plane reports it
-     * @return empty if nothing is asked of the control plane
+     * @return empty if the key needs no request
      */
     Optional<Request> press(String key, JsonNode replay) {
         message = "";
@@ -107,7 +107,7 @@ final class ReplayKeys {
         return Optional.empty();
     }
 
-    /** Beginning where the last jump leads, until the replay reports another position. */
+    /** Relative to the target of the last seek, until the replay reports another position. */
     private Optional<Request> seek(JsonNode replay, Duration by) {
         PlayedRange part = PlayedRange.of(replay);
         long position = position(replay);

@@ -11,7 +11,7 @@ import com.fasterxml.jackson.databind.node.TextNode;
 
 import io.furrow.model.text.Counts;
 
-/** A replay as lines of text, none wider than the terminal. */
+/** Formats a replay as lines of text, none wider than the terminal. */
 final class ReplayScreen {
     private static final int WIDEST_BAR = 60;
     private static final List<String> OVER = List.of("ended", "stopped", "failed");
@@ -21,9 +21,9 @@ final class ReplayScreen {
     private ReplayScreen() {}
 
     /**
-     * The block that is drawn over and over, always of the same height.
+     * The block that is redrawn, always of the same height.
      *
-     * @param notice what is being typed, or what went wrong; may be empty
+     * @param notice the text being typed, or an error; may be empty
      */
     static List<String> block(JsonNode replay, String notice, boolean help, int width) {
         JsonNode progress = replay.at("/status/progress");
@@ -37,7 +37,7 @@ final class ReplayScreen {
         return lines.stream().map(line -> cut(line, width)).toList();
     }
 
-    /** One line for if there is no terminal. */
+    /** A single line, for output without a terminal. */
     static String line(JsonNode replay) {
         JsonNode progress = replay.at("/status/progress");
         String reason = reason(replay);
@@ -50,7 +50,7 @@ final class ReplayScreen {
                         reason.isEmpty() ? "" : "  " + reason);
     }
 
-    /** What it does, and what was asked of it if that is something else. */
+    /** The actual state, and the desired one if it differs. */
     static JsonNode listed(JsonNode replay) {
         String state = replay.at("/status/state").asText("not begun");
         String desired = replay.path("wanted").asText(state);
@@ -75,7 +75,7 @@ final class ReplayScreen {
                 .formatted(state, atSpeed, replay.at("/status/progress/epoch").asLong(), range);
     }
 
-    /** Of what is played; all of it at the end, also where nothing happened last. */
+    /** Progress of the played range; full at the end, even after a final gap. */
     private static String bar(JsonNode replay, int width) {
         int cells = Math.max(4, Math.min(WIDEST_BAR, width - 9));
         boolean ended = replay.at("/status/state").asText().equals("ended");

@@ -15,7 +15,7 @@ import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.topic.Topics;
 
-/** What {@code ./furrow replay start} asks for. */
+/** The request and the commands of {@code ./furrow replay start}. */
 final class ReplayStart {
     @Parameters(
             arity = "0..*",
@@ -113,7 +113,7 @@ final class ReplayStart {
             description = "Play this file of the job's --recordings, instead of the mission in MongoDB.")
     private String sourceFile;
 
-    /** The request. */
+    /** The body of the request. */
     ObjectNode body(ControlOptions control) {
         List<String> all = new ArrayList<>(named);
         all.addAll(missions);
@@ -150,7 +150,7 @@ final class ReplayStart {
     }
 
     /**
-     * The lines that start the analytics jobs on a cluster; none without {@code --analytics}.
+     * The commands that start the analytics jobs on a cluster; empty without {@code --analytics}.
      *
      * @param answer of the control plane: {@code topic} of one replay, or {@code replays} of a group
      */

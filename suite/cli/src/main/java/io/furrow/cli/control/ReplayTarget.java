@@ -8,7 +8,7 @@ import picocli.CommandLine.Parameters;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 
-/** What is steered: one replay, or with {@code --group} all of a group; and the words of the command after it. */
+/** The target of a command: one replay, or with {@code --group} all of a group; and the command's further arguments. */
 final class ReplayTarget {
     private static final String REPLAYS = "/api/replays";
 
@@ -25,7 +25,7 @@ final class ReplayTarget {
             description = "Name of the replay as printed by start, MISSION.ID; then the arguments of the command.")
     private List<String> arguments = List.of();
 
-    /** Its path. */
+    /** The target's path. */
     String path(ControlOptions control) {
         if (group != null) {
             return ofGroup(group);
@@ -41,11 +41,11 @@ final class ReplayTarget {
     }
 
     /**
-     * The words after the replay.
+     * The arguments after the replay.
      *
-     * @param min how many there must be
-     * @param max how many there may be
-     * @param what they are, for who gives others
+     * @param min least number of them
+     * @param max greatest number of them
+     * @param what they are, for the error message
      */
     List<String> arguments(ControlOptions control, int min, int max, String what) {
         String path = path(control);

@@ -25,8 +25,8 @@ import io.furrow.cli.control.client.ControlPlaneException;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * Follows a replay: at a terminal drawn in place and steered by keys, until it is forgotten; elsewhere a line per second where it
- * says something new, until it comes to its end.
+ * Follows a replay: on a terminal redrawn in place and controlled by keys, until the replay is deleted; elsewhere a line per
+ * second if something changed, until it reaches its end.
  */
 final class ReplayWatch implements ControlOptions.Work {
     private static final long DRAW_MILLIS = 200;
@@ -74,7 +74,7 @@ final class ReplayWatch implements ControlOptions.Work {
         line(events);
     }
 
-    /** Nobody rewinds it from here. */
+    /** Whether it is over: without a terminal nothing rewinds it. */
     private static boolean isAtEnd(JsonNode replay) {
         JsonNode status = replay.path("status");
         return status.path("state").asText().equals("ended")
@@ -94,7 +94,7 @@ final class ReplayWatch implements ControlOptions.Work {
         }
     }
 
-    /** Whether nobody interrupted it. */
+    /** Returns false if it was interrupted. */
     static boolean pause(long millis) {
         try {
             TimeUnit.MILLISECONDS.sleep(millis);
@@ -105,7 +105,7 @@ final class ReplayWatch implements ControlOptions.Work {
         }
     }
 
-    /** Returns when the replay is over, or a key asks for it. */
+    /** Returns when the replay is over, or a key ends the watch. */
     void steer(Terminal terminal, ReplayEvents events, ControlApi api) throws IOException {
         Attributes before = terminal.enterRawMode();
         ExecutorService requests = Executors.newSingleThreadExecutor();
@@ -139,7 +139,7 @@ final class ReplayWatch implements ControlOptions.Work {
         }
     }
 
-    /** What the last keys asked for is sent. */
+    /** Sends the pending requests of the last keys. */
     private static void finish(ExecutorService requests) {
         requests.shutdown();
         try {
@@ -151,7 +151,7 @@ final class ReplayWatch implements ControlOptions.Work {
         }
     }
 
-    /** A replay of a group is steered with its group. */
+    /** The path for requests: a replay of a group is controlled with its group. */
     private String steered(JsonNode replay) {
         return replay.hasNonNull("group")
                 ? ReplayTarget.ofGroup(replay.path("group").asText())

@@ -1,2 +1,2 @@
-/** The commands that speak with the control plane over its REST API. */
+/** The commands that use the control plane over its REST API. */
 package io.furrow.cli.control;

@@ -16,18 +16,20 @@ import org.apache.kafka.common.header.Header;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.OriginalReference;
 
-/** Reads the records that dead letters stand for, from where these say they are. */
+/** Reads the original records that dead letters refer to. */
 final class OriginalReader implements AutoCloseable {
     private final KafkaConsumer<byte[], byte[]> consumer;
 
-    /** @param consumer is closed with this */
+    /**
+     * @param consumer closed with this reader
+     */
     OriginalReader(KafkaConsumer<byte[], byte[]> consumer) {
         this.consumer = consumer;
     }
 
     /**
-     * Empty if the record is no longer there, or another is in its place, because the topic was made again: letter and original
-     * have one time and one key.
+     * Empty if the record is gone, or another is in its place because the topic was recreated: letter and original have the
+     * same time and key.
      *
      * @throws IOException if Kafka does not answer
      */
@@ -65,7 +67,7 @@ final class OriginalReader implements AutoCloseable {
         return Optional.empty();
     }
 
-    /** That of the original: what is set aside as from the future has a time of its own. */
+    /** The time of the original: a letter about a record from the future has its own time. */
     static long timeOf(ConsumerRecord<byte[], byte[]> deadLetter) {
         Header time = deadLetter.headers().lastHeader(DeadLetter.TIME);
         try {

@@ -30,22 +30,21 @@ import io.furrow.model.event.OriginalReference;
 import io.furrow.model.result.AnalyticsKind;
 
 /**
- * Sends dead letters to a topic again, as they were: key, bytes, time and headers, without those that say why they
- * were set aside; in the place of a letter that stands for a large record, that record from where it is. What is
- * written and the memory of it are one transaction, so that no letter is fed twice. Reads up to the end that the topic
- * had at the beginning: a letter that dies again waits for the next time.
+ * Sends dead letters to a topic again, unchanged: key, bytes, time and headers, without those that explain the failure; a letter that
+ * refers to a large record is replaced by that record. The records and the offsets redriven are one transaction, so that no letter is sent
+ * twice. Reads up to the end offsets at the start: a letter that fails again waits for the next run.
  */
 public final class Redrive {
     /**
-     * Who sets aside a copy: the event continued without its image or its mission, to its topics though not to MongoDB, or to the other jobs.
-     * Fed again it would be there twice, so these letters must be asked for by name.
+     * Stages whose letters are copies: the event continued without its image or its mission, to its topics though not to MongoDB, or to the
+     * other jobs. A redrive would duplicate it, so these letters must be requested by name.
      */
     public static final Set<String> WENT_ON = Stream.concat(
                     Stream.of("routes", "ingest-images", "missions"), AnalyticsKind.jobNames().stream())
             .collect(Collectors.toUnmodifiableSet());
 
     static final Duration TIMEOUT = Duration.ofSeconds(30);
-    /** Of a transaction with large originals. A broker's own limit is 15 minutes, if not set otherwise. */
+    /** For a transaction with large originals. A broker's default limit is 15 minutes. */
     private static final Duration TRANSACTION_TIMEOUT = Duration.ofMinutes(10);
 
     private static final String OTHER = "no dead letter";
@@ -53,20 +52,20 @@ public final class Redrive {
     private static final String GONE = "original gone";
 
     /**
-     * What is requested.
+     * A request to redrive.
      *
      * @param from topic of the dead letters
-     * @param to topic to which they go
-     * @param again whether those are fed again that were fed before
-     * @param dryRun whether they are only counted
+     * @param to target topic
+     * @param again whether letters that were redriven before are sent again
+     * @param dryRun whether letters are only counted
      */
     public record Request(String from, String to, Choice choice, boolean again, boolean dryRun) {}
 
     /**
-     * Which letters.
+     * The selection of letters.
      *
-     * @param reasons those wanted; empty for all
-     * @param stages those wanted; empty for all but {@link #WENT_ON}
+     * @param reasons selected ones; empty for all
+     * @param stages selected ones; empty for all but {@link #WENT_ON}
      */
     public record Choice(Set<String> reasons, Set<String> stages) {
         boolean isOf(Kind kind) {
@@ -75,9 +74,9 @@ public final class Redrive {
         }
     }
 
-    /** What a letter says of itself. */
+    /** The reason and stage of a letter. */
     record Kind(String reason, String stage) {
-        /** For people. */
+        /** For display. */
         String description() {
             return WENT_ON.contains(stage)
                     ? reason + " of " + stage + ", whose event went on"
@@ -85,7 +84,7 @@ public final class Redrive {
         }
     }
 
-    /** How many were fed, by reason, and how many stayed, by why they did. */
+    /** The number of redriven letters by reason, and of the others by why they were left. */
     public record Outcome(Map<String, Long> fed, Map<String, Long> left) {
         public long total() {
             return fed.values().stream().mapToLong(Long::longValue).sum();
@@ -99,13 +98,15 @@ public final class Redrive {
     private RedriveOffsets memory;
     private OriginalReader originals;
 
-    /** @param kafka what every client needs, {@code bootstrap.servers} at least */
+    /**
+     * @param kafka common settings of clients, at least {@code bootstrap.servers}
+     */
     public Redrive(Properties kafka, Request request) {
         this.kafka = kafka;
         this.request = request;
     }
 
-    /** @throws IOException if the topic is not there, or its end is not reached */
+    /** @throws IOException if the topic does not exist, or its end is not reached */
     public Outcome run() throws IOException {
         try (var consumer = consumer();
                 var found = new OriginalReader(consumer());
@@ -195,7 +196,7 @@ public final class Redrive {
         return true;
     }
 
-    /** The letter itself, or the record that it stands for; empty, and counted as left, where neither is whole. */
+    /** The letter itself, or the record that it refers to; empty, and counted as left, if neither is complete. */
     private Optional<ConsumerRecord<byte[], byte[]>> original(ConsumerRecord<byte[], byte[]> deadLetter)
             throws IOException {
         Optional<OriginalReference> elsewhere = OriginalReference.of(
@@ -248,7 +249,7 @@ public final class Redrive {
         settings.setProperty(
                 ProducerConfig.TRANSACTIONAL_ID_CONFIG, "furrow-redrive-" + request.from() + "-" + request.to());
         settings.setProperty(ProducerConfig.TRANSACTION_TIMEOUT_CONFIG, Long.toString(TRANSACTION_TIMEOUT.toMillis()));
-        // The topic may have been made just now, see KAFKA-15591.
+        // The topic may have just been created, see KAFKA-15591.
         settings.setProperty(ProducerConfig.MAX_IN_FLIGHT_REQUESTS_PER_CONNECTION, "1");
         settings.setProperty(ProducerConfig.MAX_REQUEST_SIZE_CONFIG, Integer.toString(16 * 1024 * 1024));
         return new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());

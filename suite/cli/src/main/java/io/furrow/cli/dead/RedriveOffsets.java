@@ -25,10 +25,10 @@ import org.apache.kafka.common.errors.TopicExistsException;
 import io.furrow.kafka.CommittedReader;
 
 /**
- * How far the dead letters of each partition, reason and stage were brought to a topic: the compacted topic {@code <dead
- * letters>.refed}, written in the transaction that brings them. Whichever reasons and stages are asked for together, no letter
- * is brought twice; and unlike the offsets of a consumer group this is not forgotten after a week. A letter that was left before one
- * that was brought is remembered by itself.
+ * The offsets up to which the dead letters of each partition, reason and stage were redriven to a topic: the compacted topic
+ * {@code <dead letters>.refed}, written in the same transaction. No letter is sent twice, whatever combination of reasons and stages
+ * is requested; and unlike a consumer group's offsets these do not expire after a week. A letter that was left before a redriven one
+ * is stored individually.
  */
 final class RedriveOffsets {
     private static final Duration TIMEOUT = Duration.ofSeconds(30);
@@ -41,15 +41,17 @@ final class RedriveOffsets {
     private final Map<String, Long> changed = new HashMap<>();
     private final Set<String> left = new HashSet<>();
 
-    /** @param dead id of the topic of dead letters, for one that is made again counts from 0 again */
+    /**
+     * @param dead id of the topic of dead letters, because offsets of a recreated topic begin at 0 again
+     */
     private RedriveOffsets(String topic, String dead, String to) {
         this.topic = topic;
         this.prefix = dead + "|" + to + "|";
     }
 
     /**
-     * @param making whether the topic is made where it is not there; else there is no memory then
-     * @throws IOException if Kafka refuses; the message says what
+     * @param making whether to create a missing topic; otherwise no offsets are stored then
+     * @throws IOException if Kafka refuses; the message says why
      */
     static RedriveOffsets read(Properties kafka, Redrive.Request request, boolean making) throws IOException {
         String topic = request.from() + ".refed";
@@ -113,12 +115,12 @@ final class RedriveOffsets {
         }
     }
 
-    /** Whether the letter at this offset was brought back before. */
+    /** Whether the letter at this offset was redriven before. */
     boolean holds(int partition, Redrive.Kind kind, long offset) {
         return offset < next.getOrDefault(key(partition, kind), 0L) && !left.contains(leftKey(partition, kind, offset));
     }
 
-    /** To be remembered with the next {@link #changes()}. */
+    /** Adds an offset to the next {@link #changes()}. */
     void add(int partition, Redrive.Kind kind, long offset) {
         String key = key(partition, kind);
         if (offset >= next.getOrDefault(key, 0L)) { // what is fed again was remembered before
@@ -131,7 +133,7 @@ final class RedriveOffsets {
         }
     }
 
-    /** The same of a letter that cannot be brought. */
+    /** The same for a letter that cannot be redriven. */
     void leave(int partition, Redrive.Kind kind, long offset) {
         String key = leftKey(partition, kind, offset);
         if (offset >= next.getOrDefault(key(partition, kind), 0L) && left.add(key)) {
@@ -139,7 +141,7 @@ final class RedriveOffsets {
         }
     }
 
-    /** What was added since the last call, for the transaction that brings these letters. */
+    /** The changes since the last call, for the transaction that sends these letters. */
     List<ProducerRecord<byte[], byte[]>> changes() {
         List<ProducerRecord<byte[], byte[]>> records = new ArrayList<>();
         changed.forEach((key, offset) -> records.add(new ProducerRecord<>(

@@ -1,2 +1,2 @@
-/** Dead letters, brought back to where they came from. */
+/** Redrives dead letters. */
 package io.furrow.cli.dead;

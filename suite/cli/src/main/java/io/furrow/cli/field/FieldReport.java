@@ -22,7 +22,7 @@ import io.furrow.model.field.ImportedField;
 import io.furrow.model.field.RejectedFeature;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** What an import did, field by field, and what it did not; lists of fields too. */
+/** Reports per field what an import did and did not do; also prints lists of fields. */
 public final class FieldReport {
     private static final String NO_DOMAIN = "no domain";
 
@@ -97,7 +97,7 @@ public final class FieldReport {
         return rows;
     }
 
-    /** Of a field that ends the one that it was. */
+    /** Of an ended field, the previous version. */
     private static FieldVersion shown(FieldChange change) {
         return change.kind() == FieldChange.Kind.ENDED ? change.before() : change.version();
     }
@@ -114,7 +114,7 @@ public final class FieldReport {
         return domain.isEmpty() ? NO_DOMAIN : domain;
     }
 
-    /** For instance {@code  (north 2, south 1)}; empty if none ends. */
+    /** For instance {@code (north 2, south 1)}; empty if no field ends. */
     private String endedByDomain() {
         Map<String, Long> ended = changes.stream()
                 .filter(change -> change.kind() == FieldChange.Kind.ENDED)
@@ -180,7 +180,7 @@ public final class FieldReport {
                 .lines(rows);
     }
 
-    /** The versions as they lie in the topic: a GeoJSON FeatureCollection. */
+    /** The versions as stored in the topic: a GeoJSON FeatureCollection. */
     public static ObjectNode json(List<FieldVersion> versions) {
         ObjectNode collection = NgsiJson.mapper().createObjectNode().put("type", "FeatureCollection");
         ArrayNode features = collection.putArray("features");

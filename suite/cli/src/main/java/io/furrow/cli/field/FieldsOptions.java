@@ -13,7 +13,7 @@ import io.furrow.cli.option.KafkaClient;
 import io.furrow.kafka.field.FieldsTopic;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** Where the topic of fields is, for commands that read or write it themselves, and how they print. */
+/** Options for commands that read or write the topic of fields directly, and their output format. */
 public final class FieldsOptions {
     private enum Output {
         TABLE,
@@ -46,7 +46,7 @@ public final class FieldsOptions {
         return new FieldsTopic(KafkaClient.settings(kafka, kafkaProperties));
     }
 
-    /** Prints lines or JSON, as the option says. */
+    /** Prints lines or JSON, depending on the option. */
     public void print(List<String> lines, JsonNode json) throws IOException {
         if (output == Output.JSON) {
             spec.commandLine()

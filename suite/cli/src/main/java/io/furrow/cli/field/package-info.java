@@ -1,2 +1,2 @@
-/** Fields, as {@code ./furrow fields} reports them. */
+/** Prints fields for {@code ./furrow fields}. */
 package io.furrow.cli.field;

@@ -1,6 +1,6 @@
 package io.furrow.cli.option;
 
-/** A command cannot do what it was asked to; the message is one sentence with the remedy, for the terminal. */
+/** A command failed; the message is one sentence with the remedy, for the terminal. */
 public final class CommandException extends RuntimeException {
     private static final long serialVersionUID = 1L;
 

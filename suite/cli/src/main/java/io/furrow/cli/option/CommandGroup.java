@@ -3,7 +3,7 @@ package io.furrow.cli.option;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.ScopeType;
 
-/** A command that does nothing itself; each of its subcommands explains itself. */
+/** A command that consists of subcommands only. */
 public abstract class CommandGroup {
     @Option(
             names = {"-h", "--help"},

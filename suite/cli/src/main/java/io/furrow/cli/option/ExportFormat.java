@@ -22,13 +22,13 @@ import io.furrow.mission.marker.Markers;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.MongoRecordings;
 
-/** What {@code ./furrow mission export} writes. */
+/** The output formats of {@code ./furrow mission export}. */
 public enum ExportFormat {
     JSONL(null),
     MCAP(new McapExport()),
     GEOJSON(new GeoJsonExport());
 
-    /** Null for the lines that can be imported again. */
+    /** Null for lines that can be imported again. */
     private final MissionExport export;
 
     ExportFormat(MissionExport export) {
@@ -38,7 +38,7 @@ public enum ExportFormat {
     /**
      * A mission in MongoDB.
      *
-     * @param missions where it is known
+     * @param missions its store
      */
     public record Source(StoredMissions missions, String mongo, String mission) {}
 
@@ -57,10 +57,10 @@ public enum ExportFormat {
     }
 
     /**
-     * Writes the markers of a mission beside its file where that has no room for them.
+     * Writes the markers of a mission beside its file if the format cannot hold them.
      *
      * @param file of the mission
-     * @return the file of the markers; empty if there is none, as there are no markers or the mission's file holds them
+     * @return the file of the markers; empty without markers, or if the mission's file holds them
      */
     public Optional<Path> writeMarkers(Source source, Path file) throws IOException {
         if (export != null) {

@@ -2,7 +2,7 @@ package io.furrow.cli.option;
 
 import picocli.CommandLine.Option;
 
-/** What every command answers {@code --help} with. */
+/** The option {@code --help} of every command. */
 public final class HelpOption {
     @Option(
             names = {"-h", "--help"},

@@ -1,2 +1,2 @@
-/** What the commands share: their options, and the failure that the terminal shows as one sentence. */
+/** Common parts of the commands: options, and the failure that the terminal shows as one sentence. */
 package io.furrow.cli.option;

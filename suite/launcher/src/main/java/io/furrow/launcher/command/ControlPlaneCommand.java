@@ -51,7 +51,7 @@ import io.furrow.provisioner.ProvisioningSettings;
                 + "when one fails, another takes over.")
 public final class ControlPlaneCommand implements Callable<Integer> {
     private static final long STOPPED_WITHIN_SECONDS = 35;
-    /** Without Kafka there is nothing to hand over; another instance takes over as after a crash. */
+    /** Without Kafka nothing can be handed over; another instance takes over as after a crash. */
     private static final long ENDED_AFTER_SECONDS = 3;
 
     @Spec

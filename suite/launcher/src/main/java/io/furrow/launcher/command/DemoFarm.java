@@ -16,7 +16,7 @@ import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.control.RejectedException;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** The domains, templates and missions of the demonstration farm, made and started as anybody else makes his. */
+/** Creates and starts the domains, templates and missions of the demonstration farm through the REST API. */
 public final class DemoFarm {
     private static final String FILE = "/io/furrow/simulators/demo/missions.json";
     private static final Set<String> ACTIVE = Set.of("starting", "running", "stopping");
@@ -31,7 +31,7 @@ public final class DemoFarm {
     }
 
     /**
-     * Makes what is missing, and starts the missions that do not run; what is there from an earlier start stays.
+     * Creates what is missing, and starts missions that do not run; existing ones stay.
      *
      * @param control base of the control plane's REST API
      * @throws ControlPlaneException if it is unavailable or refuses
@@ -53,7 +53,7 @@ public final class DemoFarm {
         }
     }
 
-    /** A template that was changed since then gets a further version. */
+    /** Creates the template, or a further version if it has changed. */
     private void template(JsonNode template) {
         String name = template.path(TEMPLATE).asText();
         for (JsonNode existing : api.get("/api/templates")) {

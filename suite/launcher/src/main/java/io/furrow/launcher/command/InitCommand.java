@@ -62,7 +62,7 @@ public final class InitCommand implements Callable<Integer> {
         return 0;
     }
 
-    /** Passwords are of digits and letters alone, so that they need no quotes in a URI. */
+    /** Passwords consist of digits and letters only, so that they need no quotes in a URI. */
     private static String variables() {
         return """
                 FARM_SECRET=%s

@@ -18,12 +18,12 @@ import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;
 
-/** A suite at the terminal: started, shown, stopped by Ctrl-C within ten seconds; the JVM ends later where it then stores its classes. */
+/** A suite at the terminal: started, shown, stopped by Ctrl-C within ten seconds; the JVM ends later if it then archives its classes. */
 final class Session {
     private static final Logger LOG = LoggerFactory.getLogger(Session.class);
     private static final Duration STOP_TIMEOUT = Duration.ofMillis(9_500);
     private static final int STOPPED_BY_INTERRUPT = 130;
-    /** Set by the script where the JVM stores its classes when it ends, after all else. */
+    /** Set by the script if the JVM archives its classes at exit, last of all. */
     private static final String STORES_CLASSES = "furrow.stores.classes";
 
     private final PrintWriter out;
@@ -36,15 +36,15 @@ final class Session {
         this.out = out;
     }
 
-    /** What runs on top of the suite, for instance simulated devices. */
+    /** An addition to the suite, for instance simulated devices. */
     interface Extension {
         AutoCloseable join(Suite suite) throws Exception;
     }
 
     /**
-     * Returns when the user asked to stop and everything has stopped.
+     * Returns when the user has requested a stop and everything has stopped.
      *
-     * @param data kept across restarts; null for a temporary directory
+     * @param data folder for data across restarts; null for a temporary directory
      */
     public int run(SuiteSettings settings, Path data, Extension guest) throws Exception {
         out.println("Furrow starts; Ctrl-C stops it.");
@@ -87,8 +87,8 @@ final class Session {
     }
 
     /**
-     * Runs in the JVM's shutdown: lets {@link #run} stop everything. What is only half started, or does not stop in time, is
-     * ended with the JVM; files that are kept survive that as they survive a power cut.
+     * Runs in the JVM's shutdown: lets {@link #run} stop everything. A part that is still starting, or does not stop in time, ends with
+     * the JVM; stored files survive that as they survive a power cut.
      */
     private void stopFromOutside(RunDirectory directory) {
         stopRequested.countDown();

@@ -5,7 +5,7 @@ import java.io.PrintWriter;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;
 
-/** Where everything is, printed once. */
+/** Prints the addresses of all parts, once. */
 final class UrlTable {
     private UrlTable() {}
 

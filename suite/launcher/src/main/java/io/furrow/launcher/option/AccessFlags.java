@@ -8,7 +8,7 @@ import picocli.CommandLine.TypeConversionException;
 
 import io.furrow.http.AllowedNames;
 
-/** Options that say under which names the HTTP servers of a command answer, and to which pages. */
+/** Options for the host names and origins that a command's HTTP servers accept. */
 public final class AccessFlags {
     @Option(
             names = "--allowed-hosts",

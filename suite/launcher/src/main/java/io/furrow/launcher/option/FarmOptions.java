@@ -9,7 +9,7 @@ import picocli.CommandLine.Option;
 import io.furrow.launcher.suite.SuiteSettings;
 import io.furrow.model.file.AccessToken;
 
-/** Options of {@code up} for a real farm: who may command, and an IoT Agent and an MQTT broker that already run. */
+/** Options of {@code up} for a real farm: access to commands, and an existing IoT Agent and MQTT broker. */
 public final class FarmOptions {
     @Mixin
     private ProvisioningOptions provisioning;
@@ -35,7 +35,7 @@ public final class FarmOptions {
                     "Simulate the devices of missions that have \"simulated\": true, as those of the template thesis-demo.")
     private boolean simulates;
 
-    /** The default, of which scripts may want to be sure. */
+    /** The default, which scripts may state explicitly. */
     @Option(names = "--no-simulated-devices", hidden = true)
     private boolean simulatesNone;
 

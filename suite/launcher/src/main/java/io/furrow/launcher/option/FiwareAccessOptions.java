@@ -11,7 +11,7 @@ import io.furrow.cli.option.CommandException;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.file.AccessToken;
 
-/** Options for FIWARE servers that already run: in which service path, and with which token. */
+/** Options for existing FIWARE servers: service path and token. */
 public final class FiwareAccessOptions {
     private static final Logger LOG = LoggerFactory.getLogger(FiwareAccessOptions.class);
 
@@ -38,7 +38,7 @@ public final class FiwareAccessOptions {
                     + AccessToken.DEFAULT_HEADER + ", as for a Wilma PEP proxy.")
     public String tokenHeader;
 
-    /** @throws CommandException if the path is none */
+    /** @throws CommandException if the path is invalid */
     public FiwareScope scope(String fiwareService) {
         if (!servicePath.matches("/|(/[A-Za-z0-9_]{1,50}){1,10}")) {
             throw new CommandException(

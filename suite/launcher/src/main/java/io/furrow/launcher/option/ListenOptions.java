@@ -17,7 +17,7 @@ import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.launcher.suite.SuiteSettings;
 import io.furrow.model.file.AccessToken;
 
-/** Options of {@code up} that let a context broker and devices of other computers in. */
+/** Options of {@code up} that give a context broker and devices on other computers access. */
 public final class ListenOptions {
     private static final Logger LOG = LoggerFactory.getLogger(ListenOptions.class);
 
@@ -62,7 +62,7 @@ public final class ListenOptions {
 
     /**
      * @param orion null for the stand-in
-     * @throws CommandException if they cannot be reached, or by anybody
+     * @throws CommandException if the addresses are unreachable, or open to everyone
      */
     public SuiteSettings.Listening listening(URI orion) {
         boolean open = !isLoopback("--listen", listen);
@@ -88,7 +88,7 @@ public final class ListenOptions {
         return new SuiteSettings.Listening(listen, publicUrl, secret, mqttListen);
     }
 
-    /** The connector reads it when all else has started. */
+    /** Checked early: the connector reads it after all else has started. */
     private void requireSecret() {
         try {
             if (secret != null) {
@@ -124,7 +124,7 @@ public final class ListenOptions {
         }
     }
 
-    /** An unknown host too: it is found out that nothing answers there. */
+    /** True for an unknown host: a later check reports that it does not answer. */
     private static boolean isOfThisMachine(String host) {
         try {
             InetAddress address = InetAddress.getByName(host);

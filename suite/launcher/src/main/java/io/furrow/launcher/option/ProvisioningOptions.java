@@ -13,7 +13,7 @@ import io.furrow.launcher.suite.SuiteSettings;
 import io.furrow.model.file.AccessToken;
 import io.furrow.provisioner.AgentSettings;
 
-/** Options that say who may command, and where the devices of missions are registered. */
+/** Options for access to commands, and for the registration of devices of missions. */
 public final class ProvisioningOptions {
     @Option(
             names = "--iot-agent",
@@ -124,9 +124,9 @@ public final class ProvisioningOptions {
     public Path tokens;
 
     /**
-     * The MQTT broker as devices reach it; null if it is not named.
+     * The MQTT broker as devices reach it; null if not configured.
      *
-     * @throws CommandException if it is not an address of one
+     * @throws CommandException if the address is invalid
      */
     public URI mqttPublic() {
         if (mqttPublic != null
@@ -140,9 +140,9 @@ public final class ProvisioningOptions {
     }
 
     /**
-     * The IoT Agent; null if none is named.
+     * The IoT Agent; null if not configured.
      *
-     * @throws CommandException if the options do not go together or cannot be right
+     * @throws CommandException if the options are invalid or contradict each other
      */
     public AgentSettings agent(String fiwareService, AccessToken token) {
         if (iotAgent == null) {

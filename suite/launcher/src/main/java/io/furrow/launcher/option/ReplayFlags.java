@@ -7,7 +7,7 @@ import picocli.CommandLine.Option;
 import io.furrow.cli.option.CommandException;
 import io.furrow.control.replay.ReplaySettings;
 
-/** Options of the control plane that concern replays. */
+/** Options of the control plane for replays. */
 public final class ReplayFlags {
     @Option(
             names = "--mongo",
@@ -50,7 +50,7 @@ public final class ReplayFlags {
                     "Maximum number of concurrent replays; a further start is refused. Default: ${DEFAULT-VALUE}.")
     private int max = 256;
 
-    /** @throws CommandException where they cannot be used */
+    /** @throws CommandException if they are invalid */
     public ReplaySettings settings() {
         if (poll.compareTo(Duration.ofMillis(100)) < 0 || grace.isNegative() || endedRetention.isNegative()) {
             throw new CommandException(

@@ -9,7 +9,7 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.control.rest.access.CertificateFiles;
 
-/** How the REST API is reached safely from other machines. */
+/** Options to secure the REST API for access from other machines. */
 public final class RestTlsOptions {
     @Spec(Spec.Target.MIXEE)
     private CommandSpec spec;
@@ -42,7 +42,7 @@ public final class RestTlsOptions {
                     "Listen on addresses that other machines reach without TLS, because a proxy in front terminates it.")
     public boolean insecure;
 
-    /** Null if no TLS is asked for. */
+    /** Null without TLS. */
     public CertificateFiles certificate() {
         if (certificate == null && key == null && keystore == null && password == null) {
             return null;

@@ -8,7 +8,7 @@ import picocli.CommandLine.Option;
 
 import io.furrow.launcher.suite.SuiteSettings;
 
-/** What is common to {@code demo} and {@code up}: where things are kept, and on which ports of 127.0.0.1 they listen. */
+/** Common options of {@code demo} and {@code up}: folder of data, and ports on 127.0.0.1. */
 public final class SuiteOptions {
     @Option(
             names = "--data",
@@ -121,7 +121,7 @@ public final class SuiteOptions {
     private static final String PORT_OF = "Port of ";
     private static final String DEFAULT = ", 0 for a free one. Default: ${DEFAULT-VALUE}.";
 
-    /** Of the demonstration: simulated devices, and a login that anybody can try. */
+    /** The demonstration's settings: simulated devices, and a shared login. */
     public SuiteSettings demonstration() {
         return suite(null, null, SuiteSettings.Farm.SIMULATED, SuiteSettings.Fiware.of(fiwareService));
     }

@@ -17,7 +17,7 @@ import io.furrow.dashboard.page.PageSettings;
 import io.furrow.model.control.Role;
 import io.furrow.model.file.FileProblem;
 
-/** Options that say which proxy in front of the dashboard signs users in, and what it says of them. */
+/** Options for a trusted proxy in front of the dashboard that signs users in, and for its headers. */
 public final class TrustedProxyFlags {
     private static final Map<String, Role> GROUPS =
             Map.of("viewer", Role.VIEWER, "operator", Role.OPERATOR, "admin", Role.ADMIN);
@@ -79,7 +79,7 @@ public final class TrustedProxyFlags {
                             + "none.")
     private String signOut;
 
-    /** Where the proxy signs users in and out. */
+    /** Adds the proxy's addresses to sign in and out. */
     public PageSettings pages(PageSettings page) {
         return page.withSignIn(checked("--sign-in-url", signIn), checked("--sign-out-url", signOut));
     }
@@ -92,7 +92,7 @@ public final class TrustedProxyFlags {
         return url;
     }
 
-    /** Null if none is trusted. */
+    /** Null without a trusted proxy. */
     public TrustedProxy proxy(CommandSpec spec) {
         if (addresses == null) {
             if (token != null) {

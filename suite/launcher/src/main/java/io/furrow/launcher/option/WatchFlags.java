@@ -12,7 +12,7 @@ import io.furrow.control.alarm.action.Webhook;
 import io.furrow.control.health.HealthOptions;
 import io.furrow.launcher.suite.SuiteSettings;
 
-/** Options that say when there are alarms and what is done about them. */
+/** Options for alarms and the reactions to them. */
 public final class WatchFlags {
     private static final double PERCENT = 100;
 
@@ -53,8 +53,8 @@ public final class WatchFlags {
     private boolean stops;
 
     /**
-     * @param horizon how far ahead encounters are predicted; null for what suits the other options
-     * @throws CommandException where options do not go together or the secret cannot be used
+     * @param horizon how far ahead encounters are predicted; null to derive it from the other options
+     * @throws CommandException if options contradict each other or the secret cannot be used
      */
     public SuiteSettings.Watch watch(String horizon) {
         String usual = stops ? "10s" : "0s";

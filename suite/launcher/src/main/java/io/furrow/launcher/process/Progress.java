@@ -12,13 +12,13 @@ public final class Progress {
         this.out = out;
     }
 
-    /** Prints what somebody should know of a part. */
+    /** Prints a note about a part. */
     public void note(String what) {
         out.println("  " + what);
         out.flush();
     }
 
-    /** Runs one step; it may run beside others. */
+    /** Runs one step; steps may run concurrently. */
     public <T> T step(String what, Callable<T> work) throws Exception {
         long start = System.nanoTime();
         out.printf("  starting %s …%n", what);

@@ -14,14 +14,14 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 
-/** JSON over HTTP with what runs beside us: Connect, Flink, the context broker. */
+/** Exchanges JSON over HTTP with servers of the suite: Connect, Flink, the context broker. */
 public final class RestClient {
     private final HttpClient http = HttpClient.newBuilder()
             .version(HttpClient.Version.HTTP_1_1)
             .connectTimeout(Duration.ofSeconds(5))
             .build();
 
-    /** Status and body of an answer; the body is a missing node where there was none. */
+    /** Status and body of an answer; an absent body is a missing node. */
     public record Answer(int status, JsonNode body) {
         public boolean isSuccess() {
             return status / 100 == 2;

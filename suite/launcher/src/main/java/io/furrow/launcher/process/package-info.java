@@ -1,2 +1,2 @@
-/** What belongs to the process and to no part of the suite: its log, its progress on the terminal, its requests to servers. */
+/** Concerns of the process rather than of a part of the suite: log, progress on the terminal, requests to servers. */
 package io.furrow.launcher.process;

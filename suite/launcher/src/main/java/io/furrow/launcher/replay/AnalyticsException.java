@@ -1,6 +1,6 @@
 package io.furrow.launcher.replay;
 
-/** A job could not be started, listed or ended now; the message says why and what to do. */
+/** A job could not be started, listed or ended; the message says why and what to do. */
 public final class AnalyticsException extends Exception {
     private static final long serialVersionUID = 1L;
 

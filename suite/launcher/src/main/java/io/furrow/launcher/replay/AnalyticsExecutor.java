@@ -4,12 +4,12 @@ import java.util.Set;
 
 import io.furrow.cli.control.ReplayAnalyticsJob;
 
-/** Where analytics jobs of replays run. Jobs are known by their names; what it runs beside them is not touched. */
+/** Runs analytics jobs of replays. Jobs are identified by name; other jobs are not touched. */
 public interface AnalyticsExecutor {
-    /** Names of all jobs that run or are about to. */
+    /** Names of all jobs that run or are starting. */
     Set<String> running() throws AnalyticsException;
 
-    /** How many more jobs fit. */
+    /** The number of further jobs for which there are slots. */
     int free() throws AnalyticsException;
 
     /** Returns when the job is accepted. */

@@ -18,10 +18,10 @@ import io.furrow.cli.control.ReplayAnalyticsJob;
 import io.furrow.model.text.Counts;
 
 /**
- * Reconciles the running analytics jobs with those that replays ask for. A replay's jobs start together, when its
- * topic is there and they all fit; they end when the replay is over and {@link JobEnding} allows it. A replay that is
- * over before its jobs ran gets them all the same. Keeps nothing that a restart would miss: jobs are found by their
- * names, and how far they are by their consumer groups.
+ * Reconciles the running analytics jobs with those that replays request. A replay's jobs start together, when its topic
+ * exists and all of them fit; they end when the replay is over and {@link JobEnding} allows it. A replay that is over
+ * before its jobs ran still gets them. Has no state that must survive a restart: jobs are found by name, and their
+ * progress by consumer group.
  */
 final class AnalyticsReconciler {
     private static final Logger LOG = LoggerFactory.getLogger(AnalyticsReconciler.class);
@@ -30,24 +30,28 @@ final class AnalyticsReconciler {
     private final AnalyticsExecutor executor;
     private final JobProgress.Source progress;
     private final LongSupplier millis;
-    /** By topic; a replay stays here until its jobs have ended. */
+    /** By topic; contains a replay until its jobs have ended. */
     private final Map<String, DesiredAnalytics> existing = new TreeMap<>();
 
     private final Map<String, JobEnding> endings = new HashMap<>();
-    /** When a job may be started again, by name. */
+    /** The time of the next attempt to start a job, by name. */
     private final Map<String, Long> nextAttempts = new HashMap<>();
 
     private final Set<String> done = new HashSet<>();
     private final Map<String, String> waiting = new TreeMap<>();
 
-    /** @param millis monotonic */
+    /**
+     * @param millis monotonic clock, ms
+     */
     AnalyticsReconciler(AnalyticsExecutor executor, JobProgress.Source progress, LongSupplier millis) {
         this.executor = executor;
         this.progress = progress;
         this.millis = millis;
     }
 
-    /** @param desired all replays that there are */
+    /**
+     * @param desired all replays
+     */
     void reconcile(Collection<DesiredAnalytics> desired) throws AnalyticsException {
         Set<String> running = executor.running();
         learn(desired, running);
@@ -64,7 +68,7 @@ final class AnalyticsReconciler {
         waiting.keySet().retainAll(topics);
     }
 
-    /** A sentence for each replay whose jobs wait for room. */
+    /** A sentence for each replay whose jobs wait for slots. */
     Collection<String> waiting() {
         return List.copyOf(waiting.values());
     }
@@ -84,7 +88,7 @@ final class AnalyticsReconciler {
         }
     }
 
-    /** A job whose topic is not there may be one of a replay on another Kafka. */
+    /** A job without its topic may belong to a replay on another Kafka. */
     private boolean hasTopic(ReplayAnalyticsJob job) {
         try {
             return existing.containsKey(job.topic()) || progress.of(job) != null;
@@ -136,7 +140,7 @@ final class AnalyticsReconciler {
         }
     }
 
-    /** Of a replay that is over a job is needed only where it has not read all. */
+    /** After the end of a replay a job is needed only until it has read everything. */
     private boolean isNeeded(ReplayAnalyticsJob job, boolean over) throws AnalyticsException {
         JobProgress now = progress.of(job);
         return now != null && !(over && now.isCaughtUp());
@@ -180,7 +184,7 @@ final class AnalyticsReconciler {
         return true;
     }
 
-    /** Started, and not running yet. */
+    /** Whether it was started but does not run yet. */
     private boolean isStarting(ReplayAnalyticsJob job) {
         Long next = nextAttempts.get(job.name());
         return next != null && millis.getAsLong() < next;

@@ -14,7 +14,7 @@ import java.util.Set;
 import io.furrow.cli.control.ReplayAnalyticsJob;
 import io.furrow.model.file.FileProblem;
 
-/** Analytics of replays on a Flink cluster, by its REST API. The jar is uploaded once, under a name that has its hash. */
+/** Runs analytics of replays on a Flink cluster, through its REST API. The jar is uploaded once, under a name that includes its hash. */
 final class ClusterAnalytics implements AnalyticsExecutor {
     private static final String MAIN = "io.furrow.analytics.AnalyticsJobs";
     private static final int HASH_BYTES = 6;
@@ -26,7 +26,7 @@ final class ClusterAnalytics implements AnalyticsExecutor {
 
     /**
      * @param options for every job, for instance {@code --bootstrap-servers}
-     * @param elastic whether the cluster gets slots for whatever is started
+     * @param elastic whether the cluster adds slots on demand
      */
     ClusterAnalytics(FlinkRest flink, Path jar, List<String> options, boolean elastic) {
         this.flink = flink;
@@ -40,7 +40,7 @@ final class ClusterAnalytics implements AnalyticsExecutor {
         return Set.copyOf(flink.jobs().keySet());
     }
 
-    /** Slots that nobody uses: a job needs one, or as many as its parallelism. */
+    /** Unused slots: a job needs one, or as many as its parallelism. */
     @Override
     public int free() throws AnalyticsException {
         return elastic ? Integer.MAX_VALUE : flink.freeSlots();

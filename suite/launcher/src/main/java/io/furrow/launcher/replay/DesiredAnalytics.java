@@ -7,16 +7,18 @@ import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayStatus;
 
 /**
- * Which analytics jobs a replay wants.
+ * The analytics jobs that a replay requests.
  *
- * @param over whether nothing will come of the replay any more, and all that came is committed
+ * @param over whether the replay has ended and all its records are committed
  */
 record DesiredAnalytics(String topic, List<ReplayAnalyticsJob> jobs, boolean over) {
     DesiredAnalytics {
         jobs = List.copyOf(jobs);
     }
 
-    /** @param status null if there is none yet */
+    /**
+     * @param status null if there is none yet
+     */
     static DesiredAnalytics of(DesiredReplay replay, ReplayStatus status) {
         List<ReplayAnalyticsJob> jobs = replay.plan().analytics().stream()
                 .map(job -> new ReplayAnalyticsJob(job, replay.topic()))
@@ -26,7 +28,7 @@ record DesiredAnalytics(String topic, List<ReplayAnalyticsJob> jobs, boolean ove
         return new DesiredAnalytics(replay.topic(), jobs, over);
     }
 
-    /** Of a replay that is requested no more. */
+    /** The jobs of a replay that is no longer requested. */
     DesiredAnalytics ended() {
         return new DesiredAnalytics(topic, jobs, true);
     }

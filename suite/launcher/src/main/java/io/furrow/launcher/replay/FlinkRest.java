@@ -27,7 +27,7 @@ import io.furrow.model.text.FailureText;
 /** The part of Flink's REST API that uploads a jar, runs it, lists jobs and cancels them. */
 final class FlinkRest {
     private static final Duration CONNECT = Duration.ofSeconds(5);
-    /** A job is planned before its start is answered. */
+    /** Includes planning the job. */
     private static final Duration ANSWER = Duration.ofSeconds(60);
 
     private static final int NOT_FOUND = 404;
@@ -44,7 +44,7 @@ final class FlinkRest {
         this.base = base.toString().replaceAll("/+$", "");
     }
 
-    /** Ids of the jobs that are not over, by name; of two of a name one. */
+    /** Ids by name of the jobs that have not ended; one of several with the same name. */
     Map<String, String> jobs() throws AnalyticsException {
         Map<String, String> jobs = new HashMap<>();
         for (JsonNode job : json(request("/jobs/overview").GET().build()).path("jobs")) {
@@ -61,7 +61,7 @@ final class FlinkRest {
         return json(request("/overview").GET().build()).path("slots-available").asInt();
     }
 
-    /** Id of the jar that was uploaded under a name; null for none. */
+    /** Id of the jar uploaded under a name; null if there is none. */
     String jar(String name) throws AnalyticsException {
         for (JsonNode jar : json(request("/jars").GET().build()).path("files")) {
             if (name.equals(jar.path("name").asText())) {
@@ -103,7 +103,7 @@ final class FlinkRest {
                 .build());
     }
 
-    /** Cancels a job; one that is over already is left. */
+    /** Cancels a job; does nothing if it has ended. */
     void cancel(String job) throws AnalyticsException {
         HttpResponse<byte[]> answer = send(request("/jobs/" + job + "?mode=cancel")
                 .method("PATCH", BodyPublishers.noBody())
@@ -150,7 +150,7 @@ final class FlinkRest {
         }
     }
 
-    /** Flink answers with whole stack traces. */
+    /** The cause within Flink's stack traces. */
     private static String cause(String body) {
         String response = FailureText.ofTrace(body.replace("\\n", "\n"));
         return response.length() <= 300 ? response : response.substring(0, 300) + " …";

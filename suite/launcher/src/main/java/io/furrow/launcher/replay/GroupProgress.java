@@ -20,13 +20,15 @@ import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
 
 import io.furrow.cli.control.ReplayAnalyticsJob;
 
-/** How far jobs are by the offsets that their consumer groups have committed, which they do with each checkpoint. */
+/** Determines the progress of jobs from the offsets that their consumer groups commit with each checkpoint. */
 final class GroupProgress implements JobProgress.Source, AutoCloseable {
     private static final Duration TIMEOUT = Duration.ofSeconds(20);
 
     private final Admin admin;
 
-    /** @param client of Kafka, with {@code bootstrap.servers} */
+    /**
+     * @param client settings of Kafka clients, with {@code bootstrap.servers}
+     */
     GroupProgress(Properties client) {
         this.admin = Admin.create(client);
     }

@@ -3,13 +3,13 @@ package io.furrow.launcher.replay;
 import java.time.Duration;
 
 /**
- * Decides when a job whose replay is over may end: a little after it has read all, so that its last results come, or when it makes no
- * progress. Jobs say how far they are with each checkpoint.
+ * Decides when a job whose replay is over may end: a little after it has read everything, so that its last results are written, or
+ * when it makes no progress. Progress is reported with each checkpoint.
  */
 final class JobEnding {
-    /** Longer than a checkpoint: what is read was not yet written. */
+    /** Longer than a checkpoint, because results are written after their input is read. */
     static final Duration SETTLING = Duration.ofSeconds(12);
-    /** Without progress: more than jobs take to start, and clusters from one checkpoint to the next. */
+    /** Without progress: longer than jobs take to start, and clusters from one checkpoint to the next. */
     static final Duration STALLED = Duration.ofMinutes(5);
 
     private long read = -1;

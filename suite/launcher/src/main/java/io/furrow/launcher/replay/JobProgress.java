@@ -3,19 +3,19 @@ package io.furrow.launcher.replay;
 import io.furrow.cli.control.ReplayAnalyticsJob;
 
 /**
- * How far a job has read its input.
+ * The progress of a job in its input.
  *
- * @param read offsets that it has committed, of all partitions together
- * @param end of the input
+ * @param read sum of its committed offsets in all partitions
+ * @param end sum of the end offsets
  */
 record JobProgress(long read, long end) {
     boolean isCaughtUp() {
         return read >= end;
     }
 
-    /** Reports jobs. */
+    /** Provides the progress of jobs. */
     interface Source {
-        /** @return null if the input is not there */
+        /** @return null if the input does not exist */
         JobProgress of(ReplayAnalyticsJob job) throws AnalyticsException;
     }
 }

@@ -13,8 +13,8 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 /**
- * Follows the replays that are requested and keeps their analytics jobs running, on a thread of its own, until it is closed; the jobs then
- * stay as they are. What is unavailable is asked again.
+ * Follows the requested replays and runs their analytics jobs, on its own thread, until it is closed; jobs then continue to run. Retries
+ * when a server is unavailable.
  */
 public final class ReplayAnalytics implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(ReplayAnalytics.class);
@@ -33,7 +33,9 @@ public final class ReplayAnalytics implements AutoCloseable {
         this.executor = executor;
     }
 
-    /** @param client of Kafka, with {@code bootstrap.servers} */
+    /**
+     * @param client settings of Kafka clients, with {@code bootstrap.servers}
+     */
     public static ReplayAnalytics start(Properties client, AnalyticsExecutor executor) {
         ReplayAnalytics analytics = new ReplayAnalytics(client, executor);
         analytics.thread.setDaemon(true);
@@ -41,7 +43,7 @@ public final class ReplayAnalytics implements AutoCloseable {
         return analytics;
     }
 
-    /** A sentence for each replay whose jobs wait for room. */
+    /** A sentence for each replay whose jobs wait for slots. */
     public Collection<String> waiting() {
         return waiting;
     }

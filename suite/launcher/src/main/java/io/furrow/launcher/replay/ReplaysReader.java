@@ -27,12 +27,14 @@ final class ReplaysReader implements AutoCloseable {
     private final Map<String, ReplayStatus> statuses = new HashMap<>();
     private boolean assigned;
 
-    /** @param client of Kafka, with {@code bootstrap.servers} */
+    /**
+     * @param client settings of Kafka clients, with {@code bootstrap.servers}
+     */
     ReplaysReader(Properties client) {
         reader = CommittedReader.unassigned(client);
     }
 
-    /** Reads what has arrived, or waits for it. @return whether everything is known that existed at the first poll */
+    /** Polls for records. @return whether everything has been read that existed at the first poll */
     boolean poll(Duration timeout) {
         assigned = assigned || reader.assign(TOPICS);
         if (!assigned) {
@@ -59,7 +61,7 @@ final class ReplaysReader implements AutoCloseable {
         }
     }
 
-    /** What each replay wants. */
+    /** The desired jobs of each replay. */
     Collection<DesiredAnalytics> desired() {
         return desired.values().stream()
                 .map(replay -> DesiredAnalytics.of(replay, statuses.get(replay.replay())))

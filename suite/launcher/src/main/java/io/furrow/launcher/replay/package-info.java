@@ -1,2 +1,2 @@
-/** The analytics jobs that belong to replays: started, ended and shown together with them. */
+/** Starts, ends and lists the analytics jobs of replays together with these. */
 package io.furrow.launcher.replay;

@@ -19,13 +19,13 @@ import org.slf4j.LoggerFactory;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * How many records each job has still to read, as Flink's own metric {@code pendingRecords} says (at most 10 s old); of a job
- * with several sources, the one that has most.
+ * Measures the lag of each job in records, by Flink's metric {@code pendingRecords} (at most 10 s old); of a job with several
+ * sources, the greatest.
  */
 final class JobLag {
     private static final Logger LOG = LoggerFactory.getLogger(JobLag.class);
     private static final String METRIC_END = ".pendingRecords";
-    /** How Flink begins the name of a source's vertex, and how Furrow does. */
+    /** The prefixes of a source's vertex by Flink and by Furrow. */
     private static final Pattern SOURCE = Pattern.compile("^(.*\\.)?Source__(Read_)?");
 
     private final HttpClient http =
@@ -41,10 +41,12 @@ final class JobLag {
         this.jobs = jobs;
     }
 
-    /** @param source empty where the job has one alone */
+    /**
+     * @param source empty if the job has only one
+     */
     record Lag(String source, long records) {}
 
-    /** By job; empty for one that has not told yet, or while Flink is too busy to answer. */
+    /** By job; empty if it has not reported yet, or while Flink is too busy to answer. */
     Map<String, Optional<Lag>> read() throws InterruptedException {
         Map<String, Optional<Lag>> lags = new TreeMap<>();
         for (String name : jobs.keySet()) {
@@ -77,7 +79,7 @@ final class JobLag {
         return worst;
     }
 
-    /** A source has the metric when it has read for the first time. */
+    /** A source has the metric after its first read. */
     private record Sources(Map<String, URI> metrics, boolean areAllThere) {}
 
     private Sources find(String job) throws IOException, InterruptedException {

@@ -6,7 +6,7 @@ import java.util.Deque;
 import java.util.HashMap;
 import java.util.Map;
 
-/** Records per second of each topic within the last ten seconds, from totals read one after the other. */
+/** Records per second of each topic within the last ten seconds, computed from successive totals. */
 final class Rates {
     private static final long WINDOW_NANOS = Duration.ofSeconds(10).toNanos();
 
@@ -14,7 +14,7 @@ final class Rates {
 
     private record Sample(long nanos, Map<String, Long> totals) {}
 
-    /** 0 for what is seen the first time. */
+    /** 0 for a new topic. */
     Map<String, Double> next(Map<String, Long> totals, long nowNanos) {
         samples.removeIf(sample -> sample != samples.peekLast() && nowNanos - sample.nanos() > WINDOW_NANOS);
         samples.addLast(new Sample(nowNanos, Map.copyOf(totals)));

@@ -10,7 +10,7 @@ import io.furrow.model.result.CollisionResult;
 import io.furrow.model.result.FieldResult;
 import io.furrow.model.text.Counts;
 
-/** Result entities as one line of text each. */
+/** Formats result entities as one line of text each. */
 final class ResultLines {
     private static final DateTimeFormatter CLOCK =
             DateTimeFormatter.ofPattern("HH:mm:ss").withZone(ZoneId.systemDefault());

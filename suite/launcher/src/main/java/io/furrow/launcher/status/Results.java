@@ -17,7 +17,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/** Reads averages and collisions from the moment it is made, on a thread of its own. */
+/** Reads averages and collisions from its creation on, on its own thread. */
 final class Results implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(Results.class);
 
@@ -25,7 +25,9 @@ final class Results implements AutoCloseable {
     private final Consumer<Entity> listener;
     private final Thread thread = new Thread(this::read, "status-results");
 
-    /** @param listener gets each result entity, always on the same thread */
+    /**
+     * @param listener receives each result entity, always on the same thread
+     */
     Results(Properties client, Consumer<Entity> listener) {
         Properties properties = new Properties();
         properties.putAll(client);

@@ -25,20 +25,20 @@ import io.furrow.model.result.FieldResult;
 import io.furrow.model.text.FailureText;
 
 /**
- * The live status: the newest average of each field, collisions as they happen, each job's lag, records per second and total of each topic
- * that moves. On a terminal it is drawn in place, elsewhere results come as lines and the rest every ten seconds.
+ * The live status: the newest average of each field, collisions as they happen, each job's lag, rate and total of each active topic. On a
+ * terminal it is redrawn in place, elsewhere results are printed as lines and the rest every ten seconds.
  */
 public final class Status implements AutoCloseable {
     private static final int COLLISIONS_SHOWN = 12;
     private static final int SECONDS_BETWEEN_BLOCKS = 10;
 
     /**
-     * What is shown.
+     * The content of the status.
      *
-     * @param client of Kafka
+     * @param client settings of Kafka clients
      * @param jobs ids by name
-     * @param notices a sentence for each thing that waits for somebody
-     * @param addresses where everything is, a line each
+     * @param notices a sentence for each condition that requires action
+     * @param addresses of all parts, a line each
      */
     public record Shown(
             Admin admin,
@@ -61,8 +61,8 @@ public final class Status implements AutoCloseable {
     private long ticks;
 
     /**
-     * @param screen null where the output is not a terminal that can be drawn over
-     * @param suite what is shown
+     * @param screen null if the output is not a terminal that can be redrawn
+     * @param suite the content
      */
     public Status(PrintWriter out, StatusScreen screen, Shown suite) {
         this.out = out;
@@ -78,7 +78,7 @@ public final class Status implements AutoCloseable {
         results.start();
     }
 
-    /** Reads and shows once; to be called every second. A Kafka that does not answer is shown, not fatal. */
+    /** Reads and shows once; must be called every second. An unavailable Kafka is shown, not fatal. */
     public void tick() throws InterruptedException {
         boolean due = screen != null || ticks++ % SECONDS_BETWEEN_BLOCKS == 0;
         if (!due) {

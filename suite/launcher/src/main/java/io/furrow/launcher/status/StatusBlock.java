@@ -4,15 +4,15 @@ import java.util.ArrayList;
 import java.util.List;
 
 /**
- * What the live status says, in the order in which it is wanted: of what has no room the end is left out, and it says how much.
+ * The lines of the live status, most important first: lists that do not fit are cut, with the number of omitted members.
  *
  * @param results averages of fields
  * @param collisions the newest first
- * @param notices a sentence for each thing that waits for somebody
+ * @param notices a sentence for each condition that requires action
  * @param jobs a line each
- * @param topics a line for each that moves, the fastest first
- * @param idle how many other topics there are
- * @param addresses where everything is, first the page
+ * @param topics a line for each active one, the fastest first
+ * @param idle number of other topics
+ * @param addresses of all parts, the page first
  */
 record StatusBlock(
         List<String> results,
@@ -22,17 +22,19 @@ record StatusBlock(
         List<String> topics,
         int idle,
         List<String> addresses) {
-    /** As of old terminals; results leave the other half of that to jobs and topics. */
+    /** Rows of old terminals; results then leave half of the rest to jobs and topics. */
     private static final int FEW = 24;
 
     private static final int SHARES = 4;
 
-    /** All of it. */
+    /** Without a limit. */
     List<String> lines() {
         return lines(Integer.MAX_VALUE);
     }
 
-    /** @param rows how many lines there may be */
+    /**
+     * @param rows maximum number of lines
+     */
     List<String> lines(int rows) {
         List<String> lines = new ArrayList<>();
         int share = Math.max(rows, FEW) / SHARES;
@@ -51,7 +53,9 @@ record StatusBlock(
         return lines;
     }
 
-    /** @param unsaid how many there are beside the members */
+    /**
+     * @param unsaid number of omitted members
+     */
     private static void add(List<String> lines, String title, List<String> members, int unsaid, int share, int rows) {
         int room = Math.min(share, rows - lines.size()) - (title.isEmpty() ? 0 : 1);
         if (room <= 0 || members.isEmpty() && unsaid == 0) {

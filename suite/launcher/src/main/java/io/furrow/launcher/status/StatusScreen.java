@@ -25,8 +25,8 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 /**
- * Draws lines over a whole terminal, cut to its width, and again when its size changes. It uses the alternate screen, so that what stood
- * there before comes back and no scrollback is left. What other threads print meanwhile is printed when it is closed.
+ * Draws lines over a whole terminal, cut to its width, and redraws when its size changes. It uses the alternate screen, so that the
+ * previous content returns and no scrollback is left. Output of other threads is printed when it is closed.
  */
 public final class StatusScreen implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(StatusScreen.class);
@@ -59,12 +59,12 @@ public final class StatusScreen implements AutoCloseable {
         begin();
     }
 
-    /** Null where the output is not a terminal that can be drawn over, or belongs to another process: this one runs in the background. */
+    /** Null if the output is not a terminal that can be redrawn, or belongs to another process because this one runs in the background. */
     public static StatusScreen open() throws IOException {
         if (System.console() == null || isInBackground()) {
             return null;
         }
-        // Ctrl-C stays with the JVM.
+        // The JVM handles Ctrl-C.
         Terminal terminal = TerminalBuilder.builder()
                 .system(true)
                 .dumb(true)
@@ -77,7 +77,7 @@ public final class StatusScreen implements AutoCloseable {
         return new StatusScreen(terminal);
     }
 
-    /** Linux says which group of processes a terminal belongs to. */
+    /** Compares process groups, which Linux reports for a terminal. */
     private static boolean isInBackground() throws IOException {
         if (!Files.isReadable(PROCESS)) {
             return false;
@@ -87,7 +87,9 @@ public final class StatusScreen implements AutoCloseable {
         return !fields[2].equals(fields[5]);
     }
 
-    /** @param lines as many as the screen has rows, at most */
+    /**
+     * @param lines returns at most the given number of rows
+     */
     synchronized void show(IntFunction<List<String>> lines) {
         block = lines;
         draw();
@@ -115,7 +117,7 @@ public final class StatusScreen implements AutoCloseable {
         }
     }
 
-    /** Gives the terminal back as it was. Idempotent, from any thread. */
+    /** Restores the terminal. Idempotent and thread-safe. */
     @Override
     public synchronized void close() {
         if (closed) {

@@ -12,7 +12,7 @@ import org.apache.kafka.clients.admin.OffsetSpec;
 import org.apache.kafka.clients.admin.TopicDescription;
 import org.apache.kafka.common.TopicPartition;
 
-/** How many records each {@code data.*} topic has ever had, read from its end offsets without reading a record. */
+/** Counts all records ever written to each {@code data.*} topic, from end offsets. */
 final class TopicTotals {
     private static final Pattern OURS = Pattern.compile("data\\..+");
 

@@ -1,2 +1,2 @@
-/** What the terminal shows while the suite runs. */
+/** Shows the running suite on the terminal. */
 package io.furrow.launcher.status;

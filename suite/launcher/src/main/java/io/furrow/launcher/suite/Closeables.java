@@ -6,7 +6,7 @@ import java.util.Deque;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-/** What has been started, to be stopped in the opposite order; a part that fails to stop does not keep the others. */
+/** Started parts, to be stopped in reverse order; a part that fails to stop does not prevent the others. */
 public final class Closeables implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(Closeables.class);
 
@@ -15,7 +15,7 @@ public final class Closeables implements AutoCloseable {
 
     private record Part(String name, AutoCloseable closeable) {}
 
-    /** @throws IllegalStateException once these parts have been closed; the part is closed then, too */
+    /** @throws IllegalStateException if these parts have been closed; the part is closed then, too */
     public synchronized <T extends AutoCloseable> T add(String name, T part) {
         started.push(new Part(name, part));
         if (closed) {

@@ -24,16 +24,16 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.Counts;
 import io.furrow.model.topic.Topics;
 
-/** Puts the two NGSI connectors into a Connect cluster through its REST API. */
+/** Creates the two NGSI connectors in a Connect cluster through its REST API. */
 public final class Connectors {
-    /** Results that the context broker refused. */
+    /** The topic of results that the context broker refused. */
     static final String DEAD_RESULTS = Topics.dead("ngsi-sink");
 
     private static final int MAX_RECORD_BYTES = 16 * 1024 * 1024;
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
-    /** Records that come within this time are one batch for all that read them: a fraction of the requests and wake-ups. */
+    /** Records within this time form one batch for all readers, which saves most requests and wake-ups. */
     private static final String LINGER_MS = "25";
-    /** A worker's producer has one request under way; with Kafka's 16 kB it holds a single large record of each partition. */
+    /** A worker's producer has one request in flight; with Kafka's default of 16 kB it holds a single large record per partition. */
     private static final String BATCH_BYTES = "262144";
 
     private static final Duration POLL_INTERVAL = Duration.ofMillis(100);
@@ -50,22 +50,22 @@ public final class Connectors {
         this.fiware = fiware;
     }
 
-    /** For connectors of others. */
+    /** For other connectors. */
     public Connectors(URI connect) {
         this(connect, null, null);
     }
 
     /**
-     * How the source listens.
+     * Settings of the source.
      *
-     * @param journal folder for what Kafka does not have yet
-     * @param allowed hosts and origins beside its own
-     * @param kafka settings of a Kafka client, with which it looks whether Kafka still has what it acknowledged
+     * @param journal folder for notifications that Kafka does not have yet
+     * @param allowed further hosts and origins
+     * @param kafka settings of a Kafka client that checks whether Kafka still has acknowledged records
      */
     record Source(int port, Path journal, AllowedNames allowed, Properties kafka) {}
 
     /**
-     * Creates or changes the source; returns when it listens for notifications and has subscribed to every change.
+     * Creates or updates the source; returns when it listens for notifications and has subscribed to every change.
      *
      * @throws CommandException if the context broker is unavailable or refuses
      */
@@ -111,7 +111,7 @@ public final class Connectors {
         return settings;
     }
 
-    /** A sentence where the context broker says that its notifications do not arrive. */
+    /** A sentence if the context broker reports that its notifications do not arrive. */
     Optional<String> undelivered() {
         JsonNode seen;
         try {
@@ -151,7 +151,7 @@ public final class Connectors {
                 .formatted(contextBroker, TIMEOUT.toSeconds()));
     }
 
-    /** Nothing while nobody listens: of a kept suite the worker still shows the task of before as running. */
+    /** Empty while nothing listens: after a restart the worker still reports the previous task as running. */
     private JsonNode check(URI health) {
         try {
             return rest.get(health, Map.of()).body();
@@ -163,10 +163,7 @@ public final class Connectors {
         }
     }
 
-    /**
-     * Creates or changes the sink that writes results into the context broker; those that it refuses go to
-     * {@link #DEAD_RESULTS}.
-     */
+    /** Creates or updates the sink that writes results to the context broker; refused ones go to {@link #DEAD_RESULTS}. */
     void sink(URI contextBroker, List<String> topics) {
         Map<String, String> settings = toBroker(contextBroker);
         settings.put("connector.class", "io.furrow.connect.sink.NgsiSinkConnector");
@@ -179,7 +176,7 @@ public final class Connectors {
         put("ngsi-sink", settings);
     }
 
-    /** Creates or changes a connector and returns when its first task runs. */
+    /** Creates or updates a connector and returns when its first task runs. */
     public void put(String name, Map<String, String> settings) {
         ObjectNode body = NgsiJson.mapper().createObjectNode();
         settings.forEach(body::put);

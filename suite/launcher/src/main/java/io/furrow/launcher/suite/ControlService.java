@@ -29,7 +29,7 @@ import io.furrow.launcher.process.Sleep;
 import io.furrow.provisioner.Provisioner;
 import io.furrow.provisioner.ProvisioningSettings;
 
-/** The control plane in this JVM: managers, REST API, watch over the farm, and who provisions the devices of missions. */
+/** The control plane in this JVM: managers, REST API, alarms, and the provisioner of the devices of missions. */
 public final class ControlService implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(ControlService.class);
     private static final Duration START_TIMEOUT = Duration.ofSeconds(60);
@@ -47,11 +47,10 @@ public final class ControlService implements AutoCloseable {
     }
 
     /**
-     * Starts the managers and waits until they answer, but no longer than a minute: after a crash of the brokers they can take longer
-     * to agree who does what, and a process that ended for that would be one more that the others wait for. Who needs to know asks
-     * {@code /ready}.
+     * Starts the managers and waits until they answer, at most a minute: after a crash of the brokers a rebalance can take longer, and
+     * ending the process would prolong it. Use {@code /ready} to find out.
      *
-     * @return the state in which they are then
+     * @return their state then
      */
     public String startManagers() throws IOException {
         kafka = parts.add("Kafka probe", Probe.kafka(settings.client()));
@@ -69,7 +68,7 @@ public final class ControlService implements AutoCloseable {
     }
 
     /**
-     * Begins to take commands, and to act.
+     * Begins to accept and execute commands.
      *
      * @param healthPort of the pages for probes, 0 for a free one
      * @param provisioning null if no devices are provisioned
@@ -96,7 +95,7 @@ public final class ControlService implements AutoCloseable {
         return api.uri();
     }
 
-    /** Shows how the connectors of a Kafka Connect are, and raises alarms of those that failed. @param connect base of its REST API */
+    /** Monitors the connectors of a Kafka Connect and raises alarms for failed ones. @param connect base of its REST API */
     public void watchConnectors(URI connect) {
         ConnectorWatch watch = parts.add("connector watch", ConnectorWatch.start(connect, settings.client()));
         readiness.showAll(watch::statuses);
@@ -118,7 +117,9 @@ public final class ControlService implements AutoCloseable {
         readiness.require(status);
     }
 
-    /** @param base null if there is none */
+    /**
+     * @param base null if there is none
+     */
     private void show(String name, URI base, String path) {
         if (base != null) {
             Probe probe = parts.add(
@@ -127,7 +128,7 @@ public final class ControlService implements AutoCloseable {
         }
     }
 
-    /** Whether Kafka has answered within the last seconds, where it was asked. */
+    /** Whether Kafka has answered recent requests. */
     public boolean reachesKafka() {
         return kafka == null || kafka.status().state() == ComponentStatus.State.UP;
     }

@@ -14,7 +14,7 @@ import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.launcher.replay.AnalyticsException;
 import io.furrow.launcher.replay.AnalyticsExecutor;
 
-/** Analytics of replays on the suite's Flink, in slots that are there for nothing else. */
+/** Runs analytics of replays on the suite's Flink, in reserved slots. */
 final class EmbeddedAnalytics implements AnalyticsExecutor {
     /** Four replays with all three jobs each. */
     static final int SLOTS = 12;
@@ -24,7 +24,9 @@ final class EmbeddedAnalytics implements AnalyticsExecutor {
     private final SuiteJobs plans;
     private final Set<String> others;
 
-    /** @param jobs with those that belong to no replay */
+    /**
+     * @param jobs includes those that belong to no replay
+     */
     EmbeddedAnalytics(EmbeddedFlink flink, Jobs jobs, SuiteJobs plans) {
         this.flink = flink;
         this.jobs = jobs;

@@ -11,17 +11,17 @@ import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.FarmSecretCodec;
 import io.furrow.model.file.PrivateFile;
 
-/** Where the farm's secret is. It is made where a farm begins, and never where one continues: another shuts every device out. */
+/** The file of the farm's secret. It is created for a new farm only: for an existing one, a new secret would lock out every device. */
 public final class FarmSecretFile {
     private static final String NAME = "farm-secret";
 
     private FarmSecretFile() {}
 
     /**
-     * The file of a suite: the one that is named, else that in its directory, where it is made if nothing else is there yet.
+     * The file of a suite: the configured one, else that in its directory, which is created if the directory is fresh.
      *
      * @param named null for the one in the directory
-     * @throws CommandException if it is not there; the message says what to do
+     * @throws CommandException if it does not exist; the message says what to do
      */
     static Path of(RunDirectory directory, Path named) {
         Path file = named == null ? directory.resolve(NAME) : named;
@@ -42,9 +42,9 @@ public final class FarmSecretFile {
     }
 
     /**
-     * Refuses to make a secret that ends with the suite while something that knows it continues: the next start would have another.
+     * Refuses to create a temporary secret when parts outlive the suite: the next start would create another.
      *
-     * @throws CommandException saying what to name
+     * @throws CommandException stating which file to name
      */
     static void requireLasting(RunDirectory directory, SuiteSettings settings) {
         SuiteSettings.Farm farm = settings.farm();
@@ -57,7 +57,7 @@ public final class FarmSecretFile {
         }
     }
 
-    /** Creates the file with a new secret. @throws FileAlreadyExistsException if there is such a file */
+    /** Creates the file with a new secret. @throws FileAlreadyExistsException if it exists */
     public static FarmSecret make(Path file) throws IOException {
         FarmSecret secret = FarmSecret.generate();
         PrivateFile.create(file, FarmSecretCodec.write(secret));
@@ -68,7 +68,7 @@ public final class FarmSecretFile {
      * Opens a file that is followed while the process runs.
      *
      * @param client settings of Kafka clients
-     * @param replaced fingerprint of a secret of the farm that this one takes the place of; null for none
+     * @param replaced fingerprint of the farm's former secret; null for none
      * @throws CommandException if it cannot be read or is not a secret; the message says what to do
      */
     public static SecretFile open(Path file, Properties client, String replaced) {

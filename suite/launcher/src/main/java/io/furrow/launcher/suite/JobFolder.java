@@ -13,12 +13,12 @@ final class JobFolder {
 
     private JobFolder() {}
 
-    /** As Flink takes it: a URI whose path stands as it is, without percent-encoding. */
+    /** As Flink expects it: a URI whose path is not percent-encoded. */
     static String location(Path folder) {
         return new org.apache.flink.core.fs.Path(folder.toUri()).toString();
     }
 
-    /** Deletes it with all that it holds, if it is there; what cannot be deleted stays. */
+    /** Deletes the folder and its content, if it exists, as far as possible. */
     static void delete(Path folder) {
         try {
             Utils.delete(folder.toFile());

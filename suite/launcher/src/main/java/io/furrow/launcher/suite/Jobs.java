@@ -23,20 +23,22 @@ import io.furrow.cli.option.CommandException;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.launcher.process.Sleep;
 
-/** The jobs of the suite on its Flink: each continues from its newest state below a directory, if there is any. */
+/** The jobs of the suite on its Flink: each continues from its newest state below a directory, if there is one. */
 final class Jobs {
     private static final Logger LOG = LoggerFactory.getLogger(Jobs.class);
     private static final long SAVEPOINT_SECONDS = 4;
     private static final Duration CHECKPOINT = Duration.ofSeconds(1);
     private static final Duration CHECK_INTERVAL = Duration.ofMillis(10);
-    /** Within one process a record need not wait for company, and a thread per task need not look for those that do. */
+    /** Within one process records need not be batched, and no thread per task is needed to flush buffers. */
     private static final long AT_ONCE = 0;
 
     private final EmbeddedFlink flink;
     private final Path directory;
     private final Map<String, JobID> running = new LinkedHashMap<>();
 
-    /** @param directory holds a folder per job, with its checkpoints and savepoints */
+    /**
+     * @param directory has a folder per job, with its checkpoints and savepoints
+     */
     Jobs(EmbeddedFlink flink, Path directory) {
         this.flink = flink;
         this.directory = directory;
@@ -53,7 +55,7 @@ final class Jobs {
     }
 
     /**
-     * Waits until each job has found its state.
+     * Waits until each job has restored its state.
      *
      * @throws CommandException if one cannot continue from it
      */
@@ -79,7 +81,7 @@ final class Jobs {
         return Map.copyOf(running);
     }
 
-    /** Ends a job, if it runs, and forgets its state: one of the same name begins again. */
+    /** Ends a job, if it runs, and deletes its state: another of the same name starts afresh. */
     synchronized void cancel(String name) {
         JobID job = running.remove(name);
         if (job != null && !flink.status(job).isGloballyTerminalState()) {
@@ -89,7 +91,7 @@ final class Jobs {
         JobFolder.delete(directory.resolve(name));
     }
 
-    /** Checkpoints may be under way until the job is over. */
+    /** Checkpoints may be in progress until the job has ended. */
     private void awaitEnd(JobID job) {
         long end = System.nanoTime() + TimeUnit.SECONDS.toNanos(SAVEPOINT_SECONDS);
         while (System.nanoTime() < end && !flink.status(job).isGloballyTerminalState()) {
@@ -97,7 +99,7 @@ final class Jobs {
         }
     }
 
-    /** Stops each job with a savepoint, so that nothing is done twice after the next start. */
+    /** Stops each job with a savepoint, so that nothing is processed twice after the next start. */
     synchronized void stop() {
         Map<String, CompletableFuture<String>> savepoints = new LinkedHashMap<>();
         long end = System.nanoTime() + CHECKPOINT.toNanos();
@@ -113,7 +115,7 @@ final class Jobs {
         return flink.cluster().stopWithSavepoint(job, savepoints, false, SavepointFormatType.NATIVE);
     }
 
-    /** Waits for a checkpoint that is under way: a stop would abort it, which Flink reports as a failure. */
+    /** Waits for a checkpoint in progress: a stop would abort it, which Flink reports as a failure. */
     private void awaitCheckpoint(JobID job, long end) {
         while (System.nanoTime() < end && isTakingCheckpoint(job)) {
             Sleep.of(CHECK_INTERVAL);

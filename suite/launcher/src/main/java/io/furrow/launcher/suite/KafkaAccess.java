@@ -22,7 +22,7 @@ import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
-/** The Kafka cluster of a suite, ours or another's, and how each kind of client reaches it. */
+/** The Kafka cluster of a suite, embedded or external, and the settings of each kind of client. */
 public final class KafkaAccess implements AutoCloseable {
     private static final int PARTITIONS = 4;
     private static final long SECONDS = 20;
@@ -50,7 +50,9 @@ public final class KafkaAccess implements AutoCloseable {
         this.admin = Admin.create(clientProperties());
     }
 
-    /** @param propertiesFile for every client; null for none */
+    /**
+     * @param propertiesFile for every client; null for none
+     */
     public static KafkaAccess to(String bootstrapServers, Path propertiesFile) {
         return new KafkaAccess(bootstrapServers, propertiesFile, KafkaClient.read(propertiesFile));
     }
@@ -75,7 +77,7 @@ public final class KafkaAccess implements AutoCloseable {
         return Optional.ofNullable(propertiesFile);
     }
 
-    /** For the Connect worker, which keeps the settings of its own clients and of those of connectors apart. */
+    /** For the Connect worker, which separates the settings of its own clients from those of connectors. */
     Map<String, String> connectSettings() {
         Map<String, String> settings = new HashMap<>();
         for (String name : properties.stringPropertyNames()) {
@@ -86,7 +88,7 @@ public final class KafkaAccess implements AutoCloseable {
         return settings;
     }
 
-    /** Makes the topics that are read before anybody writes to them; those that exist stay as they are. */
+    /** Creates the topics that are read before the first write; existing ones stay unchanged. */
     void ensureTopics() throws InterruptedException {
         boolean isAlone = hasOneBroker();
         for (String topic : TOPICS) {
@@ -116,7 +118,7 @@ public final class KafkaAccess implements AutoCloseable {
         }
     }
 
-    /** Without a replica what is not on the disk is lost with it. */
+    /** Without a replica, records that are not on disk are lost. */
     private boolean hasOneBroker() throws InterruptedException {
         try {
             return admin.describeCluster()

@@ -3,16 +3,16 @@ package io.furrow.launcher.suite;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CompletionException;
 
-/** Steps of a start that need not wait for each other, each on a thread of its own. */
+/** Runs independent steps of a start in parallel, each on its own thread. */
 final class ParallelStart {
     private ParallelStart() {}
 
-    /** A step of the start; declared because {@code Callable} wants a result. */
+    /** A step of the start; unlike {@code Callable}, without a result. */
     interface Step {
         void run() throws Exception;
     }
 
-    /** Returns when all have ended. @throws CompletionException with what one of them threw */
+    /** Returns when all have ended. @throws CompletionException with the exception of one of them */
     static void run(Step... steps) {
         CompletableFuture<?>[] all = new CompletableFuture<?>[steps.length];
         for (int i = 0; i < steps.length; i++) {

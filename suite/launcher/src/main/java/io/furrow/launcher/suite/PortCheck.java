@@ -16,7 +16,7 @@ public final class PortCheck {
 
     private record Port(String host, int number, String what, String option) {}
 
-    /** @throws CommandException if somebody listens on a port that a suite of these settings needs */
+    /** @throws CommandException if a port that a suite with these settings needs is in use */
     static void free(SuiteSettings settings) {
         SuiteSettings.Ports ports = settings.ports();
         String loopback = InetAddress.getLoopbackAddress().getHostAddress();
@@ -43,7 +43,7 @@ public final class PortCheck {
     }
 
     /**
-     * @param host address of this machine, on which the port will be opened
+     * @param host local address on which the port will be opened
      * @param number 0 for a free one
      * @param option the option that sets the port
      */
@@ -52,7 +52,7 @@ public final class PortCheck {
         return this;
     }
 
-    /** @throws CommandException naming each port on which somebody listens, or that two parts would have */
+    /** @throws CommandException naming each port that is in use, or configured twice */
     public void requireFree() {
         List<Port> taken = new ArrayList<>();
         List<ServerSocket> held = new ArrayList<>(); // until all are looked at, so that no two parts have the same

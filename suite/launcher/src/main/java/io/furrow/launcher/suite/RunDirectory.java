@@ -33,7 +33,7 @@ public final class RunDirectory implements AutoCloseable {
     private static final int DELETIONS = 100;
     private static final Duration DELETION_INTERVAL = Duration.ofMillis(20);
     private static final String LOCK = "lock";
-    /** What a start that was refused leaves, and a file system of its own has. */
+    /** Files left by a refused start, and those of a separate file system. */
     private static final Pattern WITHOUT_DATA =
             Pattern.compile(Pattern.quote(LOCK) + "|furrow\\.log(\\.\\d+)?|lost\\+found");
 
@@ -79,7 +79,7 @@ public final class RunDirectory implements AutoCloseable {
         }
     }
 
-    /** Java's messages are the path alone. */
+    /** Java's messages consist of the path alone. */
     private static String reason(IOException e) {
         if (e instanceof FileAlreadyExistsException) {
             return e.getMessage() + " is not a directory";
@@ -89,7 +89,7 @@ public final class RunDirectory implements AutoCloseable {
         return e instanceof NoSuchFileException ? "there is no " + e.getMessage() : e.getMessage();
     }
 
-    /** What is kept holds passwords and API keys of devices: nobody else may look into a directory that is made for it. */
+    /** Stored data includes passwords and API keys of devices, so that a new directory is private. */
     private static Path make(Path directory) throws IOException {
         if (Files.isDirectory(directory)) {
             return directory;
@@ -116,7 +116,7 @@ public final class RunDirectory implements AutoCloseable {
         return writers.add("what writes to " + path, part);
     }
 
-    /** For an owner who has a shutdown hook and closes this directory in it. */
+    /** For an owner with a shutdown hook that closes this directory. */
     public void leaveToItsOwner() {
         forgetShutdown();
     }
@@ -134,7 +134,7 @@ public final class RunDirectory implements AutoCloseable {
         }
     }
 
-    /** Whether no suite has kept anything in it before this one. */
+    /** Whether no earlier suite has stored anything in it. */
     boolean isFresh() {
         return fresh;
     }
@@ -176,7 +176,7 @@ public final class RunDirectory implements AutoCloseable {
         return channel;
     }
 
-    /** Again and again while something that has not stopped yet still writes or deletes here. */
+    /** Repeats while a part that has not stopped yet writes or deletes here. */
     private void delete() throws IOException {
         for (int attempt = 1; Files.exists(path); attempt++) {
             try {

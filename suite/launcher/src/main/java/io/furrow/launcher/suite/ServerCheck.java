@@ -38,7 +38,7 @@ import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.text.FailureText;
 import io.furrow.simulators.mqtt.MqttAccess;
 
-/** Finds the servers that options name and that do not answer, before anything is started beside them. */
+/** Finds configured servers that do not answer, before anything is started. */
 public final class ServerCheck {
     private static final Duration TIMEOUT = Duration.ofSeconds(3);
     private static final Duration POLL_INTERVAL = Duration.ofSeconds(1);
@@ -49,7 +49,7 @@ public final class ServerCheck {
     private final List<Server> servers = new ArrayList<>();
 
     /**
-     * @param address for people, without a password
+     * @param address for messages, without a password
      * @param what as in {@code the context broker}
      */
     private record Server(String option, String address, String what, Callable<Void> question) {}
@@ -185,9 +185,10 @@ public final class ServerCheck {
     }
 
     /**
-     * Returns when Kafka answers, or at the stop. Tells once, after some seconds, that it does not: it may be started after this process.
+     * Returns when Kafka answers, or at the stop. Prints once, after some seconds, that it does not: it may be started after this
+     * process.
      *
-     * @param err for people
+     * @param err for messages
      */
     public static void awaitKafka(Properties client, PrintWriter err, CountDownLatch stop) throws InterruptedException {
         boolean problem = false;

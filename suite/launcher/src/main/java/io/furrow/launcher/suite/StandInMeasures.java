@@ -6,7 +6,7 @@ import io.furrow.fiware.agent.MeasureHistory;
 import io.furrow.model.device.DeviceConnection.UnreadablePayload;
 import io.furrow.provisioner.MeasureReports;
 
-/** What the stand-in of the IoT Agent could not read. */
+/** Measures that the stand-in of the IoT Agent could not read. */
 record StandInMeasures(MeasureHistory history) implements MeasureReports {
     @Override
     public Optional<UnreadablePayload> unreadable(String apiKey, String device) {

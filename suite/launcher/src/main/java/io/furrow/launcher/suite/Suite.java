@@ -35,14 +35,14 @@ import io.furrow.provisioner.account.InMemoryAccounts;
 import io.furrow.simulators.device.FleetSettings;
 
 /**
- * Everything at work in this JVM: broker, Connect worker with our connectors, Flink with our jobs, the control plane, and, unless
- * a context broker was named, an MQTT broker and the FIWARE stand-in. Listens on 127.0.0.1 only, unless told otherwise for
+ * All parts in this JVM: broker, Connect worker with our connectors, Flink with our jobs, the control plane, and, without an
+ * external context broker, an MQTT broker and the FIWARE stand-in. Listens on 127.0.0.1 only, unless configured otherwise for
  * notifications and MQTT.
  */
 public final class Suite implements AutoCloseable {
     /** The MQTT user of the demonstration, who may publish as any device. */
     public static final String MQTT_USER = "device";
-    /** Its password; good enough for a broker that only this machine reaches. */
+    /** Its password; sufficient for a broker that only this machine reaches. */
     public static final String MQTT_PASSWORD = "furrow";
 
     private static final String AGENT_USER = "iot-agent";
@@ -80,10 +80,10 @@ public final class Suite implements AutoCloseable {
     }
 
     /**
-     * Starts everything and returns when notifications are taken and all jobs run.
+     * Starts everything and returns when notifications are accepted and all jobs run.
      *
      * @param directory for all files; outlives the suite
-     * @throws CommandException if something cannot be had; nothing is left running then
+     * @throws CommandException if a part cannot start; everything is stopped then
      */
     public static Suite start(SuiteSettings settings, RunDirectory directory, Progress progress) throws Exception {
         Suite suite = directory.closingFirst(new Suite(settings, directory, progress));
@@ -107,10 +107,10 @@ public final class Suite implements AutoCloseable {
         PortCheck.free(settings);
         ServerCheck.answering(settings);
         LogFile.writeTo(directory.resolve("furrow.log"));
-        // Before anything is kept, so that a directory with data has its secret.
+        // Before any data is stored, so that a directory with data has its secret.
         Path secret = FarmSecretFile.of(directory, settings.farm().secret().file());
         startKafka();
-        // Stopped the other way round: devices, jobs, connectors, and then what these write to.
+        // Stopped in reverse order: devices, jobs, connectors, and then the servers that these write to.
         parts.add("MQTT and FIWARE", fiwareParts);
         parts.add("Connect", connectParts);
         parts.add("Flink and MongoDB", flinkParts);
@@ -205,7 +205,7 @@ public final class Suite implements AutoCloseable {
         });
     }
 
-    /** In this order: kept connectors run as soon as their worker does. */
+    /** In this order, because stored connectors run as soon as their worker does. */
     private void startFiwareAndConnect() throws Exception {
         startFiware();
         startConnect();
@@ -228,7 +228,7 @@ public final class Suite implements AutoCloseable {
         contextBroker = fiware.contextBroker();
     }
 
-    /** Of those who may do everything. */
+    /** Passwords of users with all permissions. */
     private Map<String, String> passwords() {
         return settings.sharedLogin()
                 ? Map.of(AGENT_USER, agentPassword, MQTT_USER, MQTT_PASSWORD)
@@ -294,12 +294,12 @@ public final class Suite implements AutoCloseable {
         return flink.webUi();
     }
 
-    /** Where the page is. */
+    /** Address of the page. */
     public URI dashboard() {
         return dashboard;
     }
 
-    /** Where notifications are taken. */
+    /** Address of the listener for notifications. */
     public URI listener() {
         return listener;
     }
@@ -320,7 +320,7 @@ public final class Suite implements AutoCloseable {
                         Map.Entry::getKey, job -> job.getValue().toHexString()));
     }
 
-    /** A sentence for each replay whose analytics waits for room, and for a context broker that cannot notify this suite. */
+    /** A sentence for each replay whose analytics waits for slots, and for a context broker that cannot notify this suite. */
     public Collection<String> notices() {
         return hasStandIn()
                 ? replays.waiting()
@@ -328,7 +328,7 @@ public final class Suite implements AutoCloseable {
                         .toList();
     }
 
-    /** How devices reach MQTT and the stand-in; only without a context broker of one's own. */
+    /** Access of devices to MQTT and the stand-in; only without an external context broker. */
     public FleetSettings devices() {
         return new FleetSettings(
                 contextBroker,
@@ -354,12 +354,12 @@ public final class Suite implements AutoCloseable {
         return settings.fiware().scope().service();
     }
 
-    /** Whether the MQTT broker and the stand-in are ours. */
+    /** Whether the MQTT broker and the stand-in are embedded. */
     public boolean hasStandIn() {
         return fiware != null;
     }
 
-    /** Stops everything in the opposite order; of a kept suite the jobs with a savepoint. Idempotent. */
+    /** Stops everything in reverse order; jobs of a persistent suite with a savepoint. Idempotent. */
     @Override
     public void close() {
         if (replays != null) {

@@ -25,7 +25,7 @@ import io.furrow.simulators.host.DeviceHost;
 import io.furrow.simulators.host.HostSettings;
 import io.furrow.simulators.mqtt.MqttAccess;
 
-/** The control plane of a suite, and who simulates the devices of its missions. */
+/** The control plane of a suite with the simulator of its missions' devices. */
 final class SuiteControl implements AutoCloseable {
     private final SuiteSettings suite;
     private final Path secret;
@@ -36,7 +36,7 @@ final class SuiteControl implements AutoCloseable {
     private URI api;
 
     /**
-     * What devices of missions meet.
+     * The servers that devices of missions use.
      *
      * @param iotAgent null if none are provisioned
      * @param mqtt null if none are simulated
@@ -58,7 +58,7 @@ final class SuiteControl implements AutoCloseable {
                     new ConnectionSources(List.of(accounts), new StandInMeasures(fiware.history())));
         }
 
-        /** Those that were there before. */
+        /** External ones. */
         static Endpoints of(URI contextBroker, SuiteSettings.Farm farm) {
             return new Endpoints(
                     contextBroker,
@@ -71,7 +71,7 @@ final class SuiteControl implements AutoCloseable {
 
     /**
      * @param secret file of the farm's secret
-     * @param mongo connection string of the MongoDB that keeps the missions
+     * @param mongo connection string of the MongoDB of missions
      */
     SuiteControl(SuiteSettings suite, KafkaAccess kafka, RunDirectory directory, Path secret, String mongo) {
         this.suite = suite;
@@ -87,13 +87,13 @@ final class SuiteControl implements AutoCloseable {
         this.service = new ControlService(settings);
     }
 
-    /** @return the state in which they are then: they answer */
+    /** @return their state once they answer */
     String startManagers() throws IOException {
         return service.startManagers();
     }
 
     /**
-     * Begins to take commands, and to run the devices of missions.
+     * Begins to accept commands, and to run the devices of missions.
      *
      * @param connect base of Kafka Connect's REST API
      */

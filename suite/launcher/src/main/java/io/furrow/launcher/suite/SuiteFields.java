@@ -31,8 +31,8 @@ import io.furrow.model.field.RejectedFeature;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * The fields with which a suite starts, on {@code service.fields} as {@code ./furrow fields import} would put them there, valid from
- * the beginning of time: what is imported while the suite runs comes after them.
+ * The initial fields of a suite, written to {@code service.fields} as by {@code ./furrow fields import}, valid from the beginning of time:
+ * imports at run time come after them.
  */
 final class SuiteFields {
     /** In the run directory. */
@@ -48,10 +48,10 @@ final class SuiteFields {
     }
 
     /**
-     * Reads the settings' file before anything is started for it.
+     * Validates the settings' file before anything is started.
      *
-     * @return what was repaired, field by field
-     * @throws CommandException if the file cannot be used wholly
+     * @return the repairs, field by field
+     * @throws CommandException if any part of the file is invalid
      */
     static List<String> requireUsable(SuiteSettings settings) {
         if (settings.fields() == null) {
@@ -73,10 +73,10 @@ final class SuiteFields {
     }
 
     /**
-     * Writes the fields of the settings' file as those of all times before the first import, and ends others of them; without one those of the demonstration farm, if the broker is the suite's own and
-     * has no fields yet.
+     * Writes the fields of the settings' file as the initial ones of the farm, and ends other initial ones; without a file those of the
+     * demonstration farm, if the broker is the suite's own and has no fields yet.
      *
-     * @throws CommandException if the file cannot be used wholly
+     * @throws CommandException if any part of the file is invalid
      */
     List<FieldVersion> write(SuiteSettings settings, RunDirectory directory) throws IOException {
         Path file = settings.fields();
@@ -98,7 +98,7 @@ final class SuiteFields {
     }
 
     /**
-     * Writes the exclusion zones among the fields that hold now as a GeoJSON file of the job {@code collision}.
+     * Writes the current exclusion zones among the fields as a GeoJSON file for the job {@code collision}.
      *
      * @return empty if there are none
      */
@@ -136,7 +136,7 @@ final class SuiteFields {
         }
     }
 
-    /** A reason of the import, whose options a suite has not. */
+    /** Adapts a message of the import, whose options a suite does not have. */
     private static String withCommand(String reason) {
         return reason.replaceFirst("--[a-z]+(-[a-z]+)*", "the option $0 of ./furrow fields import");
     }

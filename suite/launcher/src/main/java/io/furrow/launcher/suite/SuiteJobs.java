@@ -24,7 +24,7 @@ import io.furrow.model.result.AnalyticsKind;
 import io.furrow.replay.ReplayJob;
 import io.furrow.replay.ReplayOptions;
 
-/** The jobs of a suite, set up with the same words that one would say to {@code flink run}. */
+/** The jobs of a suite, configured with the same arguments as for {@code flink run}. */
 final class SuiteJobs {
     /** Folder of stored images in the run directory. */
     static final String IMAGES = "images";
@@ -44,7 +44,7 @@ final class SuiteJobs {
     /**
      * By name.
      *
-     * @throws CommandException if a job refuses its options, in the job's own words
+     * @throws CommandException if a job rejects its options, with the job's message
      */
     Map<String, StreamExecutionEnvironment> all() {
         try {
@@ -57,7 +57,7 @@ final class SuiteJobs {
     /**
      * An analytics job on a replay, with the settings of the live one.
      *
-     * @throws CommandException if it refuses its options
+     * @throws CommandException if it rejects its options
      */
     StreamExecutionEnvironment ofReplay(ReplayAnalyticsJob replay) {
         try {

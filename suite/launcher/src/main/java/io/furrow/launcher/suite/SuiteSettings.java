@@ -23,19 +23,19 @@ import io.furrow.provisioner.account.MosquittoLog;
 import io.furrow.provisioner.account.MqttAccounts;
 
 /**
- * How a suite is to be started.
+ * The settings of a suite.
  *
  * @param kafkaProperties for every Kafka client; null for none
- * @param fiware the missions' part of the context broker, and how it is reached
+ * @param fiware the missions' part of the context broker, and access to it
  * @param window of the temperature job, for instance {@code 10s}
- * @param fields a file; null for what is on the topic, or on an own broker without fields for the demonstration farm's
- * @param orion a context broker that already runs; null to start the stand-in
- * @param kafka bootstrap servers that already run; null to start a broker
- * @param mongo URI of a MongoDB that already runs; null to start a server
+ * @param fields a file; null for those on the topic, or of the demonstration farm on an embedded broker without fields
+ * @param orion an existing context broker; null to start the stand-in
+ * @param kafka bootstrap servers of an existing cluster; null to start a broker
+ * @param mongo URI of an existing MongoDB; null to start a server
  * @param farm how devices of missions are provisioned and hosted
- * @param watch what is done about alarms
- * @param allowed hosts and origins of every HTTP server beside their own
- * @param sharedLogin whether the suite's own MQTT broker has a login that may publish as any device
+ * @param watch settings for alarms
+ * @param allowed further hosts and origins of every HTTP server
+ * @param sharedLogin whether the embedded MQTT broker has a login that may publish as any device
  */
 public record SuiteSettings(
         Path kafkaProperties,
@@ -55,7 +55,7 @@ public record SuiteSettings(
      * FIWARE servers.
      *
      * @param scope tenant and service path of the missions' devices
-     * @param tokenFile of the token that servers which already run are sent; null for none
+     * @param tokenFile file of the token for existing servers; null for none
      * @param tokenHeader its header
      * @param token the same
      * @param listening where they and devices reach this suite
@@ -69,17 +69,17 @@ public record SuiteSettings(
     }
 
     /**
-     * Where notifications and measures arrive.
+     * The listeners for notifications and measures.
      *
      * @param host address of the listener for notifications
      * @param publicUrl of that listener for the context broker; null for address and port
      * @param secret file of the secret of notifications; null for none
-     * @param mqttHost address of the suite's MQTT broker
+     * @param mqttHost address of the embedded MQTT broker
      */
     public record Listening(String host, URI publicUrl, Path secret, String mqttHost) {
         public static final Listening LOOPBACK = new Listening("127.0.0.1", null, null, "127.0.0.1");
 
-        /** Address at which this machine reaches a server that listens on it. */
+        /** The address by which this machine reaches a server that listens on it. */
         static String here(String host) {
             String address = "0.0.0.0".equals(host) ? "127.0.0.1" : "::".equals(host) ? "::1" : host;
             return address.contains(":") ? "[" + address + "]" : address;
@@ -106,15 +106,15 @@ public record SuiteSettings(
     }
 
     /**
-     * Devices of missions.
+     * Settings for devices of missions.
      *
-     * @param iotAgent one that already runs, beside a context broker that does; null for none, or for the stand-in
-     * @param mqtt MQTT broker that already runs, likewise
-     * @param mqttPublic the MQTT broker as devices reach it; null for as it is reached here
+     * @param iotAgent an existing one, with an existing context broker; null for none, or for the stand-in
+     * @param mqtt an existing MQTT broker, likewise
+     * @param mqttPublic the MQTT broker as devices reach it; null if it is reached as here
      * @param mqttTrusted PEM file with the certificates to trust there; null for those that Java trusts
      * @param accounts files in which that broker finds the accounts of devices
      * @param secret of the farm
-     * @param tokens file of those who may command; null for all who reach the API
+     * @param tokens file of the tokens for commands; null for unrestricted access
      * @param missions how missions are run
      */
     public record Farm(
@@ -126,7 +126,7 @@ public record SuiteSettings(
             Secret secret,
             Path tokens,
             Missions missions) {
-        /** Simulated devices on the stand-in and the suite's own MQTT broker. */
+        /** Simulated devices on the stand-in and the embedded MQTT broker. */
         public static final Farm SIMULATED = new Farm(
                 null,
                 null,
@@ -139,11 +139,11 @@ public record SuiteSettings(
     }
 
     /**
-     * How missions are run.
+     * Settings for running missions.
      *
      * @param startTimeout after which devices that have not come up are missing
      * @param simulates whether a host of simulated devices is started
-     * @param simulatedByDefault whether devices are simulated that do not say so
+     * @param simulatedByDefault whether devices are simulated by default
      */
     public record Missions(Duration startTimeout, boolean simulates, boolean simulatedByDefault) {}
 
@@ -151,27 +151,27 @@ public record SuiteSettings(
      * The farm's secret.
      *
      * @param file null for one in the suite's directory
-     * @param replaced fingerprint of the secret that it takes the place of; null for none
+     * @param replaced fingerprint of the former secret; null for none
      */
     public record Secret(Path file, String replaced) {}
 
     /**
-     * Mosquitto's files of users and their rights.
+     * Mosquitto's files of users and their permissions.
      *
      * @param passwords null for none
      * @param rules null for none
-     * @param reload run after a change; null for nothing
-     * @param gateways whether each mission has an account that speaks for all its devices
+     * @param reload command after a change; null for none
+     * @param gateways whether each mission has an account that publishes for all its devices
      * @param log Mosquitto's; null for none
-     * @param forgets whether accounts and devices are removed that were made for another Kafka
+     * @param forgets whether to remove accounts and devices that were created for another Kafka
      */
     public record AccountFiles(Path passwords, Path rules, String reload, boolean gateways, Path log, boolean forgets) {
-        /** What the broker's log says of logins. */
+        /** Logins according to the broker's log. */
         public ConnectionSources connections() {
             return new ConnectionSources(log == null ? List.of() : List.of(new MosquittoLog(log)), MeasureReports.NONE);
         }
 
-        /** The accounts of an MQTT broker that has these files; none where none are named. */
+        /** The accounts of an MQTT broker with these files; empty without files. */
         public List<MqttAccounts> accounts() {
             if (passwords == null && rules == null) {
                 return List.of();
@@ -186,17 +186,19 @@ public record SuiteSettings(
     }
 
     /**
-     * When there are alarms, and what is done about them.
+     * Settings for alarms and the reactions to them.
      *
-     * @param webhook where alarms are posted; null for nowhere
+     * @param webhook target to which alarms are posted; null for none
      * @param health when a device counts as silent
-     * @param horizon how far ahead encounters are predicted, as the job {@code collision} takes it
+     * @param horizon how far ahead encounters are predicted, as for the job {@code collision}
      * @param stops whether robots that are predicted to meet are stopped
      */
     public record Watch(Webhook.Settings webhook, HealthOptions health, String horizon, boolean stops) {
         public static final Watch DEFAULT = new Watch(null, HealthOptions.DEFAULT, "0s", false);
 
-        /** @param robots how Stop reaches robots */
+        /**
+         * @param robots sends Stop commands to robots
+         */
         public WatchOptions options(CommandSender robots) {
             WatchOptions options = WatchOptions.DEFAULT.with(health);
             if (webhook != null) {
@@ -206,13 +208,13 @@ public record SuiteSettings(
         }
     }
 
-    /** As {@code ./furrow up} starts it: each device has a login of its own. */
+    /** For {@code ./furrow up}: each device has its own login. */
     public SuiteSettings withoutSharedLogin() {
         return new SuiteSettings(
                 kafkaProperties, fiware, window, fields, ports, orion, kafka, mongo, farm, watch, allowed, false);
     }
 
-    /** A suite on free ports with its own engines and the stand-in, as tests and measurements want it. */
+    /** A suite on free ports with embedded engines and the stand-in, for tests and measurements. */
     public static SuiteSettings onFreePorts(String window) {
         return new SuiteSettings(
                 null,

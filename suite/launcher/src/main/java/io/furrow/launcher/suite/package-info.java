@@ -1,2 +1,2 @@
-/** All parts of the suite in one JVM: in which order they start and stop, and where they store their data. */
+/** All parts of the suite in one JVM: the order in which they start and stop, and the locations of their data. */
 package io.furrow.launcher.suite;

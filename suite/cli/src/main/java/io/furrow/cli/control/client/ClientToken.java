@@ -7,7 +7,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 
-/** The token with which commands are sent to the control plane. */
+/** Finds the token for requests to the control plane. */
 final class ClientToken {
     private static final String TOKEN = "FURROW_TOKEN";
     private static final String TOKEN_FILE = "FURROW_TOKEN_FILE";
@@ -15,9 +15,10 @@ final class ClientToken {
     private ClientToken() {}
 
     /**
-     * Takes the token of a file, else of the variable {@value #TOKEN}, else of the file that {@value #TOKEN_FILE} names.
+     * Reads the token from a file, else from the variable {@value #TOKEN}, else from the file that {@value #TOKEN_FILE}
+     * names.
      *
-     * @param file null if none is named
+     * @param file null if no file is named
      * @throws IOException if the file cannot be read or holds no token; the message says what to do
      */
     static Optional<String> find(Path file, Map<String, String> environment) throws IOException {

@@ -25,7 +25,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
 
-/** The REST API of a control plane. A request that it cannot take yet is sent again, under the same key, so that it has one effect. */
+/** Client of the REST API of a control plane. A request that it cannot take yet is retried under the same idempotency key. */
 public final class ControlApi {
     private static final Duration TIMEOUT = Duration.ofSeconds(40);
     private static final int ATTEMPTS = 10;
@@ -40,13 +40,15 @@ public final class ControlApi {
 
     /**
      * @param base as in {@code http://127.0.0.1:8085}
-     * @param token null if none is asked for
+     * @param token null if none is required
      */
     public ControlApi(URI base, String token) {
         this(base, token, null);
     }
 
-    /** @param trust whom to trust over https; null for those that Java trusts */
+    /**
+     * @param trust the certificates to trust over https; null for those that Java trusts
+     */
     ControlApi(URI base, String token, SSLContext trust) {
         this.base = base;
         this.token = token;
@@ -55,7 +57,7 @@ public final class ControlApi {
         this.http = (trust == null ? client : client.sslContext(trust)).build();
     }
 
-    /** A name as a part of a path. */
+    /** Escapes a name as a part of a path. */
     public static String part(String name) {
         return "/" + URLEncoder.encode(name, StandardCharsets.UTF_8).replace("+", "%20");
     }
@@ -74,7 +76,7 @@ public final class ControlApi {
     }
 
     /**
-     * What a path has in another form than JSON.
+     * Gets a path in another media type than JSON.
      *
      * @throws ControlPlaneException if it is unavailable or refuses
      */

@@ -24,7 +24,7 @@ import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
-/** What every command has that speaks with the control plane: where that is, as whom, and how the answer is shown. */
+/** Common options of the commands that use the control plane: its address, the credentials, and the format of the output. */
 public final class ControlOptions {
     private enum Output {
         TABLE,
@@ -74,22 +74,22 @@ public final class ControlOptions {
         void with(ControlApi api) throws IOException;
     }
 
-    /** Prints what a path has as rows of a table; one object is one row. */
+    /** Prints the content of a path as rows of a table; one object is one row. */
     public int show(String path, ControlTable table) {
         return showPage(path, answer -> table.lines(rows(answer)));
     }
 
-    /** Prints the object that a path has, a member a line. */
+    /** Prints the object at a path, a member per line. */
     public int showOne(String path) {
         return showPage(path, ControlOptions::members);
     }
 
-    /** Prints the object that a path has as a page for people. */
+    /** Prints the object at a path as a page. */
     public int showPage(String path, Function<JsonNode, List<String>> page) {
         return run(api -> print(api.get(path), page));
     }
 
-    /** Prints the credentials that a path has, of one device or of many. */
+    /** Prints the credentials at a path, of one device or of many. */
     public int showCredentials(String path) {
         return runWith(api -> {
             if (output == Output.CSV) {
@@ -108,12 +108,12 @@ public final class ControlOptions {
         });
     }
 
-    /** Sends a command and prints what was answered. */
+    /** Sends a command and prints the answer. */
     public int command(String method, String path, JsonNode body) {
         return run(api -> answered(api.send(method, path, body)));
     }
 
-    /** Sends a command and prints what was answered. @param done what it did, for people */
+    /** Sends a command and prints the answer. @param done a sentence about the effect */
     public int commandDone(String method, String path, String done) {
         return run(api -> {
             JsonNode answer = api.send(method, path, null);
@@ -121,7 +121,7 @@ public final class ControlOptions {
         });
     }
 
-    /** Sends a command and prints the object that is answered, a member a line. */
+    /** Sends a command and prints the object in the answer, a member per line. */
     public int commandShown(String method, String path) {
         return run(api -> print(api.send(method, path, null), ControlOptions::members));
     }
@@ -131,7 +131,7 @@ public final class ControlOptions {
         answered(answer, answer.path("status").asText("done") + ": " + message(answer));
     }
 
-    /** Prints the answer to a command. @param sentence what it did, for people */
+    /** Prints the answer to a command. @param sentence about the effect */
     public void answered(JsonNode answer, String sentence) throws IOException {
         print(answer, any -> List.of(sentence));
     }
@@ -174,7 +174,7 @@ public final class ControlOptions {
         return spec.commandLine().getCommandSpec().exitCodeOnExecutionException();
     }
 
-    /** That a command cannot be run as it was given. */
+    /** Rejects the arguments of a command. */
     public ParameterException refused(String reason) {
         return new ParameterException(spec.commandLine(), reason);
     }
@@ -195,7 +195,7 @@ public final class ControlOptions {
         return spec.commandLine().getOut();
     }
 
-    /** An object of those that were given. */
+    /** An object of the members that are present. */
     public static ObjectNode object(Map<String, ?> members) {
         ObjectNode json = JsonNodeFactory.instance.objectNode();
         members.forEach((name, value) -> {
@@ -218,7 +218,7 @@ public final class ControlOptions {
                 .toList();
     }
 
-    /** Lists may come bare, or as the one list of an object. */
+    /** A list may be the answer itself, or the only list of an object. */
     private static JsonNode rows(JsonNode answer) {
         if (answer.isArray()) {
             return answer;

@@ -10,7 +10,9 @@ public final class ControlPlaneException extends RuntimeException {
         this(message, false);
     }
 
-    /** @param unknown whether there is no such thing */
+    /**
+     * @param unknown whether the requested object does not exist
+     */
     ControlPlaneException(String message, boolean unknown) {
         super(message);
         this.unknown = unknown;
@@ -21,7 +23,7 @@ public final class ControlPlaneException extends RuntimeException {
         this.unknown = false;
     }
 
-    /** Whether what was asked for is not there. */
+    /** Whether the requested object does not exist. */
     public boolean isUnknown() {
         return unknown;
     }

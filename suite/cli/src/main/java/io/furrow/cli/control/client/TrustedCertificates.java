@@ -11,7 +11,7 @@ import java.security.cert.CertificateFactory;
 import javax.net.ssl.SSLContext;
 import javax.net.ssl.TrustManagerFactory;
 
-/** The certificates of a PEM file as those that TLS trusts, and no others. */
+/** Trusts exactly the certificates of a PEM file for TLS. */
 final class TrustedCertificates {
     private TrustedCertificates() {}
 

@@ -12,7 +12,7 @@ import com.fasterxml.jackson.core.JsonPointer;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.MissingNode;
 
-/** Objects as a table, each column as wide as its widest cell. */
+/** Prints objects as a table, each column as wide as its widest cell. */
 public final class ControlTable {
     private final String nothing;
     private final Clock clock;
@@ -27,18 +27,24 @@ public final class ControlTable {
 
     private record Column(String title, Function<JsonNode, JsonNode> value, Kind kind) {}
 
-    /** @param nothing what is said if there is no row */
+    /**
+     * @param nothing the text without rows
+     */
     public ControlTable(String nothing) {
         this(nothing, Clock.systemUTC());
     }
 
-    /** @param clock that ages are reported by */
+    /**
+     * @param clock for ages
+     */
     ControlTable(String nothing, Clock clock) {
         this.nothing = nothing;
         this.clock = clock;
     }
 
-    /** @param places JSON pointers; the first that has something is shown */
+    /**
+     * @param places JSON pointers; the first that resolves is shown
+     */
     public ControlTable text(String title, String... places) {
         return column(title, Kind.TEXT, places);
     }
@@ -54,12 +60,12 @@ public final class ControlTable {
         return column(title, Kind.TIME, places);
     }
 
-    /** How long ago a time is, epoch ms, in its greatest unit: {@code 42s}, {@code 5m}, {@code 3h}, {@code 12d}. */
+    /** Age of a time, epoch ms, in its greatest unit: {@code 42s}, {@code 5m}, {@code 3h}, {@code 12d}. */
     public ControlTable age(String title, String... places) {
         return column(title, Kind.AGE, places);
     }
 
-    /** How many members a list or an object has. */
+    /** The number of members of a list or an object. */
     public ControlTable count(String title, String... places) {
         return column(title, Kind.COUNT, places);
     }
@@ -136,7 +142,7 @@ public final class ControlTable {
         return value.isValueNode() ? value.asText() : value.toString();
     }
 
-    /** One line, and nothing that a terminal obeys. */
+    /** One line, without control characters. */
     static String printable(String text) {
         return text.replaceAll("\\p{Cntrl}", " ");
     }

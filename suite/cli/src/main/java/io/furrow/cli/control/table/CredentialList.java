@@ -8,14 +8,14 @@ import java.util.stream.StreamSupport;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-/** Credentials of devices as text: as a table, and as variables of a shell. */
+/** Prints credentials of devices as text: as a table, and as variables of a shell. */
 public final class CredentialList {
     private static final List<String> COLUMNS =
             List.of("device deviceId host port tls user password apiKey measures commands results".split(" "));
 
     private CredentialList() {}
 
-    /** The table of many devices; what else there is of one, its example among it, the other forms have. */
+    /** The table of many devices; further members of a device, such as its example, are in the other formats. */
     public static ControlTable table() {
         return new ControlTable(
                         "The mission has no real device with a login; its devices have theirs while it is started.")
@@ -27,7 +27,7 @@ public final class CredentialList {
                 .text("MEASURES", "/measures");
     }
 
-    /** Variables of each device, as {@code . file} reads them, devices apart from each other by an empty line. */
+    /** Variables of each device for {@code . file}, devices separated by an empty line. */
     public static List<String> env(JsonNode devices) {
         List<String> lines = new ArrayList<>();
         for (JsonNode device : devices) {

@@ -8,9 +8,9 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.text.Counts;
 
-/** A device as lines {@code label: value}: what it is, what was heard of it, and why it is silent. */
+/** Prints a device as lines {@code label: value}: its properties, its last contact, and why it is silent. */
 public final class DevicePage {
-    /** Less is how long a report takes. */
+    /** A smaller difference is attributed to latency. */
     private static final Duration RIGHT = Duration.ofSeconds(5);
 
     private final JsonNode device;

@@ -12,11 +12,11 @@ import io.furrow.model.file.FileProblem;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** JSON that a user has in a file. */
+/** Reads JSON from a user's file. */
 public final class JsonFile {
     private JsonFile() {}
 
-    /** Reads JSON that begins with a bracket as it stands, anything else as the name of a file. */
+    /** Parses an argument that begins with a bracket as JSON, reads any other as a file. */
     public static JsonNode readOrParse(String fileOrJson) throws IOException {
         if (!fileOrJson.stripLeading().startsWith("[")) {
             return read(Path.of(fileOrJson));
@@ -28,7 +28,7 @@ public final class JsonFile {
         }
     }
 
-    /** @throws IOException if there is none; the message names the file */
+    /** @throws IOException if it holds no JSON; the message names the file */
     public static JsonNode read(Path file) throws IOException {
         try {
             return NgsiJson.readFile(Files.readAllBytes(file));

@@ -7,7 +7,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.text.Counts;
 
-/** A mission as lines {@code label: value}: its state, the devices that it misses and why, and what it consists of. */
+/** Prints a mission as lines {@code label: value}: its state, its missing devices and why, and its parts. */
 public final class MissionPage {
     private final JsonNode mission;
     private final JsonNode status;

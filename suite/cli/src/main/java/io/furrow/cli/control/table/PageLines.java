@@ -7,7 +7,7 @@ import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-/** Lines {@code label: value} of the page of one thing. */
+/** Lines {@code label: value} of a page. */
 final class PageLines {
     private static final int WIDTH = 16;
 
@@ -26,7 +26,7 @@ final class PageLines {
         return lines;
     }
 
-    /** A time with how long ago it was, or how far ahead it is. */
+    /** A time with its distance from now. */
     String ago(JsonNode time) {
         Duration ago = Duration.between(Instant.ofEpochMilli(time.longValue()), now);
         return (ago.isNegative() ? "%s (in %s)" : "%s (%s ago)").formatted(time(time), ControlTable.age(ago.abs()));
