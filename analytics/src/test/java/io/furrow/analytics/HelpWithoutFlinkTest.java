@@ -75,10 +75,8 @@ class HelpWithoutFlinkTest {
     }
 
     private static String origin(Class<?> type) {
-        return Unchecked.get(() -> Path.of(type.getProtectionDomain()
-                        .getCodeSource()
-                        .getLocation()
-                        .toURI())
+        return Unchecked.get(() -> Path.of(
+                        type.getProtectionDomain().getCodeSource().getLocation().toURI())
                 .toString());
     }
 }

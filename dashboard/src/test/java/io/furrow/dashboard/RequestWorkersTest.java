@@ -4,7 +4,6 @@ import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CopyOnWriteArrayList;
@@ -79,7 +78,10 @@ class RequestWorkersTest {
 
     @Test
     void answersTheOthersWhileRequestsWait() {
-        List<CompletableFuture<HttpResponse<String>>> waiting = IntStream.range(0, RequestWorkers.THREADS + SERVER_THREADS).mapToObj(i -> request("/api/topics")).toList();
+        List<CompletableFuture<HttpResponse<String>>> waiting = IntStream.range(
+                        0, RequestWorkers.THREADS + SERVER_THREADS)
+                .mapToObj(i -> request("/api/topics"))
+                .toList();
         await().until(() -> working.get() == RequestWorkers.THREADS);
 
         assertThat(request("/health").join().statusCode()).isEqualTo(200);
@@ -91,7 +93,10 @@ class RequestWorkersTest {
 
     @Test
     void rejectsMoreThanMayWait() {
-        List<CompletableFuture<HttpResponse<String>>> waiting = IntStream.range(0, RequestWorkers.THREADS + RequestWorkers.WAITING + 1).mapToObj(i -> request("/api/topics")).toList();
+        List<CompletableFuture<HttpResponse<String>>> waiting = IntStream.range(
+                        0, RequestWorkers.THREADS + RequestWorkers.WAITING + 1)
+                .mapToObj(i -> request("/api/topics"))
+                .toList();
         await().until(() -> waiting.stream().anyMatch(CompletableFuture::isDone));
 
         HttpResponse<String> answer = waiting.stream()

@@ -156,8 +156,7 @@ class DividedIngestTest {
     }
 
     private static List<byte[]> contents(Stream<Path> files) {
-        return files.map(file -> Unchecked.get(() -> Files.readAllBytes(file)))
-                .toList();
+        return files.map(file -> Unchecked.get(() -> Files.readAllBytes(file))).toList();
     }
 
     private static List<String> files(Path folder) throws Exception {

@@ -49,8 +49,7 @@ class IngestMetricsTest {
 
         IngestRun.of(options, FixedDevices.of(), weeding, weeding, weeding, sowing, garbage, broken, whole);
 
-        assertThat(counted("routed"))
-                .containsAllEntriesOf(Map.of("", 4L, "farm/weeding", 2L, "farm/sowing", 2L));
+        assertThat(counted("routed")).containsAllEntriesOf(Map.of("", 4L, "farm/weeding", 2L, "farm/sowing", 2L));
         assertThat(counted("repeated")).containsEntry("", 2L).containsEntry("farm/weeding", 2L);
         assertThat(counted("bytes").get("farm/weeding")).isGreaterThan(weeding.value().length);
         assertThat(counted("dead"))

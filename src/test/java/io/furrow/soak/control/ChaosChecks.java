@@ -22,7 +22,7 @@ import io.furrow.model.topic.Topics;
 import io.furrow.soak.CommittedState;
 
 /** What differs between what was asked for and what there is. */
-record ChaosChecks(ChaosFarm farm, List<MissionActor> missions) {
+record ChaosChecks(ChaosFarm farm, List<MissionActor> actors) {
     private static final String[] TENANT = {"fiware-service", "farm", "fiware-servicepath", "/"};
 
     /** Parts of the control planes that are not up. */
@@ -50,7 +50,7 @@ record ChaosChecks(ChaosFarm farm, List<MissionActor> missions) {
             Http.get(control.api().resolve("/api/missions"))
                     .body()
                     .forEach(mission -> shown.put(mission.path("mission").asText(), mission));
-            for (MissionActor each : missions) {
+            for (MissionActor each : actors) {
                 compare(control.name(), each, shown.remove(each.mission()), faults);
             }
             shown.keySet().forEach(other -> faults.add(control.name() + " has a mission that nobody wants: " + other));
@@ -82,7 +82,7 @@ record ChaosChecks(ChaosFarm farm, List<MissionActor> missions) {
     /** Devices on the topic, at the agent and at the MQTT broker. */
     List<String> devices() throws IOException {
         Map<String, String> expected = new TreeMap<>();
-        missions.stream()
+        actors.stream()
                 .filter(MissionActor::isRunning)
                 .forEach(each -> each.devices().forEach(id -> expected.put(id, each.mission())));
         List<String> faults = new ArrayList<>();
@@ -101,7 +101,7 @@ record ChaosChecks(ChaosFarm farm, List<MissionActor> missions) {
                 users.add(secret.device(device.version().mission(), device.device(), device.generation())
                         .user()));
         compare("the MQTT users", users, farm.mosquitto.users(), faults);
-        for (MissionActor each : missions) {
+        for (MissionActor each : actors) {
             each.generations().forEach((id, generation) -> {
                 DesiredDevice device = desired.get(id);
                 if (device != null && device.generation() != generation) {

@@ -209,8 +209,7 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
 
         assertThat(outcome.done()).isTrue();
         assertThat(outcome.refused()).containsOnlyKeys(version.key());
-        assertThat(outcome.refused().get(version.key()))
-                .contains("needs a tenant", "--fiware-service");
+        assertThat(outcome.refused().get(version.key())).contains("needs a tenant", "--fiware-service");
         assertThat(agent.deviceIds()).containsExactly(id(1));
         assertThat(agent.services).containsExactly("farm");
     }

@@ -1,7 +1,6 @@
 package io.furrow.control;
 
 import java.time.Duration;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.Set;
 import java.util.stream.IntStream;
@@ -276,7 +275,9 @@ class ControlTopologyTest {
 
     @Test
     void startsNoReplayBeyondThoseThatMayPlayAtOneTime() {
-        List<String> replays = IntStream.range(0, ReplaySettings.DEFAULT.max() - 1).mapToObj(number -> startReplay("")).toList();
+        List<String> replays = IntStream.range(0, ReplaySettings.DEFAULT.max() - 1)
+                .mapToObj(number -> startReplay(""))
+                .toList();
         String group = "{'type':'request','command':'start','missions':['a','b'],'from':1000,'to':9000}";
         farm.request(Topics.REPLAY_MANAGER, null, group);
         CommandResult refused = response(farm.only(Topics.REPLAY_MANAGER));

@@ -7,7 +7,6 @@ import java.time.Clock;
 import java.time.Duration;
 import java.time.Instant;
 import java.time.ZoneOffset;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -158,7 +157,9 @@ class AnyMongoTest {
     }
 
     private List<MissionDocument> readings(int number) {
-        return IntStream.range(0, number).mapToObj(i -> Events.document(mission, i)).toList();
+        return IntStream.range(0, number)
+                .mapToObj(i -> Events.document(mission, i))
+                .toList();
     }
 
     private List<BulkSender.Refusal<MissionDocument>> send(List<MissionDocument> documents) throws Exception {

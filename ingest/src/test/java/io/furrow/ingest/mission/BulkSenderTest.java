@@ -146,7 +146,8 @@ class BulkSenderTest {
         sender().send(documents(0, 10));
         int port = Integer.parseInt(mongo.uri().substring(mongo.uri().lastIndexOf(':') + 1));
         mongo.close();
-        CompletableFuture<List<BulkSender.Refusal<MissionDocument>>> sent = CompletableFuture.supplyAsync(() -> Unchecked.get(() -> sender().send(documents(10, 20))));
+        CompletableFuture<List<BulkSender.Refusal<MissionDocument>>> sent =
+                CompletableFuture.supplyAsync(() -> Unchecked.get(() -> sender().send(documents(10, 20))));
         org.awaitility.Awaitility.await().until(() -> retried.get() > 0);
 
         mongo = EmbeddedMongo.start(directory, port);

@@ -118,7 +118,8 @@ class RefusalsTest {
 
         assertThatThrownBy(() -> sender(SHORT).send(documents(10)))
                 .isInstanceOf(IOException.class)
-                .hasMessageContainingAll("took none of 10 documents of mission_m", "[777777]", "--mongo-refusal-timeout");
+                .hasMessageContainingAll(
+                        "took none of 10 documents of mission_m", "[777777]", "--mongo-refusal-timeout");
     }
 
     @Test

@@ -58,8 +58,7 @@ class NormalizeMetricsTest {
         assertThat(counted("accepted")).containsEntry("", 3L);
         assertThat(counted("excluded")).containsEntry("", 1L);
         assertThat(counted("clockAhead")).containsEntry("", 1L);
-        assertThat(counted("dead"))
-                .containsAllEntriesOf(Map.of("", 2L, "not-json", 1L, "not-an-entity", 1L));
+        assertThat(counted("dead")).containsAllEntriesOf(Map.of("", 2L, "not-json", 1L, "not-an-entity", 1L));
     }
 
     private static TopicRecord notification(String body) {

@@ -120,7 +120,8 @@ class JournalTest {
     void wakesAReaderThatWaits() throws Exception {
         try (Journal journal = open(SMALL)) {
             JournalReader reader = journal.reader(0);
-            CompletableFuture<List<JournalRecord>> waiting = CompletableFuture.supplyAsync(() -> Unchecked.get(() -> reader.read(10, 1000, Duration.ofSeconds(30))));
+            CompletableFuture<List<JournalRecord>> waiting = CompletableFuture.supplyAsync(
+                    () -> Unchecked.get(() -> reader.read(10, 1000, Duration.ofSeconds(30))));
             append(journal, "news");
             assertThat(waiting.get(60, TimeUnit.SECONDS)).hasSize(1);
         }

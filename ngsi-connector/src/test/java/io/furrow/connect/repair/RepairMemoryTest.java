@@ -19,7 +19,6 @@ class RepairMemoryTest {
                 TestProcess.java("-Xmx128m -XX:+ExitOnOutOfMemoryError", PressedRepair.class, directory));
 
         assertThat(repair.status()).as(repair.output()).isZero();
-        assertThat(repair.output())
-                .contains("repaired " + PressedRepair.IMAGES + " dead 2", "known 0 arrived 1");
+        assertThat(repair.output()).contains("repaired " + PressedRepair.IMAGES + " dead 2", "known 0 arrived 1");
     }
 }

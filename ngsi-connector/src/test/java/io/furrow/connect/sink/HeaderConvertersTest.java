@@ -75,7 +75,8 @@ class HeaderConvertersTest {
         if (converter instanceof SimpleHeaderConverter) {
             assertThatThrownBy(() -> reader.read(record, 0))
                     .isInstanceOf(UnreadableException.class)
-                    .hasMessageContainingAll("fiware-service", "header.converter=org.apache.kafka.connect.storage.StringConverter");
+                    .hasMessageContainingAll(
+                            "fiware-service", "header.converter=org.apache.kafka.connect.storage.StringConverter");
         } else {
             assertThat(reader.read(record, 0).key().scope().service()).isEqualTo("007");
         }

@@ -1,6 +1,5 @@
 package io.furrow.connect.sink;
 
-import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.stream.IntStream;
@@ -152,6 +151,8 @@ class IsolationTest extends SinkFixture {
     }
 
     private static List<SinkRecord> records(int from, int to) {
-        return IntStream.range(from, to).mapToObj(i -> record("e" + i, "x", i, i)).toList();
+        return IntStream.range(from, to)
+                .mapToObj(i -> record("e" + i, "x", i, i))
+                .toList();
     }
 }

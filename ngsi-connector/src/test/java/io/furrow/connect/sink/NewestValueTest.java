@@ -157,7 +157,9 @@ class NewestValueTest extends SinkFixture {
     void isolatesOneOfManyInFewRequests() {
         restart("batch.size", "1024");
         poison("\"e77\"", 400, "no");
-        List<SinkRecord> records = IntStream.range(0, 1024).mapToObj(i -> record("e" + i, "x", i, i)).toList();
+        List<SinkRecord> records = IntStream.range(0, 1024)
+                .mapToObj(i -> record("e" + i, "x", i, i))
+                .toList();
 
         task.put(records);
 

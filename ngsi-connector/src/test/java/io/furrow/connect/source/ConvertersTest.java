@@ -35,10 +35,7 @@ class ConvertersTest {
 
         assertThat(wrong).singleElement().satisfies(value -> {
             assertThat(value.name()).isEqualTo(of + ".mode");
-            assertThat(value.errorMessages())
-                    .singleElement()
-                    .asString()
-                    .contains(converter, remedy);
+            assertThat(value.errorMessages()).singleElement().asString().contains(converter, remedy);
         });
     }
 

@@ -23,7 +23,8 @@ class EncodedBodiesTest {
     void areInflated(int length) {
         String body = "{\"id\": \"a\", \"x\": \"" + "x".repeat(length) + "\"}";
         try (NotificationRig rig = new NotificationRig("max.body.bytes", Integer.toString(LIMIT))) {
-            assertThat(post(rig, Gzip.of(body.getBytes(UTF_8)), "gzip").statusCode()).isEqualTo(200);
+            assertThat(post(rig, Gzip.of(body.getBytes(UTF_8)), "gzip").statusCode())
+                    .isEqualTo(200);
 
             KafkaRecord record = rig.recordLog.taken.remove().get(0);
             assertThat(record.key()).isEqualTo("a");

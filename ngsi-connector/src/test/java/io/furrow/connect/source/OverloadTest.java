@@ -167,7 +167,9 @@ class OverloadTest {
             CompletableFuture<Void> durable = new CompletableFuture<>();
             rig.recordLog.answer = Optional.of(durable);
             byte[] half = new byte[100_000];
-            List<CompletableFuture<HttpResponse<String>>> answers = IntStream.range(0, 6).mapToObj(i -> rig.post("/", BodyPublishers.ofByteArray(half))).toList();
+            List<CompletableFuture<HttpResponse<String>>> answers = IntStream.range(0, 6)
+                    .mapToObj(i -> rig.post("/", BodyPublishers.ofByteArray(half)))
+                    .toList();
             await().until(() -> rig.recordLog.taken.size() == 2);
             assertThat(rig.ledger.requests.sum()).isEqualTo(2);
 
@@ -194,7 +196,9 @@ class OverloadTest {
             rig.recordLog.answer = Optional.of(new CompletableFuture<>());
             byte[] all = new byte[100_000];
 
-            List<CompletableFuture<HttpResponse<String>>> answers = IntStream.range(0, 3).mapToObj(i -> rig.post("/", BodyPublishers.ofByteArray(all))).toList();
+            List<CompletableFuture<HttpResponse<String>>> answers = IntStream.range(0, 3)
+                    .mapToObj(i -> rig.post("/", BodyPublishers.ofByteArray(all)))
+                    .toList();
 
             assertThat(answers)
                     .allSatisfy(answer -> assertThat(answer.join().statusCode()).isEqualTo(503));

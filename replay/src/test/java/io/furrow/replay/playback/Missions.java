@@ -77,7 +77,8 @@ final class Missions {
     }
 
     private static List<ReadyEvent> primes(List<StoredEvent> known, ReadRequest.Begin begin, DesiredReplay desired) {
-        return Unchecked.get(() -> new EventEncoder(desired, begin.epoch(), record -> record).primes(known, begin.point()));
+        return Unchecked.get(
+                () -> new EventEncoder(desired, begin.epoch(), record -> record).primes(known, begin.point()));
     }
 
     /** What is asked, of these devices or of all. */

@@ -1,6 +1,5 @@
 package io.furrow.replay.recording;
 
-import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
 import java.util.Map;
@@ -36,7 +35,8 @@ class PageBudgetTest {
     void holdsNoMoreOfAnyNumberOfReplaysThanIsStated() {
         long seed = System.nanoTime();
         Random random = new Random(seed);
-        List<PageBudget.Pages> replays = IntStream.range(0, REPLAYS).mapToObj(i -> budget.pages()).toList();
+        List<PageBudget.Pages> replays =
+                IntStream.range(0, REPLAYS).mapToObj(i -> budget.pages()).toList();
         for (int turn = 0; turn < 20 * REPLAYS; turn++) {
             PageBudget.Pages pages = replays.get(turn < REPLAYS ? turn : random.nextInt(REPLAYS));
             PageLimits limits = pages.next(Integer.MAX_VALUE);

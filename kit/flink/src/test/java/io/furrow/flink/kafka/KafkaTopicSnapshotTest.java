@@ -35,7 +35,8 @@ class KafkaTopicSnapshotTest {
 
             assertThatThrownBy(topic::read)
                     .isInstanceOf(IOException.class)
-                    .hasMessageContainingAll("topic service.devices could not be read", "default.api.timeout.ms in --kafka-properties");
+                    .hasMessageContainingAll(
+                            "topic service.devices could not be read", "default.api.timeout.ms in --kafka-properties");
             assertThat(silent.isClosed()).isFalse();
         }
     }

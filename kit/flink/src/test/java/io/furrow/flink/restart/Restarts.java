@@ -1,6 +1,5 @@
 package io.furrow.flink.restart;
 
-import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Path;
 import java.time.Duration;

@@ -75,8 +75,7 @@ class NotificationTest {
         UnreadableException refused = unreadable(body, header);
 
         assertThat(refused.reason()).isEqualTo(Reason.UNSUPPORTED_FORM);
-        assertThat(refused)
-                .hasMessageContainingAll("NGSIv1", "set the subscription's attrsFormat to normalized");
+        assertThat(refused).hasMessageContainingAll("NGSIv1", "set the subscription's attrsFormat to normalized");
     }
 
     @ParameterizedTest

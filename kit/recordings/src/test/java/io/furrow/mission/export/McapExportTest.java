@@ -4,7 +4,6 @@ import java.io.ByteArrayOutputStream;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.Optional;
 import java.util.stream.IntStream;
@@ -59,8 +58,11 @@ class McapExportTest {
 
     @Test
     void indexesAMissionOfManyChunks() throws Exception {
-        List<String> lines = IntStream.range(0, 9_000).mapToObj(i -> "{\"id\":\"e%05d\",\"time\":%d,\"headers\":{},\"entity\":{\"id\":\"t%d\",\"type\":\"T\",\"n\":{\"value\":\"%s\"}}}"
-                            .formatted(i, 1_000 + i / 7, i % 11, "x".repeat(i % 700))).toList();
+        List<String> lines = IntStream.range(0, 9_000)
+                .mapToObj(i ->
+                        "{\"id\":\"e%05d\",\"time\":%d,\"headers\":{},\"entity\":{\"id\":\"t%d\",\"type\":\"T\",\"n\":{\"value\":\"%s\"}}}"
+                                .formatted(i, 1_000 + i / 7, i % 11, "x".repeat(i % 700)))
+                .toList();
         Path mission = folder.resolve("mission.ndjson");
         Files.write(mission, lines);
 

@@ -121,7 +121,9 @@ class MongoRecordingTest extends RecordingContract {
 
     @Test
     void asksForTwiceAsManyDocumentsAsLongAsTheyAreSmall() throws Exception {
-        List<StoredEvent> events = IntStream.range(0, 60).mapToObj(i -> RandomEvents.event("e" + i, i, 0)).toList();
+        List<StoredEvent> events = IntStream.range(0, 60)
+                .mapToObj(i -> RandomEvents.event("e" + i, i, 0))
+                .toList();
         MongoCollection<RawBsonDocument> collection = stored("mission_" + UUID.randomUUID(), events);
         int size = bytes(events.get(0));
 
@@ -178,7 +180,9 @@ class MongoRecordingTest extends RecordingContract {
 
     @Test
     void holdsNoMoreOfACrowdedMillisecondThanItMay() throws Exception {
-        List<StoredEvent> events = IntStream.range(0, 200).mapToObj(i -> RandomEvents.event("e" + i, 1, i % 50 == 0 ? 4_000 : i % 7 * 100)).toList();
+        List<StoredEvent> events = IntStream.range(0, 200)
+                .mapToObj(i -> RandomEvents.event("e" + i, 1, i % 50 == 0 ? 4_000 : i % 7 * 100))
+                .toList();
         MongoCollection<RawBsonDocument> collection = stored("mission_crowded", events);
         SameTimeCursor crowd = new SameTimeCursor(collection, 1, Cursor.START, 2_000);
         List<StoredEvent> read = new ArrayList<>();

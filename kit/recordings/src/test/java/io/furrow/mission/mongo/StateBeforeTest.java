@@ -123,7 +123,9 @@ class StateBeforeTest {
 
     @Test
     void readsTheNewestDocumentsAloneWhereAllEntitiesHaveReported() throws Exception {
-        List<StoredEvent> events = IntStream.range(0, 1_000).mapToObj(number -> event(number, 10 + number, "d" + number % 4, "x", "y")).toList();
+        List<StoredEvent> events = IntStream.range(0, 1_000)
+                .mapToObj(number -> event(number, 10 + number, "d" + number % 4, "x", "y"))
+                .toList();
         store(events);
 
         assertThat(before(900, ALL, FEW)).contains(scanned(events, 900, ALL));
@@ -169,7 +171,9 @@ class StateBeforeTest {
 
     @Test
     void givesUpOnWhatReportsChangesAloneAndOnTooManySilentEntities() throws Exception {
-        List<StoredEvent> events = IntStream.range(0, 300).mapToObj(number -> event(number, 10 + number, "d", number == 0 ? "battery" : "x")).toList();
+        List<StoredEvent> events = IntStream.range(0, 300)
+                .mapToObj(number -> event(number, 10 + number, "d", number == 0 ? "battery" : "x"))
+                .toList();
         store(events);
         assertThat(before(305, ALL, FEW)).isEmpty();
 

@@ -301,8 +301,7 @@ class CommandLineTest {
 
     @Test
     void rejectsAnUnknownOptionInOneSentence() {
-        assertThat(refusal("demo", "--orin", "x"))
-                .contains("Unknown options: '--orin', 'x'", "furrow demo --help");
+        assertThat(refusal("demo", "--orin", "x")).contains("Unknown options: '--orin', 'x'", "furrow demo --help");
     }
 
     @ParameterizedTest
