@@ -22,10 +22,7 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.model.topic.Topics;
 
-/**
- * The options that every job has, read from the command line by picocli. Holds no Flink type, so that {@code --help} works
- * without Flink on the class path.
- */
+/** The options of every job, parsed by picocli. Holds no Flink type, so that {@code --help} works without Flink on the class path. */
 public abstract class JobOptions {
     /** User and password of a URI. */
     private static final Pattern CREDENTIALS = Pattern.compile("://[^/@]*@");
@@ -131,9 +128,9 @@ public abstract class JobOptions {
     private boolean help;
 
     /**
-     * The name of this instance of the job, which its consumer group and its transactions bear.
+     * The name of this instance of the job, part of its consumer group and its transactional ids.
      *
-     * @throws ParameterException if no client of Kafka could bear it
+     * @throws ParameterException if Kafka does not accept it
      */
     public String jobName() {
         if (name == null) {
@@ -150,12 +147,12 @@ public abstract class JobOptions {
         return name;
     }
 
-    /** The name of an instance that is given none. */
+    /** The default name of an instance. */
     protected String defaultName() {
         return spec.name();
     }
 
-    /** Whether this instance was given a name. */
+    /** Whether a name is configured. */
     boolean isNamed() {
         return name != null;
     }
@@ -170,7 +167,7 @@ public abstract class JobOptions {
     }
 
     /**
-     * A fresh copy of what {@code --kafka-properties} holds; empty without it.
+     * A fresh copy of the file of {@code --kafka-properties}; empty without it.
      *
      * @throws ParameterException if the file cannot be read
      */
@@ -188,7 +185,7 @@ public abstract class JobOptions {
         }
     }
 
-    /** Settings of its producers in which a job differs from the others; {@code --kafka-properties} goes before them. */
+    /** The job's own defaults for its producers; {@code --kafka-properties} overrides them. */
     public Map<String, String> producerDefaults() {
         return Map.of();
     }
@@ -197,7 +194,7 @@ public abstract class JobOptions {
         return List.copyOf(input);
     }
 
-    /** The same as topics or a pattern; a name that is neither is refused, and so are topics that share no event time. */
+    /** The input as topics or a pattern; rejects invalid names, and topics that share no event time. */
     public InputTopics inputTopics() {
         InputTopics topics = new InputTopics(input());
         try {

@@ -16,7 +16,7 @@ import io.furrow.model.topic.Topics;
  * time, goes by the {@link #original} one. In epoch 0, where all live topics are, both are the same.
  */
 public final class Epochs {
-    /** Milliseconds, 557 years; a power of two, so that nothing has to be divided. */
+    /** Milliseconds, 557 years; a power of two, so that no division is needed. */
     public static final long SPAN = 1L << 44;
 
     /** The greatest epoch: one every ten seconds for a month. */
@@ -29,7 +29,7 @@ public final class Epochs {
         return time < SPAN ? 0 : time / SPAN;
     }
 
-    /** When it was, epoch ms. */
+    /** The original time, epoch ms. */
     public static long original(long time) {
         return time < SPAN ? time : time % SPAN;
     }
@@ -57,7 +57,7 @@ public final class Epochs {
     /**
      * The event time of a record; a replay's without a header is of epoch 0, or of the time of its timestamp.
      *
-     * @throws UnreadableException if the record is a replay's and a header cannot be its epoch or offset
+     * @throws UnreadableException if the record is a replay's and a header is not a valid epoch or offset
      */
     public static long timeOf(TopicRecord record) throws UnreadableException {
         if (!Topics.isReplay(record.topic())) {
