@@ -18,7 +18,7 @@ public final class BoundedMap<K, V> extends LinkedHashMap<K, V> {
         return new BoundedMap<>(max, false);
     }
 
-    /** The eldest entry is the one that was not looked at for longest. */
+    /** The eldest entry is the least recently accessed one. */
     public static <K, V> BoundedMap<K, V> byAccess(int max) {
         return new BoundedMap<>(max, true);
     }

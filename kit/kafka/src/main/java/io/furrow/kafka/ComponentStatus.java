@@ -4,22 +4,22 @@ import java.time.Instant;
 import java.util.Locale;
 
 /**
- * How it is with a part of the control plane, or with something that it needs.
+ * The status of a part of the control plane, or of a server that it depends on.
  *
  * @param name as in {@code managers}
- * @param lastSuccess when it last did its work; null if it never did
- * @param detail a state or the reason of a failure, for people; may be empty
+ * @param lastSuccess time of its last success; null if there is none
+ * @param detail a state or the reason of a failure, for display; may be empty
  */
 public record ComponentStatus(String name, State state, Instant lastSuccess, String detail) {
     /** Whether it works. */
     public enum State {
         UP,
-        /** It does not work now, and will by itself once what it needs is back. */
+        /** It does not work now, and recovers by itself once its dependencies are back. */
         DOWN,
-        /** It has ended, and only a restart of the process brings it back. */
+        /** It has ended, and only a restart of the process recovers it. */
         DEAD;
 
-        /** As the health page has it. */
+        /** The code on the health page. */
         public String code() {
             return name().toLowerCase(Locale.ROOT);
         }
