@@ -27,7 +27,7 @@ final class ImageDecoder {
     static byte[] decode(byte[] text) throws UnreadableException {
         try {
             return decodePlain(text);
-        } catch (IllegalArgumentException e) { // a sign that is not in the alphabet: one of the other forms, or none
+        } catch (IllegalArgumentException e) { // a character outside the alphabet: another variant, or invalid
             return decodeAnyForm(text);
         }
     }

@@ -36,7 +36,7 @@ final class ImageFiles implements ImageStore {
         this.root = root;
         this.files = files;
         String scheme = URI.create(root).getScheme();
-        this.local = "file".equals(scheme); // what the file system is is unknown: in a task Flink wraps it
+        this.local = "file".equals(scheme); // its type is unknown: Flink wraps it in a task
         this.atomicPut = OBJECT_STORES.contains(scheme);
     }
 
@@ -66,7 +66,7 @@ final class ImageFiles implements ImageStore {
         String second = root + "/" + name.path(image.format().extension(), image.sha256());
         Found found = found(path(second), image);
         if (found == Found.ANOTHER) {
-            files.delete(path(second), false); // nothing but a damaged file of the same image can have its hash
+            files.delete(path(second), false); // only a damaged file of the same image can have its hash
         }
         return found == Found.THE_SAME ? named(second) : write(second, image);
     }
@@ -141,7 +141,7 @@ final class ImageFiles implements ImageStore {
             written = true;
         } finally {
             if (!written) {
-                files.delete(path, false); // closing may have made a file of what was written so far
+                files.delete(path, false); // closing may have created a partial file
             }
         }
     }

@@ -24,7 +24,7 @@ enum ImageFormat {
                 }
                 pixels |= type == IDAT;
                 if (type == IEND && pixels) {
-                    return; // what a camera adds behind the end harms nobody
+                    return; // data after the end, which cameras may add, is harmless
                 }
                 if (type == IEND) {
                     throw broken(this, "has no pixels");

@@ -75,7 +75,7 @@ public final class ImageStage {
         }
 
         @Override
-        @SuppressWarnings("rawtypes") // as the interface has it
+        @SuppressWarnings("rawtypes") // required by the interface
         public Class<? extends StreamOperator> getStreamOperatorClass(ClassLoader loader) {
             return MoveImages.class;
         }

@@ -97,7 +97,7 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
 
     private static Thread thread(Runnable task) {
         Thread thread = new Thread(task, "images");
-        thread.setDaemon(true); // a store that hangs must not keep the process from ending
+        thread.setDaemon(true); // a hanging store must not prevent the end of the process
         return thread;
     }
 

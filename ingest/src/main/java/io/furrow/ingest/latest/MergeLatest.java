@@ -71,7 +71,7 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
         String other = LatestKey.otherTypeOf(latest);
         LatestEntity before = other.isEmpty() ? entities.first() : entities.get(other);
         if (before != null && before.time() > time) {
-            return; // brought to the topic once more
+            return; // written to the topic again
         }
         LatestEntity known = latest.value() == null
                 ? NEVER_SEEN.withoutAnything(time).ofType(before == null ? other : before.type())
@@ -140,7 +140,7 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
             long until = known.time() + deletionKeptMillis;
             if (known.deleted() && until <= timestamp) {
                 entities.remove(known);
-            } else { // of another entity, or set when a deletion was remembered for less long
+            } else { // of another entity, or set with a shorter retention of deletions
                 await(known, context.timerService());
             }
         }

@@ -38,7 +38,7 @@ public record ReportedEvent(
         String received = record.headers().get(HeaderNames.TS_SOURCE);
         try {
             return received == null ? time() : Long.parseLong(received);
-        } catch (NumberFormatException e) { // a stranger's header
+        } catch (NumberFormatException e) { // another producer's header
             return time();
         }
     }

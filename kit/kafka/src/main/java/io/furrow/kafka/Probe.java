@@ -85,7 +85,7 @@ public final class Probe implements AutoCloseable {
             failure = "";
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
-        } catch (IOException | ExecutionException | TimeoutException | RuntimeException e) { // it is not there
+        } catch (IOException | ExecutionException | TimeoutException | RuntimeException e) { // unavailable
             failure = FailureText.of(e);
         }
     }

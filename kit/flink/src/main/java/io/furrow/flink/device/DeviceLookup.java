@@ -47,7 +47,7 @@ public final class DeviceLookup implements Serializable {
         for (TopicRecord record : topic.read()) {
             try {
                 atStart.add(ParseDevices.read(record));
-            } catch (UnreadableException e) { // becomes a dead letter where the stream of devices is read
+            } catch (UnreadableException e) { // ParseDevices emits its dead letter
                 continue;
             }
         }

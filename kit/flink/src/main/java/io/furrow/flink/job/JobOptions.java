@@ -179,7 +179,7 @@ public abstract class JobOptions {
         try (Reader reader = Files.newBufferedReader(kafkaProperties)) {
             properties.load(reader);
             return properties;
-        } catch (IOException | IllegalArgumentException e) { // the latter: an escape that stands for no character
+        } catch (IOException | IllegalArgumentException e) { // the latter: an invalid escape
             throw refused(
                     "--kafka-properties " + kafkaProperties + " cannot be read; name a readable properties file", e);
         }
@@ -243,12 +243,12 @@ public abstract class JobOptions {
         return interval;
     }
 
-    /** How far clocks are believed. */
+    /** The tolerated clock skew. */
     public ClockOptions clocks() {
         return clocks;
     }
 
-    /** How checkpoints are taken and what follows a failure. */
+    /** The options for checkpoints and restarts. */
     RecoveryOptions faults() {
         return faults;
     }
@@ -267,8 +267,8 @@ public abstract class JobOptions {
     }
 
     /**
-     * Every option with the value in force, as one would write it, less passwords in addresses; the web UI shows it as the
-     * job's configuration.
+     * Every option with its effective value as on the command line, without passwords in addresses; the web UI shows it as
+     * the job's configuration.
      */
     Map<String, String> effective() {
         Map<String, String> values = new TreeMap<>();
@@ -276,7 +276,7 @@ public abstract class JobOptions {
             if (!option.usageHelp() && option.getValue() != null) {
                 List<String> given = option.originalStringValues();
                 String text = given.isEmpty() ? option.defaultValueString() : String.join(",", given);
-                if (text != null) { // null: an option that may be repeated and was not given
+                if (text != null) { // null: a repeatable option without a value
                     values.put(option.longestName(), masked(text));
                 }
             }
@@ -284,7 +284,7 @@ public abstract class JobOptions {
         return values;
     }
 
-    /** Less passwords in addresses. */
+    /** Removes passwords in addresses. */
     static String masked(String text) {
         return CREDENTIALS.matcher(text).replaceAll("://***@");
     }

@@ -79,7 +79,7 @@ public final class KafkaConnectors {
     static Properties consumerProperties(JobOptions options) {
         Properties properties = options.kafkaProperties();
         properties.setProperty(
-                "isolation.level", "read_committed"); // what no transaction has committed is none of a job's
+                "isolation.level", "read_committed"); // uncommitted records are skipped
         properties.putIfAbsent("partition.discovery.interval.ms", "10000");
         return properties;
     }

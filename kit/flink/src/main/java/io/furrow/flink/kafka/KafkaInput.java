@@ -30,7 +30,7 @@ public final class KafkaInput {
         DataStreamSource<TopicRecord> records =
                 env.fromSource(KafkaConnectors.source(options), watermarks, "Reported changes");
         if (replay) {
-            records.setParallelism(1); // only who reads all partitions sees that the replay is paused
+            records.setParallelism(1); // a pause of the replay is visible in all partitions only
         }
         return AdvanceIdleInput.of(records.uid("read-events"), options);
     }

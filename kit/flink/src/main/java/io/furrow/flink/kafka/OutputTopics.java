@@ -122,7 +122,7 @@ final class OutputTopics implements AutoCloseable {
             while (true) {
                 int partitions = describe(topic, until);
                 if (partitions == 0) {
-                    ensure(topic); // somebody may have deleted it since it was made
+                    ensure(topic); // it may have been deleted since its creation
                 }
                 if (partitions > 0 && !known.containsKey(topic)) {
                     ask(topic);
@@ -217,7 +217,7 @@ final class OutputTopics implements AutoCloseable {
                 return;
             }
             if (e.getCause() instanceof UnknownTopicOrPartitionException) {
-                return; // made just now, this broker has not heard of it: the next record asks again
+                return; // new, and unknown to this broker: the next record retries
             }
             throw new IOException(
                     "how large records " + topic + " takes cannot be read: " + FailureText.of(e.getCause()),

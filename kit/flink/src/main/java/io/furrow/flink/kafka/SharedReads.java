@@ -30,7 +30,7 @@ final class SharedReads<K, V> {
         }
         try {
             return other.get();
-        } catch (ExecutionException e) { // its thread may have been stopped, which is no reason for this one
+        } catch (ExecutionException e) { // its thread may have been stopped, which does not concern this one
             return read.run();
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();

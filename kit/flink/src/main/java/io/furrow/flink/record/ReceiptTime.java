@@ -42,7 +42,7 @@ public record ReceiptTime(Duration skew) implements Serializable {
         }
         try {
             return Math.min(Long.parseLong(text), now + skew.toMillis());
-        } catch (NumberFormatException e) { // a stranger's header
+        } catch (NumberFormatException e) { // another producer's header
             return now;
         }
     }
@@ -60,7 +60,7 @@ public record ReceiptTime(Duration skew) implements Serializable {
         try {
             long stamp = Long.parseLong(text);
             return stamp > now + skew.toMillis() ? OptionalLong.empty() : OptionalLong.of(stamp);
-        } catch (NumberFormatException e) { // a stranger's header
+        } catch (NumberFormatException e) { // another producer's header
             return OptionalLong.empty();
         }
     }

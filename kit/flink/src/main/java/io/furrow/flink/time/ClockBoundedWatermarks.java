@@ -71,7 +71,7 @@ public final class ClockBoundedWatermarks implements WatermarkGenerator<TopicRec
      */
     record Reader(Counter ahead, List<ClockBoundedWatermarks> partitions) {
         Reader(Counter ahead) {
-            this(ahead, new CopyOnWriteArrayList<>()); // metrics look at it
+            this(ahead, new CopyOnWriteArrayList<>()); // metrics read it
         }
 
         long leastDelay() {
@@ -118,7 +118,7 @@ public final class ClockBoundedWatermarks implements WatermarkGenerator<TopicRec
             received = Math.max(received, at);
             see(time, at - time);
         } else {
-            see(time, 0); // no receipt is known
+            see(time, 0); // without a receipt
         }
         if (timestamp - bound > at) {
             reader.ahead.inc();

@@ -99,7 +99,7 @@ public final class DeduplicateById<T> extends KeyedProcessFunction<String, T, T>
             }
         }
         if (forgetAt.isEmpty()) {
-            forgetAt.clear(); // the heap backend would keep an empty map per entity
+            forgetAt.clear(); // the heap backend would retain an empty map per entity
         }
     }
 }

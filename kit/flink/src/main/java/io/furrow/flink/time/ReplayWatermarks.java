@@ -48,12 +48,12 @@ public final class ReplayWatermarks implements WatermarkGenerator<TopicRecord> {
         try {
             Epochs.timeOf(record);
             isEnd = ReplayKind.of(record) == ReplayKind.END;
-        } catch (UnreadableException e) { // becomes a dead letter where it is read
+        } catch (UnreadableException e) { // another stage emits its dead letter
             return;
         }
         if (reached != NOTHING_YET && Epochs.of(timestamp) > Epochs.of(reached)) {
             output.emitWatermark(
-                    new Watermark(reached)); // as far as the former epoch came, however soon this one follows
+                    new Watermark(reached)); // the end of the previous epoch, however soon this one follows
         }
         reached = Math.max(reached, isEnd ? Epochs.end(Epochs.of(timestamp)) : timestamp - bound - 1);
         replay.advance(timestamp, reached, isEnd);
@@ -85,7 +85,7 @@ public final class ReplayWatermarks implements WatermarkGenerator<TopicRecord> {
         public long extractTimestamp(TopicRecord record, long stamped) {
             try {
                 return Epochs.timeOf(record);
-            } catch (UnreadableException e) { // becomes a dead letter where it is read
+            } catch (UnreadableException e) { // another stage emits its dead letter
                 return record.timestamp();
             }
         }

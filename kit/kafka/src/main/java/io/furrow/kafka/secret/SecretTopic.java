@@ -108,7 +108,7 @@ public final class SecretTopic {
             if (e instanceof AuthorizationException || System.nanoTime() > deadline) {
                 throw e;
             }
-            LOG.debug("{} could not be written, which is tried again", Topics.SECRETS, e);
+            LOG.debug("{} could not be written; retrying", Topics.SECRETS, e);
             return false;
         }
     }
