@@ -30,7 +30,7 @@ final class InFlightEvent {
         return new InFlightEvent(null, mark, true);
     }
 
-    /** Null once it has been emitted: an event behind another entity's image must not hold its own in memory. */
+    /** Null once it has been emitted: an event queued after another entity's image must not hold its own in memory. */
     ReportedEvent event() {
         return event;
     }

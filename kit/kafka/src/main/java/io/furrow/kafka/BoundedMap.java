@@ -3,7 +3,7 @@ package io.furrow.kafka;
 import java.util.LinkedHashMap;
 import java.util.Map;
 
-/** Drops its eldest entry where it would hold more than a number of them. Not thread-safe. */
+/** Drops its eldest entry when it exceeds a maximum size. Not thread-safe. */
 public final class BoundedMap<K, V> extends LinkedHashMap<K, V> {
     private static final long serialVersionUID = 1L;
     private final int max;

@@ -6,14 +6,14 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /**
- * Event time where a replay seeks back, loops or starts again: each start begins an epoch, and each epoch has {@link #SPAN} of
- * event time to itself, so that event time only ever goes forward:
+ * Event time of a replay that seeks back, loops or restarts: each start begins an epoch, and each epoch has {@link #SPAN} of
+ * event time to itself, so that event time never goes back:
  *
  * <pre>event time = epoch × SPAN + original time</pre>
  *
- * <p>What is open when an epoch begins ends as it would without a further record, and nothing of the new epoch is late.
- * Whatever compares times with each other goes by event time; whatever asks which field or device there was, or reports a
- * time, goes by the {@link #original} one. In epoch 0, where all live topics are, both are the same.
+ * <p>State that is open when an epoch begins ends as without further records, and no record of the new epoch is late. Times
+ * are compared by event time; lookups of fields and devices, and reported times, use the {@link #original} time. In epoch 0,
+ * that of all live topics, both are the same.
  */
 public final class Epochs {
     /** Milliseconds, 557 years; a power of two, so that no division is needed. */

@@ -155,7 +155,7 @@ public final class LoadFleet implements AutoCloseable {
         }
     }
 
-    /** Waits, then takes acknowledgements and reconnects where a connection is broken. */
+    /** Waits, then takes acknowledgements and reconnects broken connections. */
     private void pause(long nanos) {
         LockSupport.parkNanos(nanos);
         gateways.forEach(MqttConnection::push);
