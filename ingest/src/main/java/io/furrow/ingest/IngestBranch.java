@@ -2,7 +2,7 @@ package io.furrow.ingest;
 
 import java.util.Locale;
 
-/** What {@code ingest} makes of events, each for itself: one instance of the job may do some of it and another the rest. */
+/** The parts of the work of {@code ingest} on each event: several instances of the job may divide them. */
 enum IngestBranch {
     /** The topics of domains and missions, and the dead letters of the input. */
     ROUTES,
@@ -15,7 +15,7 @@ enum IngestBranch {
     /** The files of images, and {@code data.images}. */
     IMAGES;
 
-    /** As the command line names it. */
+    /** The name on the command line. */
     String code() {
         return name().toLowerCase(Locale.ROOT);
     }

@@ -25,10 +25,7 @@ import io.furrow.ingest.mission.MissionStage;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.ingest.route.RouteEvents;
 
-/**
- * What is made of events, each as far as the options ask for it. A branch sees every event once, with domain, mission and
- * stamps.
- */
+/** The branches of the job, as configured. Each branch receives every event once, with domain, mission and stamps. */
 final class IngestBranches {
     private final KafkaOutput kafka;
     private final IngestOptions options;
@@ -92,7 +89,7 @@ final class IngestBranches {
         }
     }
 
-    /** The dead letters of these stages, where this instance does the part that they belong to; see {@link #writeDead}. */
+    /** Adds the dead letters of these stages, if this instance does their part; see {@link #writeDead}. */
     void setAside(IngestBranch ingestBranch, SingleOutputStreamOperator<?>... stages) {
         if (options.does(ingestBranch)) {
             for (SingleOutputStreamOperator<?> stage : stages) {
@@ -101,12 +98,12 @@ final class IngestBranches {
         }
     }
 
-    /** The dead letters of all that was set aside, and of missions. */
+    /** Writes all dead letters added, and those of missions. */
     void writeDead() {
         dead.stream().reduce(DataStream::union).ifPresent(letters -> kafka.write("dead-letters", letters));
     }
 
-    /** They are at the subtask of their key already: nothing is sent again. */
+    /** The events are partitioned by this key already, so that there is no shuffle. */
     static KeyedStream<ReportedEvent, String> keyed(DataStream<ReportedEvent> events) {
         return DataStreamUtils.reinterpretAsKeyedStream(events, ReportedEvent::identity);
     }

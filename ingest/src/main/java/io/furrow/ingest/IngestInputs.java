@@ -12,15 +12,15 @@ import io.furrow.flink.time.AdvanceIdleInput;
 import io.furrow.model.topic.Topics;
 
 /**
- * What comes in.
+ * The inputs of the job.
  *
  * @param records reported events, as on {@code data.raw}
  * @param devices the records of {@code service.devices}
- * @param devicesAtStart those that are known before the first event
- * @param latestAtStart what {@code data.latest} holds before the first event
+ * @param devicesAtStart devices that exist before the first event
+ * @param latestAtStart the content of {@code data.latest} before the first event
  * @param domains those of the control plane
  * @param missions those of the control plane
- * @param topics that there are
+ * @param topics existing topics
  */
 record IngestInputs(
         DataStream<TopicRecord> records,
@@ -30,7 +30,7 @@ record IngestInputs(
         TopicSnapshot domains,
         TopicSnapshot missions,
         TopicNames topics) {
-    /** The topics that the options name. */
+    /** The topics of the options. */
     static IngestInputs ofKafka(StreamExecutionEnvironment env, IngestOptions options) {
         DataStream<TopicRecord> records = AdvanceIdleInput.of(
                 env.fromSource(

@@ -25,13 +25,13 @@ import io.furrow.ingest.route.StampIngest;
 import io.furrow.model.topic.Topics;
 
 /**
- * The job {@code ingest}: deduplicates events and writes them to the {@link IngestBranch parts} that this instance does:
+ * The job {@code ingest}: deduplicates events and writes them to the {@link IngestBranch parts} of this instance:
  * routes, latest state, missions, images and catalog; unreadable records become dead letters.
  */
 public final class IngestJob {
     private IngestJob() {}
 
-    /** The whole job on Kafka, ready to be executed. */
+    /** Returns the whole job on Kafka, ready to be executed. */
     public static StreamExecutionEnvironment assemble(IngestOptions options) {
         StreamExecutionEnvironment env = JobEnvironment.create(options);
 
@@ -43,7 +43,7 @@ public final class IngestJob {
         return env;
     }
 
-    /** The pipeline; what goes to Kafka names its topic, other branches have sinks of their own. */
+    /** The pipeline; records for Kafka name their topic, other branches have their own sinks. */
     static void define(IngestInputs in, KafkaOutput kafka, IngestOptions options) {
         SingleOutputStreamOperator<ReportedEvent> recognized = in.records()
                 .process(new ParseEvents(

@@ -19,7 +19,7 @@ import io.furrow.ingest.latest.LatestKey;
 import io.furrow.ingest.mission.MissionOptions;
 import io.furrow.ingest.route.AssignMission;
 
-/** The options of the job {@code ingest}; those of a branch are a group of their own. */
+/** The options of the job {@code ingest}, with a group for each branch. */
 @Command(
         name = "ingest",
         description = "Writes each event once to data.<domain>.realtime and data.<domain>.realtime.<mission>, and the "
@@ -147,7 +147,7 @@ public final class IngestOptions extends JobOptions {
     /**
      * Whether this instance does this part.
      *
-     * @throws ParameterException if the options lack what one of its parts needs
+     * @throws ParameterException if options that one of its parts needs are missing
      */
     boolean does(IngestBranch ingestBranch) {
         if (isDivided() && parts.contains(IngestBranch.MISSIONS) && !missions.isOn()) {
@@ -163,7 +163,7 @@ public final class IngestOptions extends JobOptions {
         return parts.size() < IngestBranch.values().length;
     }
 
-    /** What this instance does about images, where they are moved. */
+    /** How this instance stores images, if they are moved. */
     StorageMode storing() {
         if (!isDivided()) {
             return StorageMode.ALL;
@@ -171,7 +171,7 @@ public final class IngestOptions extends JobOptions {
         return does(IngestBranch.IMAGES) ? StorageMode.FOR_OTHERS : StorageMode.BY_OTHERS;
     }
 
-    /** A replay's values are not news: they would go to {@code data.latest}, live topics and the mission's own collection. */
+    /** Rejects a replay, whose old values would reach {@code data.latest}, live topics and the mission's own collection. */
     @Override
     public InputTopics inputTopics() {
         InputTopics topics = super.inputTopics();
@@ -184,7 +184,7 @@ public final class IngestOptions extends JobOptions {
         return topics;
     }
 
-    /** That of the whole job is for the whole job: a part would resume in its consumer group and end its transactions. */
+    /** The default name is for the whole job: a part would resume in its consumer group and abort its transactions. */
     @Override
     public String jobName() {
         String name = super.jobName();
@@ -202,12 +202,12 @@ public final class IngestOptions extends JobOptions {
                 : super.defaultName();
     }
 
-    /** How topics are made. */
+    /** Settings for new topics. */
     public TopicOptions topics() {
         return topics;
     }
 
-    /** Whether and how missions are kept in MongoDB. */
+    /** Whether and how missions are stored in MongoDB. */
     public MissionOptions missions() {
         return missions;
     }
@@ -232,13 +232,13 @@ public final class IngestOptions extends JobOptions {
         return devices;
     }
 
-    /** How events get their domain and mission. */
+    /** The rule that assigns domain and mission to events. */
     AssignMission.Rule assignment() {
         return new AssignMission.Rule(
                 deviceHistory, defaultDomain().orElse(""), defaultMission().orElse(""));
     }
 
-    /** Topics of domains and missions that the control plane does not know. */
+    /** Limit of topics of domains and missions that the control plane does not manage. */
     int otherNames() {
         if (otherNames < 0) {
             throw refused("--other-names " + otherNames + " is below 0", null);

@@ -1,5 +1,5 @@
 /**
- * The jobs {@code ingest} and {@code normalize}, each on a page; their stages and branches have a package each.
+ * The jobs {@code ingest} and {@code normalize}; their stages and branches have a package each.
  *
  * <p><b>In</b>: {@code data.raw}, {@code service.devices}; for {@code normalize} the notifications that a context
  * broker writes to Kafka.

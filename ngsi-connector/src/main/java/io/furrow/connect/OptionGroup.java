@@ -33,7 +33,7 @@ public record OptionGroup(ConfigDef options, String name, Importance importance,
         return new OptionGroup(options, name, Importance.LOW, visibility);
     }
 
-    /** Shows the options only if another option has such a value, as text; empty stands for a missing value. */
+    /** Shows the options only if another option has such a value, as text; a missing value counts as empty. */
     public OptionGroup shownIf(String option, Predicate<String> value) {
         return new OptionGroup(options, name, importance, new Visibility(visibility.values, option, value));
     }

@@ -105,7 +105,7 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
     private static Optional<Entity> entityOf(TopicRecord record) {
         try {
             return Optional.of(Entity.parse(record.value(), Set.of("Mission")));
-        } catch (UnreadableException e) { // becomes a dead letter where it is read
+        } catch (UnreadableException e) { // another stage emits its dead letter
             return Optional.empty();
         }
     }

@@ -246,7 +246,7 @@ public abstract class EventTimeOperator<K, M extends HasEventTime, S, O> extends
 
     private void advance(Slot<K, M, S> slot, long until) throws Exception {
         if (slot.isEmpty()) {
-            return; // it was awaited for something that is done
+            return; // its messages have been processed already
         }
         due.clear();
         slot.takeDue(until, due);

@@ -14,7 +14,7 @@ import io.furrow.model.topic.Topics;
 final class InitialFields implements TopicSnapshot {
     private static final long serialVersionUID = 1L;
 
-    private final ArrayList<String> keys = new ArrayList<>(); // by its class, because it travels serialized
+    private final ArrayList<String> keys = new ArrayList<>(); // by its class, because it is serialized
     private final ArrayList<byte[]> values = new ArrayList<>();
 
     InitialFields(List<FieldVersion> fields) {

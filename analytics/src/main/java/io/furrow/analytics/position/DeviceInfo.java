@@ -104,7 +104,7 @@ public final class DeviceInfo {
             StringCodec.write(mission, out);
             StringCodec.write(carrier, out);
         } catch (IOException e) {
-            throw new UncheckedIOException(e); // it is memory
+            throw new UncheckedIOException(e); // in memory, it cannot fail
         }
         return out.getCopyOfBuffer();
     }

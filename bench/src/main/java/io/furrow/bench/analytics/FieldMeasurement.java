@@ -101,7 +101,7 @@ final class FieldMeasurement {
 
     private void temperature(int parallelism) throws Exception {
         StreamExecutionEnvironment env = environment(parallelism);
-        SyntheticFields where = fields; // this object does not travel with the job
+        SyntheticFields where = fields; // this object is not serialized with the job
         GeneratorFunction<Long, Reading> nth = n -> new Reading(
                 "urn:ngsi-ld:Thermometer:1",
                 "Thermometer",
@@ -160,7 +160,7 @@ final class FieldMeasurement {
     }
 
     private DataStream<TopicRecord> changes(StreamExecutionEnvironment env) {
-        return env.fromData(fields.read(), TypeInformation.of(TopicRecord.class)); // its end holds nobody up
+        return env.fromData(fields.read(), TypeInformation.of(TopicRecord.class)); // its end does not hold back event time
     }
 
     private static TopicRecord record(long n) {

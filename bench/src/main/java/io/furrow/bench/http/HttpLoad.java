@@ -119,7 +119,7 @@ public final class HttpLoad {
             }
             due = dueNanos(now);
         }
-        idle.addAll(failed); // not at once, or a server that is unavailable would keep this loop forever
+        idle.addAll(failed); // deferred, or an unavailable server would never let this loop end
         failed.clear();
     }
 

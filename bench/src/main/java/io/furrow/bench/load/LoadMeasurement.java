@@ -86,7 +86,7 @@ public final class LoadMeasurement {
     /** Creates the mission's topic and its devices, and returns the topic once the notifications about their creation have ended. */
     String prepare(LoadPlan plan) throws IOException, InterruptedException, ExecutionException {
         String topic = Topics.realtime(plan.domain(), plan.mission());
-        try { // before the first record, so that no delay holds the making of a topic
+        try { // before the first record, so that no delay includes the creation of a topic
             Engines.makeTopics(kafka, PARTITIONS, Map.of(), topic);
         } catch (ExecutionException e) {
             if (!(e.getCause() instanceof TopicExistsException)) {
@@ -124,7 +124,7 @@ public final class LoadMeasurement {
             }
             TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
         }
-        TimeUnit.SECONDS.sleep(1); // repeats that are still on their way
+        TimeUnit.SECONDS.sleep(1); // duplicates in flight
     }
 
     /** The context broker reports each new device before the load. */

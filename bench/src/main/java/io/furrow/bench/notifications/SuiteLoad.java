@@ -93,7 +93,7 @@ final class SuiteLoad {
                     suite.listener().getHost(), suite.listener().getPort());
             HttpLoad.Result load = new HttpLoad(listener, plan, firstNumber).run();
             check.await(load.acknowledged(), arrived -> {});
-            LockSupport.parkNanos(TimeUnit.SECONDS.toNanos(1)); // repeats that are still on their way
+            LockSupport.parkNanos(TimeUnit.SECONDS.toNanos(1)); // duplicates in flight
             return new Run(load, check.missing(load.acknowledged()), check.repeats(), delay);
         }
     }

@@ -116,7 +116,7 @@ final class TimingMeasurement {
                 .anchor();
         List<ScheduledReplay> again;
         try (TopicFiller producer = cluster.producer()) {
-            producer.learn(topics); // what a job that runs knows already
+            producer.learn(topics); // a running job has these already
             long later = System.currentTimeMillis() + AHEAD_MILLIS - first;
             again = IntStream.range(0, replays)
                     .mapToObj(i -> schedule.get(i).onto(others.get(i), later))

@@ -10,13 +10,13 @@ import io.furrow.model.ngsi.SlicedEntity;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * What the values of an attribute are like.
+ * A profile of an attribute's values.
  *
- * @param type as reported last, for instance {@code Float}; empty if none was
- * @param unit metadata {@code unitCode} or {@code unit} as reported last; empty if none was
+ * @param type last reported, for instance {@code Float}; empty if there was none
+ * @param unit last reported metadata {@code unitCode} or {@code unit}; empty if there was none
  * @param kind {@code number}, {@code text}, {@code boolean}, {@code image}, {@code structure} or {@code mixed}
- * @param values how many, without nulls
- * @param numbers how many of them are numbers
+ * @param values number of values, without nulls
+ * @param numbers number of numeric values
  * @param min of the numbers; positive infinity if there is none
  * @param max of the numbers; negative infinity if there is none
  * @param first event time of the first value, epoch ms
@@ -36,7 +36,7 @@ public record AttributeProfile(
 
     private static final String MIXED = "mixed";
 
-    /** One value; empty if it is null. */
+    /** The profile of one value; empty if it is null. */
     static Optional<AttributeProfile> of(SlicedEntity.Slice attribute, long time) throws UnreadableException {
         if (attribute.value() == JsonToken.VALUE_NULL) {
             return Optional.empty();
@@ -67,7 +67,7 @@ public record AttributeProfile(
         };
     }
 
-    /** Both together; in any order the same. */
+    /** Merges both; commutative and associative. */
     AttributeProfile plus(AttributeProfile other) {
         AttributeProfile newer = newer(other);
         return new AttributeProfile(
@@ -82,7 +82,7 @@ public record AttributeProfile(
                 Math.max(last, other.last));
     }
 
-    /** Of the same time the one that is first by type and unit, so that the order of arrival makes no difference. */
+    /** At equal times the first by type and unit, so that the order of arrival makes no difference. */
     private AttributeProfile newer(AttributeProfile other) {
         if (last != other.last) {
             return last > other.last ? this : other;

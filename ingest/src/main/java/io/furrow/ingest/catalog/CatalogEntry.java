@@ -16,16 +16,16 @@ import io.furrow.model.ngsi.SlicedEntity;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * What there is of one type of entity in one mission: counts, times, and a profile of each attribute. Entries of the same key
- * add up, in any order to the same.
+ * The catalog entry of one type of entity in one mission: counts, times, and a profile of each attribute. Entries of the same
+ * key can be merged in any order.
  *
  * @param service tenant; empty for the default one
  * @param domain empty if there is none
  * @param mission empty if there is none
- * @param entities that have been seen and not deleted
- * @param events changes that were reported
- * @param bytes of these events, images not counted that were moved to files
- * @param images that were moved to files
+ * @param entities number of entities seen and not deleted
+ * @param events number of reported changes
+ * @param bytes of these events, without images that were moved to files
+ * @param images number of images moved to files
  * @param first event time of the first event, epoch ms
  * @param last event time of the last event, epoch ms
  * @param attributes by name, at most {@value #MAX_ATTRIBUTES}
@@ -43,12 +43,12 @@ public record CatalogEntry(
         long first,
         long last,
         Map<String, AttributeProfile> attributes) {
-    /** A device that makes up names would otherwise fill the memory. */
+    /** Limits the memory that a device with generated names can use. */
     static final int MAX_ATTRIBUTES = 1000;
 
     private static final double MILLIS_PER_SECOND = 1000;
 
-    /** One event. */
+    /** The entry of one event. */
     static CatalogEntry of(ReportedEvent event) throws UnreadableException {
         SlicedEntity entity = EventEntity.of(event.record());
         Map<String, AttributeProfile> attributes = new HashMap<>();
@@ -87,7 +87,7 @@ public record CatalogEntry(
         return FiwareScope.of(headers).service();
     }
 
-    /** The same with a number of entities more, or less. */
+    /** Adds a number of entities, which may be negative. */
     CatalogEntry andEntities(long more) {
         return new CatalogEntry(
                 service,
@@ -104,12 +104,12 @@ public record CatalogEntry(
                 attributes);
     }
 
-    /** Nothing but a number of entities. */
+    /** An entry with only a number of entities. */
     CatalogEntry onlyEntities(long number) {
         return new CatalogEntry(service, domain, mission, type, number, 0, 0, 0, 0, first, last, new HashMap<>());
     }
 
-    /** Tenant, domain, mission and type in one text; no two keys share one. */
+    /** Tenant, domain, mission and type as one unambiguous text. */
     String key() {
         return String.join("|", escaped(service), escaped(domain), escaped(mission), escaped(type));
     }
@@ -118,7 +118,7 @@ public record CatalogEntry(
         return part.replace("%", "%25").replace("|", "%7C");
     }
 
-    /** Both together. */
+    /** Merges both. */
     CatalogEntry plus(CatalogEntry other) {
         Map<String, AttributeProfile> all = new HashMap<>(attributes);
         other.attributes.forEach((name, profile) -> {
@@ -142,9 +142,9 @@ public record CatalogEntry(
     }
 
     /**
-     * As it stands on {@code data.catalog}; times in ISO 8601, rates per second.
+     * The value on {@code data.catalog}; times in ISO 8601, rates per second.
      *
-     * @param deleted event time at which the last of its entities was deleted, epoch ms; null while there are any
+     * @param deleted event time of the deletion of its last entity, epoch ms; null while it has entities
      */
     byte[] toBytes(Long deleted) {
         ObjectNode json = NgsiJson.mapper()
@@ -167,7 +167,7 @@ public record CatalogEntry(
         return NgsiJson.write(json);
     }
 
-    /** First, last, and how many a second from the first to the last; no rate where that is not a time. */
+    /** First and last time, and the rate per second between them; no rate if they are equal. */
     static void writeTimes(ObjectNode json, long count, long first, long last) {
         json.put("first", Instant.ofEpochMilli(first).toString())
                 .put("last", Instant.ofEpochMilli(last).toString());

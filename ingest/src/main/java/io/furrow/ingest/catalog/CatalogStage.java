@@ -8,14 +8,14 @@ import org.apache.flink.streaming.api.datastream.KeyedStream;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.route.ReportedEvent;
 
-/** The branch of ingest that keeps the catalog. */
+/** The branch of ingest that maintains the catalog. */
 public final class CatalogStage {
     private CatalogStage() {}
 
     /**
      * @param events by identity, images moved
      * @param interval of event time between two records of an entry
-     * @param retention event time after which an entry without events goes
+     * @param retention event time after which an entry without events is deleted
      */
     public static DataStream<TopicRecord> keep(
             KeyedStream<ReportedEvent, String> events, Duration interval, Duration retention) {

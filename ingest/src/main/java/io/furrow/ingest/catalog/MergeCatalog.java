@@ -18,12 +18,12 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 
 /**
- * Adds the entities of a mission and type up to an entry of the catalog.
+ * Merges the entities of a mission and type into an entry of the catalog.
  *
- * <p>State: the entry, whether it is to be written, when its last entity was deleted and when it goes, per tenant, domain,
- * mission and type. Cleared: all of it when no event has come for the retention. Late: no difference; a deletion that comes
- * after its entry is gone is no news. Emits: the entry for {@code data.catalog}, at most once per interval of event time; at the
- * end of its life a record without a value.
+ * <p>State: the entry, whether it is to be written, when its last entity was deleted and when it expires, per tenant, domain,
+ * mission and type. Cleared: when no event has arrived for the retention. Late: no difference; a deletion after the entry has
+ * expired is ignored. Emits: the entry for {@code data.catalog}, at most once per interval of event time; when it expires a
+ * tombstone.
  */
 public final class MergeCatalog extends KeyedProcessFunction<String, CatalogEntry, TopicRecord> {
     private static final long serialVersionUID = 1L;

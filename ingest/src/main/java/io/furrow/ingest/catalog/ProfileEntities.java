@@ -16,10 +16,10 @@ import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Adds up what is new of each entity, so that a mission with many devices has no key that sees every event.
+ * Preaggregates the events of each entity, so that a mission with many devices has no key that receives every event.
  *
- * <p>State: per entity what was added up since the last interval, and in which entries it was counted. Cleared: the first by
- * event-time timers, all of it by the entity's deletion. Late: no difference. Emits: what was added up, once per interval.
+ * <p>State: per entity the aggregate since the last interval, and the entries in which it was counted. Cleared: the first by
+ * event-time timers, all of it by the entity's deletion. Late: no difference. Emits: the aggregate, once per interval.
  */
 public final class ProfileEntities extends KeyedProcessFunction<String, ReportedEvent, CatalogEntry> {
     private static final long serialVersionUID = 1L;
@@ -79,7 +79,7 @@ public final class ProfileEntities extends KeyedProcessFunction<String, Reported
         }
     }
 
-    /** The end of the interval that a time is in. */
+    /** The end of the interval that contains a time. */
     static long nextInterval(long time, long interval) {
         return (Math.floorDiv(time, interval) + 1) * interval - 1;
     }

@@ -4,7 +4,7 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.Sha256;
 
-/** A whole image of a known format, not larger than allowed. */
+/** A complete image of a known format, within the size limit. */
 record Image(byte[] bytes, ImageFormat format, String sha256) {
     /**
      * @param text of the attribute

@@ -10,8 +10,8 @@ import io.furrow.flink.record.DeadLetterCounters;
 import io.furrow.ingest.route.ReportedEvent;
 
 /**
- * Metrics of the images of a subtask: {@code images}, {@code imageBytes} and {@code dead} (events with a broken one), in all and
- * in groups {@code domain} and {@code mission}, {@code imageRetries}, and the gauge {@code imageBytesInFlight}.
+ * Metrics of the images of a subtask: {@code images}, {@code imageBytes} and {@code dead} (events with a broken image), in total
+ * and in groups {@code domain} and {@code mission}, {@code imageRetries}, and the gauge {@code imageBytesInFlight}.
  */
 final class ImageCounts {
     private final Stored all;
@@ -19,7 +19,7 @@ final class ImageCounts {
     private final DeadLetterCounters dead;
     private final Counter retries;
 
-    /** Counts what was stored. */
+    /** Counts stored images. */
     private record Stored(Counter images, Counter bytes) {
         static Stored in(MetricGroup group) {
             return new Stored(group.counter("images"), group.counter("imageBytes"));
@@ -49,7 +49,7 @@ final class ImageCounts {
         }
     }
 
-    /** From any thread. */
+    /** Thread-safe. */
     void retried() {
         retries.inc();
     }

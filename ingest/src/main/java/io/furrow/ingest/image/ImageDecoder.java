@@ -10,9 +10,9 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * The bytes behind the text of an image attribute: base64 (RFC 4648) in the standard or the URL-safe alphabet, with or
- * without padding, with line breaks, with {@code %3D} and the like for signs that the context broker forbids, and as a data
- * URI (RFC 2397).
+ * Decodes the text of an image attribute: base64 (RFC 4648) in the standard or the URL-safe alphabet, with or without
+ * padding, with line breaks, with {@code %3D} and the like for characters that the context broker forbids, or a data URI (RFC
+ * 2397).
  */
 final class ImageDecoder {
     private static final byte FOREIGN = -1;
@@ -21,16 +21,18 @@ final class ImageDecoder {
 
     private ImageDecoder() {}
 
-    /** @param text ASCII or UTF-8; unharmed */
+    /**
+     * @param text ASCII or UTF-8; not modified
+     */
     static byte[] decode(byte[] text) throws UnreadableException {
         try {
             return decodePlain(text);
-        } catch (IllegalArgumentException e) { // a sign that is not in the alphabet: one of the other forms, or none
+        } catch (IllegalArgumentException e) { // a character outside the alphabet: another variant, or invalid
             return decodeAnyForm(text);
         }
     }
 
-    /** What nearly all images are, several times faster than sign by sign: one line, padded with {@code =} or {@code %3D}. */
+    /** The common case, several times faster than character by character: one line, padded with {@code =} or {@code %3D}. */
     private static byte[] decodePlain(byte[] text) {
         int length = text.length;
         for (int padding = 0; padding < 2 && length >= 3 && isEscapedPadding(text, length - 3); padding++) {
@@ -104,7 +106,7 @@ final class ImageDecoder {
         return Arrays.copyOf(decoded, length);
     }
 
-    /** The byte that {@code %HH} at a position stands for. */
+    /** The byte that {@code %HH} at a position encodes. */
     private static int escaped(byte[] text, int at) throws UnreadableException {
         int high = at + 2 < text.length ? Character.digit(text[at + 1], 16) : -1;
         int low = at + 2 < text.length ? Character.digit(text[at + 2], 16) : -1;

@@ -18,13 +18,13 @@ import io.furrow.mission.image.ImageName;
 import io.furrow.model.text.Sha256;
 
 /**
- * Images as files on a Flink file system. A file appears whole or not at all: it is written under another name and renamed,
- * on object stores put at once. What was written once is not written again; what is there under a name and is another image
- * is left alone, the newcomer gets a name with its hash. On the local file system an image is on the disk, and so is its name,
- * before the call returns: a checkpoint after it may take it for done.
+ * Stores images as files on a Flink file system. A file appears atomically: it is written under another name and renamed, or
+ * put at once on object stores. An existing equal image is not written again; an existing different one is not overwritten,
+ * the new image gets a name with its hash. On the local file system an image and its name are synced to the disk before the
+ * call returns, so that a later checkpoint may rely on them.
  */
 final class ImageFiles implements ImageStore {
-    /** Stores where a rename is a copy and a put shows nothing before it is whole. */
+    /** Stores in which a rename is a copy and a put is atomic. */
     private static final Set<String> OBJECT_STORES = Set.of("s3", "s3a", "s3n", "s3p", "gs", "oss", "wasb", "wasbs");
 
     private final String root;
@@ -36,7 +36,7 @@ final class ImageFiles implements ImageStore {
         this.root = root;
         this.files = files;
         String scheme = URI.create(root).getScheme();
-        this.local = "file".equals(scheme); // what the file system is is unknown: in a task Flink wraps it
+        this.local = "file".equals(scheme); // its type is unknown: Flink wraps it in a task
         this.atomicPut = OBJECT_STORES.contains(scheme);
     }
 
@@ -45,7 +45,7 @@ final class ImageFiles implements ImageStore {
         return new ImageFiles(root, path(root).getFileSystem());
     }
 
-    /** Writes an image unless it is there already. */
+    /** Writes an image unless it exists. */
     @Override
     public StoredImage store(ImageName name, Image image) throws IOException {
         String first = root + "/" + name.path(image.format().extension());
@@ -57,7 +57,7 @@ final class ImageFiles implements ImageStore {
         return StoredImage.of(url, image);
     }
 
-    /** The same under the name with its hash, which no other image can have. */
+    /** The same under the name with its hash, which is unique. */
     StoredImage storeByHash(ImageName name, Image image) throws IOException {
         return StoredImage.of(storeBeside(name, image), image);
     }
@@ -66,7 +66,7 @@ final class ImageFiles implements ImageStore {
         String second = root + "/" + name.path(image.format().extension(), image.sha256());
         Found found = found(path(second), image);
         if (found == Found.ANOTHER) {
-            files.delete(path(second), false); // nothing but a damaged file of the same image can have its hash
+            files.delete(path(second), false); // only a damaged file of the same image can have its hash
         }
         return found == Found.THE_SAME ? named(second) : write(second, image);
     }
@@ -109,7 +109,7 @@ final class ImageFiles implements ImageStore {
         return named(url);
     }
 
-    /** A file's name is on the disk when its folder is, that of a new folder when the one above is. */
+    /** A file's name is durable when its folder is synced, that of a new folder when its parent is. */
     private String named(String url) throws IOException {
         if (local) {
             java.nio.file.Path top = folder(path(root)).getParent();
@@ -120,7 +120,7 @@ final class ImageFiles implements ImageStore {
         return url;
     }
 
-    /** Flink takes the text of a path as it stands, without the percent-encoding of a URL. */
+    /** Flink takes the text of a path literally, without the percent-encoding of a URL. */
     private static Path path(String url) {
         return new Path(URI.create(url));
     }
@@ -141,7 +141,7 @@ final class ImageFiles implements ImageStore {
             written = true;
         } finally {
             if (!written) {
-                files.delete(path, false); // closing may have made a file of what was written so far
+                files.delete(path, false); // closing may have created a partial file
             }
         }
     }

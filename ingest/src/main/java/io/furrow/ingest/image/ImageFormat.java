@@ -7,11 +7,11 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * The formats that are stored, detected by the bytes, never by what a sender declares. Checked are the structure and
- * that the end is there; the pixels are not decoded.
+ * The supported formats, detected by the bytes, never by a sender's declaration. Structure and end are checked; the
+ * pixels are not decoded.
  */
 enum ImageFormat {
-    /** Chunks from {@code IHDR} to {@code IEND}, each with a right checksum (ISO/IEC 15948). */
+    /** Chunks from {@code IHDR} to {@code IEND}, each with a correct checksum (ISO/IEC 15948). */
     PNG("image/png", "png") {
         @Override
         void check(ByteBuffer image) throws UnreadableException {
@@ -24,7 +24,7 @@ enum ImageFormat {
                 }
                 pixels |= type == IDAT;
                 if (type == IEND && pixels) {
-                    return; // what a camera adds behind the end harms nobody
+                    return; // data after the end, which cameras may add, is harmless
                 }
                 if (type == IEND) {
                     throw broken(this, "has no pixels");
@@ -118,7 +118,7 @@ enum ImageFormat {
         this.extension = extension;
     }
 
-    /** @throws UnreadableException if they are neither, or not whole */
+    /** @throws UnreadableException if they are neither, or incomplete */
     static ImageFormat of(byte[] bytes) throws UnreadableException {
         ByteBuffer image = ByteBuffer.wrap(bytes);
         ImageFormat format = null;

@@ -21,8 +21,8 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /**
- * Stores the images of one event and makes the event that travels on. Instead of an image it carries {@code {url, sha256,
- * bytes, contentType}}; instead of a broken one null, and a header {@value #BROKEN} with the reason.
+ * Stores the images of one event and creates the event to forward. An image is replaced by
+ * {@code {url, sha256, bytes, contentType}}; a broken one by null, and a header {@value #BROKEN} with the reason.
  */
 final class ImageMover {
     /** Header of an event that lost an image: the reason code. */
@@ -43,15 +43,15 @@ final class ImageMover {
         this.quotedNames = ImageRange.quoted(settings.attributes());
     }
 
-    /** False if a short look says that the event holds no image. */
+    /** False if a quick check shows that the event has no image. */
     boolean concerns(TopicRecord record) {
         return record.value() != null && ImageRange.possible(record.value(), quotedNames);
     }
 
     /**
-     * Where another instance writes images, it also announces them and sets broken ones aside.
+     * If another instance writes images, it also announces them and emits dead letters for broken ones.
      *
-     * @throws IOException if the store does not take an image; the same call may be made again
+     * @throws IOException if the store does not accept an image; the call may be retried
      */
     MoveResult move(ReportedEvent event) throws IOException {
         MoveResult moveResult = moved(event);

@@ -13,7 +13,7 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 
-/** The options about images of the job {@code ingest}. */
+/** The options of the job {@code ingest} for images. */
 public final class ImageOptions {
     @Spec(Spec.Target.MIXEE)
     private CommandSpec spec;
@@ -75,7 +75,7 @@ public final class ImageOptions {
     /**
      * Empty if images stay in the events.
      *
-     * @throws ParameterException naming the option that is wrong and the remedy
+     * @throws ParameterException naming the invalid option and the remedy
      */
     Optional<ImageSettings> settings(StorageMode storageMode) {
         if (root == null) {
@@ -89,7 +89,7 @@ public final class ImageOptions {
                 folder(root), new LinkedHashSet<>(attributes), maxBytes, threads, maxInFlight, timeout, storageMode));
     }
 
-    /** An absolute URI without a slash at its end; what begins with no scheme is a path of this machine, of any characters. */
+    /** An absolute URI without a trailing slash; a value without a scheme is a local path, with any characters. */
     private String folder(String given) {
         try {
             URI uri = given.matches("(?s)[A-Za-z][A-Za-z0-9+.-]*:.*")

@@ -17,15 +17,15 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Where in the bytes of an entity the text of an image attribute stands, so that it can be taken out and no other byte of the
- * event changes.
+ * The position of an image attribute's text in the bytes of an entity, so that it can be replaced without changing any other
+ * byte.
  *
  * @param from position of the opening quote
- * @param to position behind the closing quote
- * @param escaped whether the text holds JSON escapes
+ * @param to position after the closing quote
+ * @param escaped whether the text has JSON escapes
  */
 record ImageRange(String attribute, int from, int to, boolean escaped) {
-    /** Whether it is worth reading an entity: its bytes hold one of the names, or an escape that could stand for one. */
+    /** Whether an entity need be parsed: its bytes contain one of the names, or an escape that could be part of one. */
     static boolean possible(byte[] entity, List<byte[]> quotedNames) {
         for (int i = 0; i < entity.length; i++) {
             if (entity[i] == '\\' && i + 1 < entity.length && entity[i + 1] == 'u') {
@@ -43,7 +43,7 @@ record ImageRange(String attribute, int from, int to, boolean escaped) {
         return false;
     }
 
-    /** The names as they stand in JSON, for {@link #possible}. */
+    /** The names as JSON, for {@link #possible}. */
     static List<byte[]> quoted(Set<String> attributes) {
         return attributes.stream()
                 .map(name -> ('"' + name + '"').getBytes(StandardCharsets.UTF_8))
@@ -51,8 +51,8 @@ record ImageRange(String attribute, int from, int to, boolean escaped) {
     }
 
     /**
-     * The attributes of these names whose value is a text, in the order of the entity; those that are blank or an address
-     * ({@code …://…}) hold no image.
+     * The attributes of these names with a text as value, in the order of the entity; blank texts and addresses
+     * ({@code …://…}) are not images.
      */
     static List<ImageRange> find(byte[] entity, Set<String> attributes) throws UnreadableException {
         List<ImageRange> spans = new ArrayList<>();
@@ -104,7 +104,7 @@ record ImageRange(String attribute, int from, int to, boolean escaped) {
         return new ImageRange(name, quote, i + 1, escaped);
     }
 
-    /** The text as it was before it became JSON. */
+    /** The text, decoded from JSON. */
     byte[] text(byte[] entity) throws UnreadableException {
         return escaped
                 ? NgsiJson.read(Arrays.copyOfRange(entity, from, to))
@@ -119,7 +119,7 @@ record ImageRange(String attribute, int from, int to, boolean escaped) {
         return !text.isBlank() && !text.matches("(?s)[A-Za-z][A-Za-z0-9+.-]*:/.*");
     }
 
-    /** The entity with something else instead of each text. */
+    /** The entity with each text replaced. */
     static byte[] replace(byte[] entity, List<ImageRange> spans, List<byte[]> values) {
         ByteArrayOutputStream replaced = new ByteArrayOutputStream();
         int kept = 0;
@@ -132,6 +132,6 @@ record ImageRange(String attribute, int from, int to, boolean escaped) {
         return replaced.toByteArray();
     }
 
-    /** Blank or not, a longer text is an image or a broken one. */
+    /** A longer text is an image or a broken one, never blank or an address. */
     private static final int MAX_ADDRESS_LENGTH = 4096;
 }

@@ -5,14 +5,14 @@ import java.time.Duration;
 import java.util.Set;
 
 /**
- * How images are moved.
+ * The settings for moving images.
  *
- * @param root where they are kept, an absolute URI without a slash at its end
- * @param attributes names of the attributes that hold images
+ * @param root of the store, an absolute URI without a trailing slash
+ * @param attributes names of the attributes that contain images
  * @param maxBytes of one image
  * @param threads that read and write images, per subtask
  * @param maxInFlightBytes of events that wait for an image to be written, per subtask
- * @param timeout how long a store that does not take an image is asked again before the job fails
+ * @param timeout for retries with an unavailable store before the job fails
  */
 record ImageSettings(
         String root,

@@ -18,11 +18,11 @@ import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.text.FailureText;
 
 /**
- * The stage of a job that moves images: events are emitted in the order of their entity, each once. Broken images are on {@link
- * DeadLetters#TAG}. Without {@code --images} all events pass as they are, so that the job keeps its shape.
+ * The stage of a job that moves images: events are emitted once, in order per entity. Broken images go to
+ * {@link DeadLetters#TAG}. Without {@code --images} all events pass unchanged, so that the job graph stays the same.
  */
 public final class ImageStage {
-    /** A record for {@code data.images} for each image that was stored. */
+    /** A record for {@code data.images} for each stored image. */
     public static final OutputTag<TopicRecord> MANIFEST = new OutputTag<>("image-manifest") {
         private static final long serialVersionUID = 1L;
     };
@@ -43,7 +43,7 @@ public final class ImageStage {
         return new Factory(settings, type);
     }
 
-    /** Here, where a wrong setting can be refused, not when the job runs. */
+    /** Checks early, when an invalid setting can be rejected, rather than when the job runs. */
     private static void check(ImageSettings settings, ImageOptions options) {
         try {
             ImageStore.of(settings);
@@ -75,7 +75,7 @@ public final class ImageStage {
         }
 
         @Override
-        @SuppressWarnings("rawtypes") // as the interface has it
+        @SuppressWarnings("rawtypes") // required by the interface
         public Class<? extends StreamOperator> getStreamOperatorClass(ClassLoader loader) {
             return MoveImages.class;
         }

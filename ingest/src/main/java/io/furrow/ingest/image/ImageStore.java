@@ -4,12 +4,12 @@ import java.io.IOException;
 
 import io.furrow.mission.image.ImageName;
 
-/** Where images go. */
+/** A store of images. */
 interface ImageStore {
     /**
-     * Says where an image is, after it was written where that is this instance's part.
+     * Returns the location of an image, after writing it if that is this instance's part.
      *
-     * @throws IOException if the store does not take it; it may be tried again
+     * @throws IOException if the store does not accept it; the call may be retried
      */
     StoredImage store(ImageName name, Image image) throws IOException;
 

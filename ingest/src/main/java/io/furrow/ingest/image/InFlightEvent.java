@@ -6,9 +6,7 @@ import org.apache.flink.util.function.ThrowingRunnable;
 
 import io.furrow.ingest.route.ReportedEvent;
 
-/**
- * An event that waits for the store, or a watermark that waits for the events before it.
- */
+/** An event that waits for the store, or a watermark that waits for the events before it. */
 final class InFlightEvent {
     private ReportedEvent event;
     private final ThrowingRunnable<Exception> mark;
@@ -25,12 +23,14 @@ final class InFlightEvent {
         return new InFlightEvent(event, () -> {}, false);
     }
 
-    /** @param mark what to do when everything before it has gone on */
+    /**
+     * @param mark the action after everything before it was emitted
+     */
     static InFlightEvent mark(ThrowingRunnable<Exception> mark) {
         return new InFlightEvent(null, mark, true);
     }
 
-    /** Null once it has passed: what waits behind another entity's image must not keep its own in memory. */
+    /** Null once it has been emitted: an event queued after another entity's image must not hold its own in memory. */
     ReportedEvent event() {
         return event;
     }

@@ -8,13 +8,13 @@ import java.nio.file.StandardOpenOption;
 
 /** A folder of the local file system. */
 final class LocalFolder {
-    /** Elsewhere a folder cannot be opened, and its names need no such care. */
+    /** On other systems a folder cannot be opened, and syncing names is not necessary. */
     private static final boolean IS_POSIX =
             FileSystems.getDefault().supportedFileAttributeViews().contains("posix");
 
     private LocalFolder() {}
 
-    /** Has the names in it written to the disk. */
+    /** Syncs the names in it to the disk. */
     static void sync(Path folder) throws IOException {
         if (IS_POSIX) {
             try (FileChannel channel = FileChannel.open(folder, StandardOpenOption.READ)) {

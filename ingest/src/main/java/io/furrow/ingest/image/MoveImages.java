@@ -33,19 +33,19 @@ import io.furrow.flink.record.DeadLetters;
 import io.furrow.ingest.route.ReportedEvent;
 
 /**
- * Writes images in threads of its own while other entities' events pass; keyed by entity, whose events keep their order. One
- * image of an entity is written at a time. Watermarks wait for the events before them.
+ * Writes images in its own threads while other entities' events pass; keyed by entity, whose events stay in order. One image
+ * of an entity is written at a time. Watermarks wait for the events before them.
  *
- * <p>State: events that wait for the store, per entity, written at a checkpoint. Cleared: when the entity's last one has gone
- * on. Late: no difference. Emits: each event once, its images replaced; the manifest and dead letters aside.
+ * <p>State: events that wait for the store, per entity, written at a checkpoint. Cleared: when the entity's last one was
+ * emitted. Late: no difference. Emits: each event once, its images replaced; the manifest and dead letters as side outputs.
  */
 final class MoveImages extends AbstractStreamOperator<ReportedEvent>
         implements OneInputStreamOperator<ReportedEvent, ReportedEvent> {
     private static final long serialVersionUID = 1L;
     private static final String STATE = "in-flight";
-    /** What an event takes beside its value, roughly. */
+    /** Approximate size of an event besides its value. */
     private static final int OVERHEAD_BYTES = 512;
-    /** So much longer than its timeout a store may leave an attempt without an answer; then the job fails. */
+    /** Grace time after the timeout for an attempt without an answer; then the job fails. */
     private static final Duration HANGING = Duration.ofMinutes(1);
 
     private final ImageSettings settings;
@@ -97,7 +97,7 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
 
     private static Thread thread(Runnable task) {
         Thread thread = new Thread(task, "images");
-        thread.setDaemon(true); // a store that hangs must not keep the process from ending
+        thread.setDaemon(true); // a hanging store must not prevent the end of the process
         return thread;
     }
 
@@ -126,7 +126,7 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
         }
     }
 
-    /** Hands the first event of an entity to a thread; one that needs none is emitted by the next mail. */
+    /** Passes the first event of an entity to a thread; one without images is emitted by the next mail. */
     private void begin(InFlightEvent inFlightEvent) {
         ReportedEvent event = inFlightEvent.event();
         if (!isConcerned(event)) {
@@ -147,7 +147,7 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
         });
     }
 
-    /** The time of an image begins when a thread takes it: how long it waited for one says nothing of the store. */
+    /** The timeout of an image begins when a thread takes it: the wait for a thread is not the store's fault. */
     private void expectAnswer(InFlightEvent inFlightEvent) {
         long deadline = getProcessingTimeService().getCurrentProcessingTime()
                 + settings.timeout().plus(HANGING).toMillis();
@@ -156,7 +156,7 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
                         deadline, time -> fail(inFlightEvent.event(), new IOException("the store does not answer"))));
     }
 
-    /** Has the task's own thread do something. */
+    /** Runs an action on the task's own thread. */
     private void send(ThrowingRunnable<Exception> mail) {
         try {
             mailbox.execute(mail, "go on after storing an image");
@@ -239,7 +239,7 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
         }
     }
 
-    /** At the end of the input: what waits must be emitted before the task may finish. */
+    /** At the end of the input, waiting events must be emitted before the task may finish. */
     @Override
     public void finish() throws Exception {
         while (!byEntity.isEmpty()) {

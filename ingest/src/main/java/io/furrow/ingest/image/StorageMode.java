@@ -1,14 +1,14 @@
 package io.furrow.ingest.image;
 
 /**
- * Who writes the files of images. Where several instances share the work, each must know an image's name without looking into
- * the store: then every name ends in the hash of its image.
+ * Decides which instance writes the files of images. If several instances share the work, each must determine an image's name
+ * without access to the store: then every name ends in the hash of its image.
  */
 public enum StorageMode {
-    /** This instance, for itself alone. A name has a hash only where another image has taken it. */
+    /** This instance, the only one. A name has a hash only if another image has taken it. */
     ALL,
-    /** This instance, also for those that only refer to them. */
+    /** This instance, also for those that only refer to images. */
     FOR_OTHERS,
-    /** Another instance: this one puts references into events, which may be there before the files are. */
+    /** Another instance: this one puts references into events, possibly before the files exist. */
     BY_OTHERS
 }

@@ -6,9 +6,7 @@ import java.time.Duration;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.time.Backoff;
 
-/**
- * Retries to store images, with backoff, until a timeout: a store that is unavailable for a moment costs no restart.
- */
+/** Retries to store images, with backoff, until a timeout, so that a short outage of a store causes no restart. */
 final class StoreRetries {
     private static final Duration MIN_BACKOFF = Duration.ofMillis(100);
     private static final Duration MAX_BACKOFF = Duration.ofSeconds(5);
@@ -23,7 +21,7 @@ final class StoreRetries {
         this.onRetry = onRetry;
     }
 
-    /** @throws IOException what the last attempt said */
+    /** @throws IOException the exception of the last attempt */
     MoveResult move(ReportedEvent event) throws IOException, InterruptedException {
         long end = System.nanoTime() + timeout.toNanos();
         Backoff backoff = new Backoff(MIN_BACKOFF, MAX_BACKOFF);

@@ -3,7 +3,7 @@ package io.furrow.ingest.image;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-/** What an event carries instead of its image: where it is, and what it was. */
+/** A reference to an image, which replaces it in an event. */
 record StoredImage(String url, String sha256, int bytes, String contentType) {
     static StoredImage of(String url, Image image) {
         return new StoredImage(

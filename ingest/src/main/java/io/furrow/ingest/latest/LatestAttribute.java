@@ -1,9 +1,9 @@
 package io.furrow.ingest.latest;
 
 /**
- * The newest that is known of an attribute.
+ * The newest value of an attribute.
  *
  * @param time event time, epoch ms
- * @param json type, value and metadata as they were reported
+ * @param json type, value and metadata as reported
  */
 public record LatestAttribute(long time, String json) {}

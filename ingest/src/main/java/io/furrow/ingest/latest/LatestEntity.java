@@ -12,25 +12,25 @@ import com.fasterxml.jackson.core.io.JsonStringEncoder;
 import io.furrow.model.ngsi.SlicedEntity;
 
 /**
- * The newest that is known of an entity. An attribute changes by events that are not older than what is known of it; of two
- * events of one time the later to arrive stands.
+ * The newest state of an entity. An event changes an attribute if it is not older than the attribute's state; of two events with
+ * equal times the last to arrive wins.
  *
  * @param time of the newest event, epoch ms
- * @param deleted whether that event was its deletion; nothing older brings it back
- * @param type as the newest event had it
+ * @param deleted whether that event was its deletion, which no older event reverts
+ * @param type in the newest event
  * @param received when the last event was received, epoch ms; before {@code time} if the device's clock is ahead
  */
 public record LatestEntity(
         long time, boolean deleted, String type, Map<String, LatestAttribute> attributes, long received) {
-    /** A device that makes up names of attributes would otherwise fill the memory, and no topic would take the record. */
+    /** Limits the memory, and the record size, that a device with generated names of attributes can cause. */
     private static final int MAX_ATTRIBUTES = 1000;
 
     static final LatestEntity NEVER_SEEN = new LatestEntity(Long.MIN_VALUE, false, "", Map.of(), Long.MIN_VALUE);
 
     /**
-     * After a change: the same object where the event brings nothing that is not known newer. Else this one is of no more use, as
-     * the other takes over its attributes. Of more attributes than are kept, and than the event brings, those that were reported
-     * longest ago go.
+     * Applies a change: returns the same object if the event is outdated. Otherwise this object must not be used any more,
+     * because the result takes over its attributes. Above the limit, or the number of the event's attributes, those reported
+     * longest ago are dropped.
      */
     LatestEntity with(SlicedEntity reported, long eventTime, long eventReceived) {
         if (deleted && eventTime <= time) {
@@ -67,8 +67,8 @@ public record LatestEntity(
     }
 
     /**
-     * After its deletion: the same object where something newer is known. The time of a deletion is that of the context
-     * broker or of its receipt: of a device whose clock is ahead the receipt of its events counts.
+     * Applies a deletion: returns the same object if it is outdated. The time of a deletion is that of the context broker or of
+     * its receipt; if the device's clock is ahead, it is compared with the receipt of its events.
      */
     LatestEntity withoutAnything(long eventTime) {
         return eventTime >= Math.min(time, received)
@@ -80,7 +80,7 @@ public record LatestEntity(
         return new LatestEntity(time, deleted, other, attributes, received);
     }
 
-    /** In normalized form, attributes by name; put together from what is JSON already. */
+    /** In normalized form, attributes by name; concatenated from existing JSON. */
     byte[] toBytes(String id) {
         StringBuilder json = new StringBuilder("{\"id\":").append(quoted(id));
         json.append(",\"type\":").append(quoted(type));

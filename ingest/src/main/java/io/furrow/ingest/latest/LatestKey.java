@@ -8,19 +8,21 @@ import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 
-/** What the records of {@code data.latest} are compacted by. */
+/** The key by which the records of {@code data.latest} are compacted. */
 public enum LatestKey {
     /** The entity's id. */
     ID,
     /** Tenant, service path and id. */
     IDENTITY;
 
-    /** @param otherType of an entity that is not the first of its id; empty for the first */
+    /**
+     * @param otherType of an entity that is not the first of its id; empty for the first
+     */
     String of(ReportedEvent event, String otherType) {
         return (this == ID ? event.entityId() : event.identity()) + suffix(otherType);
     }
 
-    /** No id has a space in it. */
+    /** No id contains a space. */
     private static String suffix(String otherType) {
         return otherType.isEmpty() ? "" : " " + otherType;
     }

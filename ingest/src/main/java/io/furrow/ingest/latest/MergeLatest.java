@@ -22,12 +22,12 @@ import io.furrow.model.topic.Topics;
 import static io.furrow.ingest.latest.LatestEntity.NEVER_SEEN;
 
 /**
- * Merges what is reported of an entity into the newest that is known of it; keyed by identity, and in it by type.
+ * Merges reports of an entity into its newest state; keyed by identity, and within it by type.
  *
- * <p>State: the newest value of each attribute and its event time, per entity. Cleared: by its deletion, of which the time
- * alone is kept for as long as older events may still come. Late: changes only attributes of which nothing newer is known, else
- * nothing, counted as {@code outdated}. Emits: the whole entity after each event that changed it; no value after its deletion. The first entity of an id has the id as its key; one of
- * another type has its type behind that, and in a header, so that compaction keeps both.
+ * <p>State: the newest value of each attribute and its event time, per entity. Cleared: by its deletion, of which only the time is retained
+ * for as long as older events may still arrive. Late: changes only attributes without a newer value; otherwise ignored, counted as
+ * {@code outdated}. Emits: the whole entity after each event that changed it; a tombstone after its deletion. The first entity of an id has
+ * the id as its key; one of another type has its type after that, and in a header, so that compaction retains both.
  */
 public final class MergeLatest extends KeyedProcessFunction<String, ReportedEvent, TopicRecord> {
     private static final ByType.Descriptor<LatestEntity> ENTITY =
@@ -40,7 +40,9 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
     private transient ByType<LatestEntity> entities;
     private transient Counter outdated;
 
-    /** @param deletionKept how long after a deletion, in event time, older events may still come */
+    /**
+     * @param deletionKept how long after a deletion, in event time, older events may still arrive
+     */
     public MergeLatest(Duration deletionKept, LatestKey key) {
         this.deletionKeptMillis = deletionKept.toMillis();
         this.key = key;
@@ -52,16 +54,16 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
         outdated = getRuntimeContext().getMetricGroup().counter("outdated");
     }
 
-    /** Whether anything is known of an entity of the current key's id. */
+    /** Whether there is state of an entity of the current key's id. */
     boolean knows() throws Exception {
         return !entities.isEmpty();
     }
 
     /**
-     * Begins with what was known of the current key's entity before the job: which attribute is of which time it does not say, so
-     * that all count as of the newest. What is from the future counts as of long ago, or nothing that is reported would count any more.
+     * Initializes the current key's entity from the record before the job: it lacks the times of attributes, so that all count as of the
+     * newest. A time in the future counts as long ago, because no report could supersede it otherwise.
      *
-     * @param newest the latest time that is believed, epoch ms
+     * @param newest the latest plausible time, epoch ms
      * @throws io.furrow.model.ngsi.UnreadableException if its value is not an entity
      */
     void begin(TopicRecord latest, long newest, TimerService timers) throws Exception {
@@ -69,7 +71,7 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
         String other = LatestKey.otherTypeOf(latest);
         LatestEntity before = other.isEmpty() ? entities.first() : entities.get(other);
         if (before != null && before.time() > time) {
-            return; // brought to the topic once more
+            return; // written to the topic again
         }
         LatestEntity known = latest.value() == null
                 ? NEVER_SEEN.withoutAnything(time).ofType(before == null ? other : before.type())
@@ -116,7 +118,7 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
         out.collect(latest(event, merged, isOther ? merged.type() : ""));
     }
 
-    /** Of an event that came late the record has the time of the newest, so that time never steps back. */
+    /** After a late event the record has the time of the newest, so that time never decreases. */
     private TopicRecord latest(ReportedEvent event, LatestEntity merged, String otherType) {
         TopicRecord latest = TopicRecord.of(
                 Topics.LATEST,
@@ -138,7 +140,7 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
             long until = known.time() + deletionKeptMillis;
             if (known.deleted() && until <= timestamp) {
                 entities.remove(known);
-            } else { // of another entity, or set when a deletion was remembered for less long
+            } else { // of another entity, or set with a shorter retention of deletions
                 await(known, context.timerService());
             }
         }

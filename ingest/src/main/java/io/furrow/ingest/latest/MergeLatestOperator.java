@@ -25,11 +25,11 @@ import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Merges as {@link MergeLatest}; a job without state begins with what {@code data.latest} holds, so that a part of an entity
- * never replaces the whole, and nothing older what is newer.
+ * Merges as {@link MergeLatest}; a job without state begins with the content of {@code data.latest}, so that a partial entity
+ * never replaces the whole, and no older value a newer one.
  *
- * <p>State: that of {@link MergeLatest}, and a mark that the topic was read. Each subtask reads the whole topic and keeps the
- * entities of its own keys.
+ * <p>State: that of {@link MergeLatest}, and a flag that the topic was read. Each subtask reads the whole topic and stores
+ * the entities of its own keys.
  */
 public final class MergeLatestOperator extends KeyedProcessOperator<String, ReportedEvent, TopicRecord> {
     private static final long serialVersionUID = 1L;
@@ -42,7 +42,9 @@ public final class MergeLatestOperator extends KeyedProcessOperator<String, Repo
     private transient ListState<Boolean> mark;
     private transient boolean wasRead;
 
-    /** @param maxAhead how far records may be ahead of the clock and be believed */
+    /**
+     * @param maxAhead how far plausible records may be ahead of the clock
+     */
     public MergeLatestOperator(MergeLatest merge, LatestKey key, TopicSnapshot latest, Duration maxAhead) {
         super(merge);
         this.merge = merge;
@@ -67,7 +69,7 @@ public final class MergeLatestOperator extends KeyedProcessOperator<String, Repo
         }
     }
 
-    /** Of an entity several records may be there, in their order; of one that state knows already none counts. */
+    /** Applies several records of an entity in order; skips entities that have state already. */
     private void begin() throws Exception {
         TimerService timers =
                 new SimpleTimerService(getInternalTimerService("user-timers", VoidNamespaceSerializer.INSTANCE, this));

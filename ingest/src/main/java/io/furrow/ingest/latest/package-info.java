@@ -1,2 +1,2 @@
-/** The state of the world: the newest value of every attribute of every entity, on {@code data.latest}. */
+/** Maintains the newest value of every attribute of every entity, on {@code data.latest}. */
 package io.furrow.ingest.latest;

@@ -17,13 +17,10 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
-/**
- * Composes the document of each event that belongs to a mission; emits dead letters for events that no document can
- * hold.
- */
+/** Composes the document of each event of a mission; emits dead letters for events that no document can hold. */
 public final class ComposeDocuments extends ProcessFunction<MissionEvent, MissionDocument> {
     private static final long serialVersionUID = 1L;
-    /** In dead letters. */
+    /** The stage in dead letters. */
     static final String STAGE = "missions";
 
     private transient DeadLetterCounters dead;
@@ -46,9 +43,7 @@ public final class ComposeDocuments extends ProcessFunction<MissionEvent, Missio
         }
     }
 
-    /**
-     * @throws UnreadableException for what is not an event, or what no document can hold
-     */
+    /** @throws UnreadableException if it is not an event, or no document can hold it */
     public static MissionDocument compose(MissionEvent event) throws UnreadableException {
         TopicRecord record = event.record();
         String id = record.headers().get(HeaderNames.CE_ID);

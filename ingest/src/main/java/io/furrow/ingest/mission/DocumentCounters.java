@@ -8,8 +8,8 @@ import io.furrow.flink.record.DeadLetterCounters;
 import io.furrow.model.ngsi.Reason;
 
 /**
- * Counts what MongoDB has acknowledged, {@code documents}, and what it has refused, {@code dead}; in all and in groups per {@code
- * domain} and {@code mission}.
+ * Counts documents that MongoDB acknowledged, {@code documents}, or refused, {@code dead}; in total and in groups per
+ * {@code domain} and {@code mission}.
  */
 final class DocumentCounters {
     private final Counter documents;

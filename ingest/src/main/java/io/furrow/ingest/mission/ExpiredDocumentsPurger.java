@@ -16,14 +16,14 @@ import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.Retention;
 
 /**
- * Applies the retention to all missions, also to those that get no event any more: tells it a server that removes expired
- * documents by itself, and removes them from time to time where it does not. A failure is tried again later.
+ * Applies the retention to all missions, including those without new events: configures it on a server that removes
+ * expired documents itself, and removes them periodically otherwise. Retries later after a failure.
  */
 final class ExpiredDocumentsPurger implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(ExpiredDocumentsPurger.class);
     private static final long MAX_PAUSE = Duration.ofMinutes(5).toMillis();
     private static final long MIN_PAUSE = Duration.ofSeconds(1).toMillis();
-    /** An expired document stays at most this part of its time longer. */
+    /** An expired document stays longer by at most this fraction of its retention. */
     private static final int PART = 20;
 
     private final MongoClient client;

@@ -16,9 +16,9 @@ import io.furrow.flink.job.DurationConverter;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.Retention;
 
-/** The options of the branch that keeps missions in MongoDB. */
+/** The options of the branch that stores missions in MongoDB. */
 public final class MissionOptions {
-    /** What an index of MongoDB takes. */
+    /** The maximum of an index of MongoDB. */
     private static final long MAX_SECONDS = Integer.MAX_VALUE;
 
     @Spec(Spec.Target.MIXEE)
@@ -59,7 +59,7 @@ public final class MissionOptions {
                             + "not named. May be repeated. Default: for ever.")
     private List<String> retention = List.of();
 
-    /** Whether missions are kept at all. */
+    /** Whether missions are stored. */
     public boolean isOn() {
         return mongo != null;
     }

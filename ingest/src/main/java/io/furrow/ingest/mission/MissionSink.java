@@ -21,8 +21,8 @@ import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.Retention;
 
 /**
- * Documents to MongoDB: after any restart the same collections as without it, because a document's {@code _id} is its event's
- * id. What the server refuses goes to another sink as a dead letter.
+ * Writes documents to MongoDB; idempotent across restarts, because a document's {@code _id} is its event's id. Documents that
+ * the server refuses go to another sink as dead letters.
  */
 public final class MissionSink implements Sink<MissionDocument> {
     private static final long serialVersionUID = 1L;
@@ -31,7 +31,9 @@ public final class MissionSink implements Sink<MissionDocument> {
     private final Retention retention;
     private final Sink<TopicRecord> deadLetters;
 
-    /** @param deadLetters a sink whose writer needs nothing beyond itself: it takes no part in transactions here */
+    /**
+     * @param deadLetters a sink with an independent writer: it takes no part in transactions here
+     */
     public MissionSink(MissionOptions options, Sink<TopicRecord> deadLetters) {
         this(options.access(), options.retention(), deadLetters);
     }
@@ -42,7 +44,7 @@ public final class MissionSink implements Sink<MissionDocument> {
         this.deadLetters = deadLetters;
     }
 
-    /** A writer outside of a job, as measurements want it: without retention. */
+    /** A writer outside of a job, for measurements: without retention. */
     public static SinkWriter<MissionDocument> writer(String uri, SinkWriter<TopicRecord> deadLetters) {
         MongoAccess access = new MongoAccess(uri, MongoAccess.Waits.of(Duration.ofMinutes(1)));
         MongoClient client = access.open();

@@ -7,14 +7,14 @@ import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
 
-/** The branch of {@code ingest} that keeps missions in MongoDB. */
+/** The branch of {@code ingest} that stores missions in MongoDB. */
 public final class MissionStage {
     private MissionStage() {}
 
     /**
-     * Gives back the dead letters of what no document can hold.
+     * Returns the dead letters of events that no document can hold.
      *
-     * @param refused takes those of what the server refuses; see {@link MissionSink}
+     * @param refused receives those of documents that the server refuses; see {@link MissionSink}
      */
     public static DataStream<TopicRecord> keep(
             DataStream<MissionEvent> events, MissionOptions options, Sink<TopicRecord> refused) {

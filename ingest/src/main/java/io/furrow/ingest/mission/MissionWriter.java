@@ -23,9 +23,9 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Gathers documents into bulks; one bulk is under way while the next is gathered, which does not wait until it is full: little
- * is left when a checkpoint comes. A checkpoint waits until all that came before it is written, or was refused and has its dead
- * letter.
+ * Collects documents into bulks; the next bulk is collected while one is in flight, and sent before it is full, so that little
+ * is left at a checkpoint. A checkpoint waits until all earlier documents are written, or were refused and have their dead
+ * letters.
  */
 @SuppressWarnings("try") // close() may be interrupted, as a sink writer's may
 final class MissionWriter implements SinkWriter<MissionDocument> {
@@ -47,7 +47,9 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
     private List<MissionDocument> sent = List.of();
     private Future<List<BulkSender.Refusal<MissionDocument>>> underWay = CompletableFuture.completedFuture(List.of());
 
-    /** @param connection is closed with the writer */
+    /**
+     * @param connection closed with the writer
+     */
     MissionWriter(
             BulkSender<MissionDocument> sender,
             SinkWriter<TopicRecord> deadLetters,
@@ -142,7 +144,7 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
         return thread;
     }
 
-    /** A dead letter bears its own time. */
+    /** A dead letter has its own time. */
     private static final Context NO_CONTEXT = new Context() {
         @Override
         public long currentWatermark() {

@@ -1,2 +1,2 @@
-/** Every event of a mission as a document in MongoDB. */
+/** Stores every event of a mission as a document in MongoDB. */
 package io.furrow.ingest.mission;

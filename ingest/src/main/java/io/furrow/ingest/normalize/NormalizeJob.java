@@ -20,7 +20,7 @@ import io.furrow.flink.record.TopicRecord;
 public final class NormalizeJob {
     private NormalizeJob() {}
 
-    /** The whole job on Kafka, ready to be executed. */
+    /** Returns the whole job on Kafka, ready to be executed. */
     public static StreamExecutionEnvironment assemble(NormalizeOptions options) {
         StreamExecutionEnvironment env = JobEnvironment.create(options);
 
@@ -33,7 +33,7 @@ public final class NormalizeJob {
         return env;
     }
 
-    /** The pipeline: no state, so that the order of a partition is that of the events. */
+    /** The pipeline; stateless, so that the order of a partition is preserved. */
     static void define(DataStream<TopicRecord> notifications, KafkaOutput kafka, NormalizeOptions options) {
         SingleOutputStreamOperator<TopicRecord> events = notifications
                 .process(new NormalizeNotifications(options.settings()))

@@ -26,9 +26,9 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Turns a notification into records: one per entity, without a value where it was deleted; a dead letter per entity that
- * cannot be read, or of the whole notification. The time of receipt is the notification's record timestamp, so that a second
- * reading makes the same events.
+ * Converts a notification to records: one per entity, a tombstone for a deleted one; a dead letter per unreadable entity, or
+ * for the whole notification. The time of receipt is the notification's record timestamp, so that reading it again yields
+ * the same events.
  */
 public final class NormalizeNotifications extends ProcessFunction<TopicRecord, TopicRecord> {
     private static final long serialVersionUID = 1L;
@@ -143,7 +143,7 @@ public final class NormalizeNotifications extends ProcessFunction<TopicRecord, T
         return FiwareScope.of(header(record, HeaderNames.SERVICE), header(record, HeaderNames.SERVICE_PATH));
     }
 
-    /** The context broker writes {@code Fiware-Service} over HTTP; Kafka distinguishes upper from lower case. */
+    /** The context broker writes {@code Fiware-Service} over HTTP; headers in Kafka are case-sensitive. */
     private static String header(TopicRecord record, String name) {
         for (Map.Entry<String, String> header : record.headers().entrySet()) {
             if (header.getKey().equalsIgnoreCase(name)) {

@@ -81,7 +81,7 @@ public final class NormalizeOptions extends JobOptions {
                             + "refuses stops the job. Default: ${DEFAULT-VALUE}.")
     private int maxRecordBytes;
 
-    /** The one default of all jobs that is another for this one. */
+    /** The default of all jobs that differs for this one. */
     static final class OwnDefaults implements IDefaultValueProvider {
         @Override
         public String defaultValue(ArgSpec argument) {
@@ -91,12 +91,12 @@ public final class NormalizeOptions extends JobOptions {
         }
     }
 
-    /** How topics are made. */
+    /** Settings for new topics. */
     public TopicOptions topics() {
         return topics;
     }
 
-    /** What the translation needs to know. */
+    /** The settings of the translation. */
     NormalizeNotifications.Settings settings() {
         NotificationRules rules =
                 new NotificationRules(NormalizeNotifications.STAGE, excluded(), times(), Origin.KAFKA);

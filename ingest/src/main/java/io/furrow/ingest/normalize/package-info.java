@@ -1,2 +1,2 @@
-/** The job {@code normalize}: the context broker's native Kafka notifications become the records of {@code data.raw}. */
+/** The job {@code normalize}: converts the context broker's native Kafka notifications to records of {@code data.raw}. */
 package io.furrow.ingest.normalize;

@@ -24,15 +24,13 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Assigns each event to a domain and a mission: as its attributes say, else as {@code service.devices} said of the
- * entity at the event's time, else as configured. A deletion, which names nothing, goes where the entity's newest
- * event went; one that names no type ends all entities of the id. What an event names beyond the {@link NameBudget} goes to a
- * dead letter, and the event on without it.
+ * Assigns each event to a domain and a mission: by its attributes, else by {@code service.devices} as of the event's time,
+ * else by default. A deletion, which names none, follows the entity's newest event; one without a type deletes all entities of
+ * the id. A name beyond the {@link NameBudget} goes to a dead letter, and the event continues without it.
  *
- * <p>State: the newest route per entity, by type; every device's versions, the same at each subtask. Cleared: the route by the
- * deletion, versions when they ended longer ago than they are kept. Late: an event is assigned as of its own time, and does
- * not change the route of a newer one. Emits: every event
- * once, a deletion of several entities once for each.
+ * <p>State: the newest route per entity, by type; every device's versions, the same in each subtask. Cleared: the route by the
+ * deletion, ended versions after their retention. Late: an event is assigned as of its own time, and does not change the route
+ * of a newer one. Emits: every event once, a deletion of several entities once for each.
  */
 public final class AssignMission
         extends KeyedBroadcastProcessFunction<String, ReportedEvent, DeviceChange, ReportedEvent> {
@@ -44,14 +42,14 @@ public final class AssignMission
             new ByType.Descriptor<>("route", CachedRoute.class, CachedRoute::type);
 
     private static final long serialVersionUID = 1L;
-    /** In dead letters: the event went on. */
+    /** The stage in dead letters of events that continued. */
     private static final String STAGE = "routes";
 
     /**
-     * What is configured.
+     * The configured rule.
      *
-     * @param kept how long versions that ended are kept for events that come late
-     * @param defaultDomain empty if there is none, as {@code defaultMission}
+     * @param kept how long ended versions are retained for late events
+     * @param defaultDomain empty if there is none, like {@code defaultMission}
      */
     public record Rule(Duration kept, String defaultDomain, String defaultMission) implements Serializable {}
 
@@ -67,7 +65,7 @@ public final class AssignMission
         this.rule = rule;
     }
 
-    /** Reads what is known of devices before the first event comes, here and after each restart. */
+    /** Reads the existing devices before the first event, also after each restart. */
     @Override
     public void open(OpenContext context) throws IOException {
         routes = ROUTE.of(getRuntimeContext());
@@ -100,7 +98,7 @@ public final class AssignMission
         return assigned;
     }
 
-    /** Without the names that the event bears and that are not admitted. */
+    /** Removes names that are not admitted. */
     private ReportedEvent admitted(
             ReportedEvent event, ReportedEvent assigned, CachedRoute known, ReadOnlyContext context) throws Exception {
         String domain = assigned.domain();
@@ -124,7 +122,7 @@ public final class AssignMission
         }
     }
 
-    /** Whether the control plane says of the device itself that it is in this mission. */
+    /** Whether the control plane assigns the device itself to this mission. */
     private boolean isOfDevice(ReportedEvent event, String domain, ReadOnlyContext context) throws Exception {
         return devices.at(event.identity(), event.time(), context.getBroadcastState(DEVICES))
                 .filter(device ->
@@ -146,7 +144,7 @@ public final class AssignMission
         }
     }
 
-    /** A mission that is known of a device is one of its domain: an event that names another domain does not get it. */
+    /** A device's mission belongs to one domain: an event that names another domain does not get it. */
     private ReportedEvent completed(ReportedEvent event, ReadOnlyContext context) throws Exception {
         Optional<DeviceVersion> device = devices.at(event.identity(), event.time(), context.getBroadcastState(DEVICES));
         String domain =

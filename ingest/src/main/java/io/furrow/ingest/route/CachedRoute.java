@@ -1,7 +1,7 @@
 package io.furrow.ingest.route;
 
 /**
- * Where the newest event of an entity went.
+ * The route of an entity's newest event.
  *
  * @param type of the entity
  * @param time of that event, epoch ms

@@ -5,12 +5,12 @@ import io.furrow.model.ngsi.SlicedEntity;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * The entity of the event that a task handles. The stages behind each other in a task see an event one after the other, on one
- * thread: the first one that asks has it parsed, for all of them.
+ * Shares the parsed entity of an event among the chained stages of a task, which process it in sequence on one thread: it is
+ * parsed on first use.
  */
 public final class EventEntity {
     private static final int THREADS = 64;
-    /** By thread, without the search of a thread local; where two share a place, each parses for itself. */
+    /** By thread, without the lookup of a thread local; threads that share a slot parse separately. */
     private static final EventEntity[] NEWEST = new EventEntity[THREADS];
 
     private final byte[] bytes;
@@ -21,7 +21,7 @@ public final class EventEntity {
         this.entity = SlicedEntity.ofChecked(bytes);
     }
 
-    /** The entity that the record has as its value, which {@link ParseEvents} has looked at. */
+    /** The entity in the record's value, which {@link ParseEvents} has validated. */
     public static SlicedEntity of(TopicRecord record) throws UnreadableException {
         int place = (int) (Thread.currentThread().getId() % THREADS);
         EventEntity newest = NEWEST[place];

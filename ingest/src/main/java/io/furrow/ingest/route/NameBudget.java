@@ -28,18 +28,18 @@ import io.furrow.model.topic.TopicName;
 import io.furrow.model.topic.Topics;
 
 /**
- * Admits the domains and missions that events name: those of {@code service.domains} and {@code service.missions}, those that have a
- * topic, and others while there are fewer topics of others than the limit. As many more that get no topic are admitted from one start
- * to the next. An admitted name makes topics and a collection, which stay.
+ * Admits domains and missions that events name: those of {@code service.domains} and {@code service.missions}, those that have a
+ * topic, and others while the number of their topics is below the limit. As many further names without a topic are admitted between
+ * restarts. An admitted name creates topics and a collection, which stay.
  *
- * <p>Not a part of the state: which names were admitted say the topics that there are.
+ * <p>Has no state in Flink: the existing topics show which names were admitted.
  */
 public final class NameBudget implements Serializable {
     private static final long serialVersionUID = 1L;
     private static final Logger LOG = LoggerFactory.getLogger(NameBudget.class);
     /** A topic of a domain, or of a mission. */
     private static final Pattern ROUTE = Pattern.compile("data\\.[^.]+\\.realtime(?:\\.(.+))?");
-    /** A name that nobody knows is looked for on the topics at most this often. */
+    /** Minimum time between listings of topics to find unknown names. */
     private static final long READ_EVERY = Duration.ofSeconds(1).toMillis();
 
     private static final int READ_SHARE = 10;
@@ -55,9 +55,9 @@ public final class NameBudget implements Serializable {
     private transient Map<String, Managed> missions;
     /** Topics of domains and missions. */
     private transient Set<String> there;
-    /** How many of them are of names that the control plane does not know, and did not delete, which ends their topics. */
+    /** The number of these whose names the control plane neither manages nor deleted, which would end their topics. */
     private transient long others;
-    /** Topics that are about to be made. */
+    /** Topics about to be created. */
     private transient Set<String> admitted;
 
     private transient Set<Name> withoutTopic;
@@ -65,9 +65,9 @@ public final class NameBudget implements Serializable {
     private transient long nextReading;
 
     /**
-     * @param domains what is on {@code service.domains}
-     * @param missions what is on {@code service.missions}
-     * @param topics that there are
+     * @param domains the content of {@code service.domains}
+     * @param missions the content of {@code service.missions}
+     * @param topics existing topics
      * @param makesTopics whether a name gets a topic
      * @param limit topics of other names
      */
@@ -90,7 +90,7 @@ public final class NameBudget implements Serializable {
     /** A mission of the control plane, or a domain, which has no domain itself. */
     private record Managed(String domain, long created) {}
 
-    /** Reads what is known before the first event comes. */
+    /** Reads all names before the first event. */
     void open() throws IOException {
         admitted = new HashSet<>();
         withoutTopic = new HashSet<>();
@@ -108,7 +108,7 @@ public final class NameBudget implements Serializable {
      * Checks the mission that an event names.
      *
      * @param domain of the event; may be empty
-     * @param inUse whether the entity reported for it before, or is in it as a device
+     * @param inUse whether the entity reported it before, or belongs to it as a device
      * @throws UnreadableException if it is a mission of another domain, or a new name beyond the budget
      */
     void checkMission(String domain, String mission, boolean inUse, long time, long now) throws UnreadableException {
@@ -123,7 +123,7 @@ public final class NameBudget implements Serializable {
         }
     }
 
-    /** An event of before the mission was created may be of an earlier one of this name. */
+    /** An event from before the mission's creation may belong to an earlier one of this name. */
     private boolean isOfAnother(String domain, String mission, long time) {
         Managed known = missions.getOrDefault(mission, OF_ANY_DOMAIN);
         return time >= known.created() && !known.domain().equals(domain) && domains.containsKey(domain);
@@ -183,7 +183,7 @@ public final class NameBudget implements Serializable {
         return now >= nextReading;
     }
 
-    /** A reading that takes long is not made often, and of one that fails the one before still counts. */
+    /** A slow read is repeated less often, and after a failed one the previous result stays valid. */
     private void readAgain(long now) {
         long began = System.nanoTime();
         try {
@@ -216,7 +216,7 @@ public final class NameBudget implements Serializable {
                 .count();
     }
 
-    /** As it is part of the topic's name; empty in that of a domain. */
+    /** The mission in the topic's name; empty in that of a domain. */
     private static String missionIn(String topic) {
         Matcher route = ROUTE.matcher(topic);
         return route.matches() && route.group(1) != null ? route.group(1) : "";
@@ -237,7 +237,7 @@ public final class NameBudget implements Serializable {
         return managed;
     }
 
-    /** What cannot be read is there all the same, of any domain. */
+    /** An unreadable record counts as existing, in any domain. */
     private static Managed managed(TopicRecord record) {
         try {
             JsonNode json = NgsiJson.read(record.value());

@@ -25,9 +25,9 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Reads what routing needs of an event; a record without a value is the deletion of the entity that its key names. Emits dead
- * letters for records that are neither, and for those from the future. Where {@code data.latest} has ids as its keys, it counts those that
- * several tenants or service paths have, {@code idsShared}, and warns of the first.
+ * Parses the parts of an event that routing needs; a record without a value is the deletion of the entity of its key. Emits dead letters
+ * for other records, and for those from the future. If {@code data.latest} is keyed by id, it counts ids that several tenants or service
+ * paths share, {@code idsShared}, and warns of the first.
  */
 public final class ParseEvents extends ProcessFunction<TopicRecord, ReportedEvent> {
     private static final long serialVersionUID = 1L;
@@ -90,7 +90,7 @@ public final class ParseEvents extends ProcessFunction<TopicRecord, ReportedEven
         return shared.getCount();
     }
 
-    /** A record of another producer may lack the event id: it gets the one that the source would have given. */
+    /** A record of another producer may lack the event id: it gets the one that the source would have assigned. */
     static ReportedEvent recognize(TopicRecord record) throws UnreadableException {
         FiwareScope scope = FiwareScope.of(record.headers());
         return record.value() == null ? deletion(record, scope) : change(record, scope);
@@ -110,7 +110,7 @@ public final class ParseEvents extends ProcessFunction<TopicRecord, ReportedEven
                 known == null ? record.with(HeaderNames.CE_ID, id) : record);
     }
 
-    /** Null if there is none: an empty one would make all events of an entity repeats of the first. */
+    /** Null if there is none: an empty one would make all events of an entity duplicates of the first. */
     private static String knownId(TopicRecord record) {
         String id = record.headers().get(HeaderNames.CE_ID);
         return id == null || id.isBlank() ? null : id;

@@ -10,19 +10,20 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
 
 /**
- * An event as the stages of {@code ingest} see it: a change of an entity, or its deletion.
+ * An event in the stages of {@code ingest}: a change of an entity, or its deletion.
  *
  * @param id event id
- * @param identity tenant, service path and entity id: the key of all state, in which entities of several types are told apart
+ * @param identity tenant, service path and entity id: the key of all state, in which entities of several types are
+ *     distinguished
  * @param entityId id of the entity
- * @param type type of the entity; empty for a deletion that does not name it, which ends all entities of the id
+ * @param type type of the entity; empty for a deletion without one, which deletes all entities of the id
  * @param domain empty if there is none
  * @param mission empty if there is none
- * @param record as it was read; null as its value for a deletion
+ * @param record as read; with a null value for a deletion
  */
 public record ReportedEvent(
         String id, String identity, String entityId, String type, String domain, String mission, TopicRecord record) {
-    /** Whether this is the end of the entity. */
+    /** Whether this deletes the entity. */
     public boolean isDeletion() {
         return record.value() == null;
     }
@@ -32,22 +33,22 @@ public record ReportedEvent(
         return record.timestamp();
     }
 
-    /** When the source received it, epoch ms; its event time if that is not said. */
+    /** When the source received it, epoch ms; its event time if unknown. */
     public long received() {
         String received = record.headers().get(HeaderNames.TS_SOURCE);
         try {
             return received == null ? time() : Long.parseLong(received);
-        } catch (NumberFormatException e) { // a stranger's header
+        } catch (NumberFormatException e) { // another producer's header
             return time();
         }
     }
 
-    /** The same event with what was found out of its domain and mission. */
+    /** The same event with its domain and mission. */
     public ReportedEvent belongingTo(String itsDomain, String itsMission) {
         return new ReportedEvent(id, identity, entityId, type, itsDomain, itsMission, record);
     }
 
-    /** Of a deletion of all entities of an id: that of the one of this type. */
+    /** For a deletion of all entities of an id: the deletion of the one of this type. */
     ReportedEvent deletionOf(String its) {
         Map<String, String> headers = record.headers();
         FiwareScope scope = FiwareScope.of(headers);
@@ -57,7 +58,7 @@ public record ReportedEvent(
         return new ReportedEvent(itsId, identity, entityId, its, domain, mission, deletion);
     }
 
-    /** The same event as another record, for instance with a reference where an image was. */
+    /** The same event with another record, for instance with a reference instead of an image. */
     public ReportedEvent as(TopicRecord other) {
         return new ReportedEvent(id, identity, entityId, type, domain, mission, other);
     }

@@ -10,7 +10,7 @@ import io.furrow.flink.job.PerMissionMetrics;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.topic.Topics;
 
-/** Emits an event for its domain, and for its mission where it has one; measures what passes. */
+/** Emits an event for its domain, and for its mission if it has one; measures throughput and delays. */
 public final class RouteEvents extends ProcessFunction<ReportedEvent, TopicRecord> {
     private static final long serialVersionUID = 1L;
 
@@ -19,7 +19,9 @@ public final class RouteEvents extends ProcessFunction<ReportedEvent, TopicRecor
     private transient Counter unrouted;
     private transient PerMissionMetrics<RouteMeters> meters;
 
-    /** @param writes without it events are measured only */
+    /**
+     * @param writes if false, events are only measured
+     */
     public RouteEvents(boolean writes) {
         this.writes = writes;
     }

@@ -7,9 +7,9 @@ import org.apache.flink.runtime.metrics.DescriptiveStatisticsHistogram;
 
 import io.furrow.model.event.HeaderNames;
 
-/** What is measured of the events of one domain and mission. */
+/** Metrics of the events of one domain and mission. */
 final class RouteMeters {
-    /** The last so many events are in the figures of a hop. */
+    /** The number of last events in a hop's statistics. */
     private static final int WINDOW = 1000;
 
     private final Counter routed;

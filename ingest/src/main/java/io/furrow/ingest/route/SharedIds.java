@@ -6,15 +6,15 @@ import java.util.Map;
 import io.furrow.model.event.FiwareScope;
 
 /**
- * Finds the ids that entities of several tenants or service paths have. Nothing is remembered before a second tenant or path comes; of more
- * than {@value #MAX_IDS} ids the newest. All records of an id are in one partition, so one instance sees them all.
+ * Finds ids of entities in several tenants or service paths. Stores nothing until a second tenant or path appears; of more than
+ * {@value #MAX_IDS} ids the newest. All records of an id are in one partition, so one instance receives them all.
  */
 final class SharedIds {
     static final int MAX_IDS = 100_000;
 
     private static final String SHARED = "";
 
-    /** Tenant and service path of an id, as identities begin. */
+    /** Tenant and service path of an id, the prefix of identities. */
     private final Map<String, String> scopes = new LinkedHashMap<>() {
         private static final long serialVersionUID = 1L;
 

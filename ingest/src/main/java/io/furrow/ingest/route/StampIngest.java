@@ -4,7 +4,7 @@ import org.apache.flink.api.common.functions.MapFunction;
 
 import io.furrow.model.event.HeaderNames;
 
-/** Stamps {@code ts-ingest} by the wall clock: when the event passed here, for measuring the delay of each hop. */
+/** Stamps {@code ts-ingest} with the wall clock, to measure the delay of each hop. */
 public final class StampIngest implements MapFunction<ReportedEvent, ReportedEvent> {
     private static final long serialVersionUID = 1L;
 

@@ -1,2 +1,2 @@
-/** What becomes of every event: recognized, passed once, given its domain and mission, brought to their topics. */
+/** Routes every event: parses and deduplicates it, assigns its domain and mission, and sends it to their topics. */
 package io.furrow.ingest.route;

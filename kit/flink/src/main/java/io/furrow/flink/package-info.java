@@ -1,5 +1,5 @@
 /**
- * What the Flink jobs share. Two jobs never import each other, they meet in a topic.
+ * Common parts of the Flink jobs. Two jobs never depend on each other, they are connected by topics.
  *
  * <p><b>In</b>: options of the command line, records of Kafka topics.
  *

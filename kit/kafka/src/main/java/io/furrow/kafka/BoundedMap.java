@@ -3,7 +3,7 @@ package io.furrow.kafka;
 import java.util.LinkedHashMap;
 import java.util.Map;
 
-/** Drops its eldest entry where it would hold more than a number of them. Not thread-safe. */
+/** Drops its eldest entry when it exceeds a maximum size. Not thread-safe. */
 public final class BoundedMap<K, V> extends LinkedHashMap<K, V> {
     private static final long serialVersionUID = 1L;
     private final int max;
@@ -18,7 +18,7 @@ public final class BoundedMap<K, V> extends LinkedHashMap<K, V> {
         return new BoundedMap<>(max, false);
     }
 
-    /** The eldest entry is the one that was not looked at for longest. */
+    /** The eldest entry is the least recently accessed one. */
     public static <K, V> BoundedMap<K, V> byAccess(int max) {
         return new BoundedMap<>(max, true);
     }

@@ -23,8 +23,9 @@ import static java.util.function.Function.identity;
 import static java.util.stream.Collectors.toMap;
 
 /**
- * Reads the committed records of topics from their beginning, with a consumer of no group: each reader sees all partitions.
- * Progress is measured by positions, because a transaction marker has an offset but is not a record. For one thread.
+ * Reads the committed records of topics from their beginning, with a consumer without a group: each reader reads all
+ * partitions. Progress is measured by positions, because a transaction marker has an offset but is not a record. Not
+ * thread-safe.
  *
  * @param <K> type of keys; values are bytes
  */
@@ -99,10 +100,7 @@ public final class CommittedReader<K> implements AutoCloseable {
         }
     }
 
-    /**
-     * Assigns the partitions that the topics have now; those that are new begin at their beginning. Returns whether all topics
-     * exist.
-     */
+    /** Assigns the current partitions of the topics; new ones are read from their beginning. Returns whether all topics exist. */
     public boolean assign(Collection<String> topics) {
         partitions = topics.stream()
                 .flatMap(topic -> consumer.partitionsFor(topic).stream())
@@ -155,7 +153,7 @@ public final class CommittedReader<K> implements AutoCloseable {
     }
 
     /**
-     * Reads to where the topics end now; the last poll may return records from beyond.
+     * Reads to the current end of the topics; the last poll may return records beyond it.
      *
      * @throws TimeoutException if there is no progress for {@code default.api.timeout.ms}
      * @throws E if the action does
@@ -179,7 +177,7 @@ public final class CommittedReader<K> implements AutoCloseable {
         }
     }
 
-    /** Lets a waiting {@link #poll} fail with a {@code WakeupException}. For other threads. */
+    /** Makes a waiting {@link #poll} fail with a {@code WakeupException}. Thread-safe. */
     public void wakeup() {
         consumer.wakeup();
     }

@@ -7,7 +7,7 @@ import java.util.concurrent.ThreadFactory;
 import java.util.concurrent.ThreadPoolExecutor;
 import java.util.concurrent.TimeUnit;
 
-/** Threads that do not keep the process from ending. */
+/** Creates daemon threads. */
 public final class DaemonThreads {
     private DaemonThreads() {}
 
@@ -19,12 +19,12 @@ public final class DaemonThreads {
         };
     }
 
-    /** One thread that runs tasks in their order; rejects a task while so many wait. */
+    /** One thread that runs tasks in order; rejects a task while the maximum number waits. */
     public static ThreadPoolExecutor single(String name, int maxWaiting) {
         return new ThreadPoolExecutor(1, 1, 0, TimeUnit.SECONDS, new ArrayBlockingQueue<>(maxWaiting), named(name));
     }
 
-    /** Waits for threads that were shut down, and interrupts those that work longer. */
+    /** Waits for threads that were shut down, and interrupts those that take longer. */
     public static void await(ExecutorService threads, Duration timeout) {
         try {
             if (!threads.awaitTermination(timeout.toMillis(), TimeUnit.MILLISECONDS)) {

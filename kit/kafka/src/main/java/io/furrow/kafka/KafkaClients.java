@@ -15,7 +15,7 @@ import org.apache.kafka.common.serialization.StringSerializer;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 
-/** Clients for records with a text as key and bytes as value. */
+/** Creates clients for records with a text as key and bytes as value. */
 public final class KafkaClients {
     private KafkaClients() {}
 
@@ -33,7 +33,7 @@ public final class KafkaClients {
         return header == null || header.value() == null ? null : new String(header.value(), StandardCharsets.UTF_8);
     }
 
-    /** Tenant and service path of the entity that a record of {@code data.*} is of. */
+    /** Tenant and service path of a {@code data.*} record's entity. */
     public static FiwareScope scope(Headers headers) {
         return FiwareScope.of(text(headers, HeaderNames.SERVICE), text(headers, HeaderNames.SERVICE_PATH));
     }

@@ -19,10 +19,7 @@ import org.apache.kafka.clients.admin.DescribeClusterOptions;
 
 import io.furrow.model.text.FailureText;
 
-/**
- * Probes a service every two seconds on a thread of its own; the service counts as unavailable after six seconds
- * without an answer.
- */
+/** Probes a service every two seconds on its own thread; the service counts as unavailable after six seconds without an answer. */
 public final class Probe implements AutoCloseable {
     private static final Duration INTERVAL = Duration.ofSeconds(2);
     public static final Duration TIMEOUT = Duration.ofSeconds(2);
@@ -36,12 +33,14 @@ public final class Probe implements AutoCloseable {
     private volatile Instant lastSuccess;
     private volatile String failure = "not asked yet";
 
-    /** Comes back where it is there. */
+    /** Returns if the service is available. */
     public interface Check {
         void run() throws IOException, InterruptedException, ExecutionException, TimeoutException;
     }
 
-    /** @param closing lets go of what the check uses */
+    /**
+     * @param closing releases the resources of the check
+     */
     public Probe(String name, Check check, Runnable closing) {
         this.name = name;
         this.check = check;
@@ -50,7 +49,7 @@ public final class Probe implements AutoCloseable {
         executor.scheduleWithFixedDelay(this::request, 0, INTERVAL.toMillis(), TimeUnit.MILLISECONDS);
     }
 
-    /** Of a Kafka cluster. @param client settings of Kafka clients */
+    /** Probes a Kafka cluster. @param client settings of Kafka clients */
     public static Probe kafka(Properties client) {
         Admin admin = Admin.create(client);
         DescribeClusterOptions options = new DescribeClusterOptions().timeoutMs((int) TIMEOUT.toMillis());
@@ -60,7 +59,7 @@ public final class Probe implements AutoCloseable {
                 () -> admin.close(Duration.ZERO));
     }
 
-    /** Of an HTTP server: any answer but a server error counts. @param url of something that costs it little */
+    /** Probes an HTTP server: any answer but a server error counts. @param url of a cheap resource */
     public static Probe http(String name, URI url) {
         HttpClient client = HttpClient.newBuilder()
                 .version(HttpClient.Version.HTTP_1_1)
@@ -86,7 +85,7 @@ public final class Probe implements AutoCloseable {
             failure = "";
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
-        } catch (IOException | ExecutionException | TimeoutException | RuntimeException e) { // it is not there
+        } catch (IOException | ExecutionException | TimeoutException | RuntimeException e) { // unavailable
             failure = FailureText.of(e);
         }
     }

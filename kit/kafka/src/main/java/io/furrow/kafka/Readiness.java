@@ -12,9 +12,9 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * The parts of this control plane, and what they need. It is <b>alive</b> unless a part has ended that only a restart of the process
- * brings back; it is <b>ready</b> when all of its parts work. What it only speaks with, a context broker for instance, is shown, and
- * makes it neither: another instance would not reach it either.
+ * The status of this control plane's parts, and of its dependencies. It is <b>alive</b> unless a part has ended that only a restart
+ * of the process recovers; it is <b>ready</b> when all of its parts work. Other servers that it uses, such as a context broker, are
+ * shown, but affect neither: another instance would not reach them either.
  */
 public final class Readiness {
     private final Clock clock;
@@ -28,22 +28,22 @@ public final class Readiness {
         this.clock = clock;
     }
 
-    /** A part without which it is not ready. */
+    /** Adds a part that readiness requires. */
     public void require(Supplier<ComponentStatus> status) {
         requireAll(() -> List.of(status.get()));
     }
 
-    /** The same of several. */
+    /** Adds several of them. */
     public void requireAll(Supplier<List<ComponentStatus>> statuses) {
         parts.add(new Part(statuses, true));
     }
 
-    /** Something that it speaks with. */
+    /** Adds a server that is only shown. */
     public void show(Supplier<ComponentStatus> status) {
         parts.add(new Part(() -> List.of(status.get()), false));
     }
 
-    /** The same of several. */
+    /** Adds several of them. */
     public void showAll(Supplier<List<ComponentStatus>> statuses) {
         parts.add(new Part(statuses, false));
     }
@@ -53,7 +53,10 @@ public final class Readiness {
         return all(false).toList();
     }
 
-    /** Sentences about what needs somebody though all works; everybody may read them, so they contain nothing about the farm. */
+    /**
+     * Adds sentences about conditions that require action although everything works; they are public, so they contain nothing about
+     * the farm.
+     */
     public void warn(Supplier<List<String>> sentences) {
         warnings.add(sentences);
     }
@@ -77,7 +80,7 @@ public final class Readiness {
         return page(isAlive() ? "up" : "dead");
     }
 
-    /** {@code status}: ready, degraded where something away is not needed by all requests, or not-ready. */
+    /** {@code status}: ready, degraded if an unavailable server is not needed by all requests, or not-ready. */
     public ObjectNode readiness() {
         boolean allUp = all(false).allMatch(part -> part.state() == ComponentStatus.State.UP);
         return page(allUp ? "ready" : isReady() ? "degraded" : "not-ready");

@@ -15,8 +15,8 @@ import io.furrow.model.text.FailureText;
 import io.furrow.model.time.Backoff;
 
 /**
- * A thread that does its work until it is closed. Whatever its work throws is logged and part of its status; the work then begins
- * again after a backoff of one to thirty seconds. An {@link Error} ends it, visibly.
+ * A thread that works until it is closed. Exceptions are logged and part of its status; the work then restarts after a backoff of
+ * one to thirty seconds. An {@link Error} ends it, visibly.
  */
 public final class SupervisedWorker implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(SupervisedWorker.class);
@@ -32,7 +32,7 @@ public final class SupervisedWorker implements AutoCloseable {
     private volatile Instant lastSuccess;
     private volatile String lastFailure;
 
-    /** What the thread does. */
+    /** The work of the thread. */
     public interface Work {
         /** Returns when the worker is closed; called again after it threw. */
         void run(SupervisedWorker worker) throws InterruptedException;
@@ -44,9 +44,9 @@ public final class SupervisedWorker implements AutoCloseable {
     }
 
     /**
-     * Called once.
+     * Must be called once.
      *
-     * @param waiting what waits, for the status; called by any thread
+     * @param waiting describes what it waits for, for the status; called by any thread
      */
     public SupervisedWorker start(Work work, Supplier<String> waiting) {
         detail = waiting;
@@ -60,17 +60,17 @@ public final class SupervisedWorker implements AutoCloseable {
         return closing.getCount() == 0;
     }
 
-    /** Waits for its next turn; no longer where it is closed. */
+    /** Waits for its next turn; returns early when closed. */
     public void pause(Duration time) throws InterruptedException {
         closing.await(time.toMillis(), TimeUnit.MILLISECONDS);
     }
 
-    /** It did what it is for. */
+    /** Records a success. */
     public void succeeded() {
         lastSuccess = clock.instant();
     }
 
-    /** Something failed that does not end its work. */
+    /** Records a failure that does not end its work. */
     public void failed(String reason) {
         lastFailure = "last failure at %s: %s".formatted(clock.instant(), reason);
     }
@@ -117,7 +117,7 @@ public final class SupervisedWorker implements AutoCloseable {
         }
     }
 
-    /** Ends the work; interrupts it where it does not end by itself in time. */
+    /** Ends the work; interrupts it if it does not end in time. */
     @Override
     public void close() {
         closing.countDown();

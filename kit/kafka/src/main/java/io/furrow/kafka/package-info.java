@@ -1,6 +1,6 @@
 /**
- * What the long-running services share beside the model: readers of topics without a consumer group, workers that restart
- * after a failure, the secret of the farm, its fields.
+ * Common parts of the long-running services besides the model: readers of topics without a consumer group, workers that
+ * restart after a failure, the secret of the farm, its fields.
  *
  * <p><b>In</b>: any topic, from its beginning or a time.
  *

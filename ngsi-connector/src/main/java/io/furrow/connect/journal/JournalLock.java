@@ -46,7 +46,7 @@ final class JournalLock implements AutoCloseable {
             channel = FileChannel.open(folder.resolve(FILE), StandardOpenOption.CREATE, StandardOpenOption.WRITE);
             if (channel.tryLock(OWNER, 1, false) != null) {
                 while (channel.tryLock(PRESENCE, 1, false) == null) {
-                    Thread.yield(); // another process asks just now
+                    Thread.yield(); // another process is querying it
                 }
                 lock = new JournalLock(property, channel);
             }

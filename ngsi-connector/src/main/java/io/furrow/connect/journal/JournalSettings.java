@@ -4,7 +4,7 @@ package io.furrow.connect.journal;
  * The limits of a journal, in bytes.
  *
  * @param maxBytes of all segment files together
- * @param segmentBytes of one segment file; a larger record gets a file of its own size
+ * @param segmentBytes of one segment file; a larger record gets its own, larger file
  * @param maxWaiting of records that are not on disk yet
  * @param minFree that stay free on the disk
  */

@@ -119,7 +119,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
         }
     }
 
-    /** What changed since a time has to be read again; from any thread. */
+    /** Changes since a time have to be read again; from any thread. */
     void noteLate(Instant from) throws IOException {
         lateRecords.add(from);
     }

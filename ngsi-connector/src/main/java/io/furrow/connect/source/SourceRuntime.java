@@ -39,8 +39,8 @@ record SourceRuntime(
     private static final Duration BIND_TIMEOUT = Duration.ofSeconds(10);
 
     /**
-     * The sources that run without a task, by connector and task. Static, because Connect creates each task anew, and only
-     * the process outlives a task: a distributed worker that does not reach its group's coordinator for
+     * The sources that run without a task, by connector and task. Static, because Connect creates new tasks, and only the
+     * process outlives a task: a distributed worker that does not reach its group's coordinator for
      * {@code heartbeat.interval.ms} stops its tasks, and restarts them when Kafka is back. Meanwhile the source accepts the
      * notifications, which a context broker would not send again.
      */

@@ -94,7 +94,7 @@ public final class FiwareStandIn implements AutoCloseable {
         return iotAgent.uri();
     }
 
-    /** What the IoT agent received. */
+    /** The measures that the IoT agent received. */
     public MeasureHistory history() {
         return history;
     }

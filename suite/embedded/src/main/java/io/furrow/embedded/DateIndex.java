@@ -120,7 +120,7 @@ final class DateIndex extends Index<Object> {
     public Object remove(Document document) {
         Long date = document.get(field) instanceof Instant instant ? instant.toEpochMilli() : null;
         entries.remove(new KeyValue(date, document.get(ID)));
-        return null; // that of _id tells where the document is
+        return null; // the index of _id has the document's position
     }
 
     @Override

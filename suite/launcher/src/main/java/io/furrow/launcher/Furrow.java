@@ -64,7 +64,7 @@ public final class Furrow {
         IExecutionStrategy strategy = furrow.getExecutionStrategy();
         return furrow.setExecutionStrategy(parsed -> {
             if (parsed.hasSubcommand() && parsed.subcommand().commandSpec().userObject() instanceof DeviceHostCommand) {
-                LogFile.writeToErrorStream(); // its module knows no log4j
+                LogFile.writeToErrorStream(); // its module does not depend on log4j
             }
             return strategy.execute(parsed);
         });

@@ -141,7 +141,7 @@ public final class Cell {
         }
         for (CellChange cellChange : changes) {
             look(cellChange, pairSelection, near);
-            if (canCrowd && alone) { // one look is enough
+            if (canCrowd && alone) { // one search is enough
                 makeShortlist(cellChange, pairSelection, near);
             }
             compare(cellChange, near, time, out);

@@ -135,7 +135,7 @@ public final class FleetTopic implements AutoCloseable {
     @Override
     public void close() {
         stop();
-        try (Admin admin = Admin.create(kafka)) { // waits for what it was asked
+        try (Admin admin = Admin.create(kafka)) { // waits for the condition
             producer.close();
             admin.deleteTopics(List.of(name, results(), overflows()));
         }

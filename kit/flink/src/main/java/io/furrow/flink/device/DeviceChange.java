@@ -7,7 +7,7 @@ import io.furrow.model.device.DeviceVersion;
  *
  * @param key of the record: the identity of the device
  * @param partition of the record
- * @param offset of the record; larger for what was written later in its partition
+ * @param offset of the record; increases within its partition
  * @param time record timestamp, epoch ms
  * @param version null if the device was deleted
  */

@@ -10,13 +10,13 @@ import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 
 /**
- * How a job learns of the devices.
+ * The devices as input of a job.
  *
- * @param records of {@code service.devices}, from its beginning and all that come
- * @param atStart those that are known before the first event
+ * @param records of {@code service.devices} from its beginning, unbounded
+ * @param atStart devices that exist before the first event
  */
 public record DeviceInput(DataStream<TopicRecord> records, TopicSnapshot atStart) {
-    /** The devices of a topic, which need not be there. */
+    /** The devices of a topic, which need not exist. */
     public static DeviceInput of(StreamExecutionEnvironment env, JobOptions job, String topic) {
         DataStream<TopicRecord> records = env.fromSource(
                         KafkaConnectors.wholeTopic(job, topic), KafkaConnectors.alwaysIdle(), "Read devices")

@@ -19,8 +19,8 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * What {@code service.devices} says of every device as of an event's time: the versions in the broadcast state of a
- * function, completed by what was on the topic when the function was opened. The function holds the state.
+ * Looks up the versions of devices on {@code service.devices} as of an event's time: those in the broadcast state of a
+ * function, completed by those read when the function was opened. The function holds the state.
  */
 public final class DeviceLookup implements Serializable {
     private static final long serialVersionUID = 1L;
@@ -32,28 +32,28 @@ public final class DeviceLookup implements Serializable {
     private transient int changesUntilSweep;
 
     /**
-     * @param topic what is read before the first event
-     * @param kept how long versions that ended are kept for events that come late
+     * @param topic read before the first event
+     * @param kept how long ended versions are retained for late events
      */
     public DeviceLookup(TopicSnapshot topic, Duration kept) {
         this.topic = topic;
         this.keptMillis = kept.toMillis();
     }
 
-    /** Reads what is known of devices; to be called before the first event, also after each restart. */
+    /** Reads the existing versions; must be called before the first event, also after each restart. */
     public void open() throws IOException {
         atStart = new InitialDeviceChanges();
         compared = false;
         for (TopicRecord record : topic.read()) {
             try {
                 atStart.add(ParseDevices.read(record));
-            } catch (UnreadableException e) { // becomes a dead letter where the stream of devices is read
+            } catch (UnreadableException e) { // ParseDevices emits its dead letter
                 continue;
             }
         }
     }
 
-    /** The version that held at an event time. What was read at the start may be newer than a restored state. */
+    /** The version valid at an event time. Versions read at the start may be newer than a restored state. */
     public Optional<DeviceVersion> at(String identity, long time, ReadOnlyBroadcastState<String, DeviceVersions> state)
             throws Exception {
         if (!compared) {
@@ -71,7 +71,7 @@ public final class DeviceLookup implements Serializable {
         return known;
     }
 
-    /** The stream of a restored job begins behind what its state holds: it will not pass that again. */
+    /** The stream of a restored job begins after the records in its state: it will not pass those again. */
     private void forgetWhatIsRestored(ReadOnlyBroadcastState<String, DeviceVersions> state) throws Exception {
         Set<String> restored = new HashSet<>();
         for (Map.Entry<String, DeviceVersions> each : state.immutableEntries()) {
@@ -83,12 +83,12 @@ public final class DeviceLookup implements Serializable {
         compared = true;
     }
 
-    /** How many changes are held beside the state. */
+    /** The number of changes held besides the state. */
     int heldBesideState() {
         return atStart.size();
     }
 
-    /** Takes a change into the state; forgets versions that ended longer ago than they are kept. */
+    /** Adds a change to the state; removes versions that ended before the retention. */
     public void note(DeviceChange change, BroadcastState<String, DeviceVersions> state) throws Exception {
         state.put(change.key(), known(state.get(change.key())).with(change));
         atStart.passed(change);
@@ -101,7 +101,7 @@ public final class DeviceLookup implements Serializable {
         return held == null ? DeviceVersions.EMPTY : held;
     }
 
-    /** As many changes as there are devices lie between two sweeps, so that their cost does not grow with the devices. */
+    /** Sweeps once per as many changes as there are devices, so that the cost per change does not grow with the devices. */
     private int sweep(BroadcastState<String, DeviceVersions> state, long before) throws Exception {
         Map<String, DeviceVersions> changed = new HashMap<>();
         int left = 0;

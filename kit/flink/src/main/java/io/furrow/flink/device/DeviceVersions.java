@@ -7,14 +7,14 @@ import java.util.Optional;
 import io.furrow.model.device.DeviceVersion;
 
 /**
- * What was known of a device at any time that is still asked for.
+ * The retained versions of a device.
  *
- * @param versions by {@code from}, which none shares with another; each holds until the next one's
+ * @param versions by distinct {@code from}; each is valid until the next one's
  */
 public record DeviceVersions(List<DeviceVersion> versions) {
     public static final DeviceVersions EMPTY = new DeviceVersions(List.of());
 
-    /** The version that held at an event time. */
+    /** The version valid at an event time. */
     public Optional<DeviceVersion> at(long time) {
         for (int i = versions.size() - 1; i >= 0; i--) {
             if (versions.get(i).from() <= time) {
@@ -24,12 +24,12 @@ public record DeviceVersions(List<DeviceVersion> versions) {
         return Optional.empty();
     }
 
-    /** With a change; a version with a smaller sequence than one known is out of date and changes nothing. */
+    /** Adds a change; a version with a smaller sequence than an existing one is outdated and ignored. */
     public DeviceVersions with(DeviceChange change) {
         return change.version() == null ? endedAt(change.time()) : with(change.version());
     }
 
-    /** What a version says holds from its time on, whatever was said of that time before. */
+    /** A version replaces everything from its time on. */
     private DeviceVersions with(DeviceVersion version) {
         if (versions.stream().anyMatch(known -> known.sequence() > version.sequence())) {
             return this;
@@ -49,7 +49,7 @@ public record DeviceVersions(List<DeviceVersion> versions) {
         return new DeviceVersions(all);
     }
 
-    /** Without what had ended at a time. */
+    /** Without the versions that had ended at a time. */
     public DeviceVersions since(long time) {
         List<DeviceVersion> kept = new ArrayList<>();
         for (int i = 0; i < versions.size(); i++) {

@@ -13,7 +13,7 @@ final class InitialDeviceChanges {
     private final Map<String, List<DeviceChange>> byKey = new HashMap<>();
     private final Map<Integer, Deque<DeviceChange>> byPartition = new HashMap<>();
 
-    /** In the order of each partition. */
+    /** Changes of a partition must be added in order. */
     void add(DeviceChange change) {
         byKey.computeIfAbsent(change.key(), key -> new ArrayList<>(1)).add(change);
         byPartition
@@ -21,12 +21,12 @@ final class InitialDeviceChanges {
                 .add(change);
     }
 
-    /** Those of a device, in their order. */
+    /** The changes of a device, in order. */
     List<DeviceChange> of(String key) {
         return byKey.getOrDefault(key, List.of());
     }
 
-    /** The stream has come to this change: all before it in its partition came before. */
+    /** Called when the stream has reached this change, and so has passed all before it in its partition. */
     void passed(DeviceChange change) {
         Deque<DeviceChange> waiting = byPartition.getOrDefault(change.partition(), new ArrayDeque<>());
         while (!waiting.isEmpty() && waiting.peek().offset() <= change.offset()) {
@@ -38,14 +38,14 @@ final class InitialDeviceChanges {
         }
     }
 
-    /** Forgets the changes of all devices of which this is so. */
+    /** Removes the changes of all matching devices. */
     void forget(Predicate<String> key) {
         if (byKey.keySet().removeIf(key)) {
             byPartition.values().forEach(waiting -> waiting.removeIf(change -> !byKey.containsKey(change.key())));
         }
     }
 
-    /** How many changes there still are. */
+    /** The number of remaining changes. */
     int size() {
         return byPartition.values().stream().mapToInt(Deque::size).sum();
     }

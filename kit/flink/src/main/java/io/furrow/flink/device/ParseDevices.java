@@ -11,14 +11,14 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Reads the records of {@code service.devices}; emits dead letters for those that are no devices. */
+/** Parses the records of {@code service.devices}; emits dead letters for invalid ones. */
 public final class ParseDevices extends ProcessFunction<TopicRecord, DeviceChange> {
     private static final long serialVersionUID = 1L;
 
     private final String stage;
 
     /**
-     * @param stage who sets bad records aside, for instance {@code ingest}
+     * @param stage name of the job in dead letters, for instance {@code ingest}
      */
     public ParseDevices(String stage) {
         this.stage = stage;

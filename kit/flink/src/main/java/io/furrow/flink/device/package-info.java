@@ -1,2 +1,2 @@
-/** What {@code service.devices} says of devices, as of an event's time. */
+/** The devices on {@code service.devices}, as of an event's time. */
 package io.furrow.flink.device;

@@ -4,10 +4,10 @@ import java.lang.ref.WeakReference;
 import java.util.function.Supplier;
 
 /**
- * One object for all tasks of a job in a process: each task has a thread of its own, which holds it from its first use to its
- * end. When the last of them has ended nobody does, and it goes.
+ * Shares one object among all tasks of a job in a process: each task, on its own thread, holds it from its first use to its
+ * end. It is released when the last task has ended.
  *
- * @param <T> what can be used by several threads
+ * @param <T> a thread-safe type
  */
 public final class SharedByTasks<T> {
     private final Supplier<T> made;
@@ -18,7 +18,7 @@ public final class SharedByTasks<T> {
         this.made = made;
     }
 
-    /** That of the tasks that run; a new one if there is none. */
+    /** The object of the running tasks; a new one if there is none. */
     public T get() {
         return ofThread.get();
     }

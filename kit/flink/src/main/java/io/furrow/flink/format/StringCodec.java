@@ -6,7 +6,7 @@ import java.nio.charset.StandardCharsets;
 import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 
-/** Texts in UTF-8 behind their length in one byte below 255, else in four more. */
+/** Encodes texts in UTF-8 after their length: one byte below 255, else four more. */
 public final class StringCodec {
     private static final int LONG = 255;
     private static final int SPREAD = 0x9E3779B9;
@@ -41,7 +41,7 @@ public final class StringCodec {
         return shared(new String(bytes, StandardCharsets.UTF_8));
     }
 
-    /** An equal text, the same object as most times before: names come again and again and are held many times over. */
+    /** Interns a text in most cases: names recur and are held many times. */
     public static String shared(String text) {
         int slot = text.hashCode() * SPREAD >>> SHIFT;
         String[] all = KNOWN.get();

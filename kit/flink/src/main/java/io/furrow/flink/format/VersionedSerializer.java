@@ -11,29 +11,29 @@ import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 
 /**
- * How the values of one type are written; the type names it as its {@code @TypeInfo}. A format has no state and a public
- * constructor without parameters, by which it is found again when a savepoint is read. Its class is never renamed. The format of a
- * type by which state is keyed stays at version 1: Flink takes state with other keys for another state, and restores none.
+ * Serializes values of one type, which names it as its {@code @TypeInfo}. A serializer has no state and a public constructor
+ * without parameters, by which it is restored from a savepoint; its class is never renamed. The serializer of a key type stays at
+ * version 1: Flink treats state with other keys as another state, and restores none.
  *
- * @param <T> what is written; never null
+ * @param <T> the type of values; never null
  */
 public abstract class VersionedSerializer<T> extends TypeInfoFactory<T> implements Serializable {
     private static final long serialVersionUID = 1L;
 
     public abstract Class<T> type();
 
-    /** The newest version, which is the one that is written. Says in its constant what it holds. */
+    /** The newest version, used for writing. The constant's comment describes the content. */
     public abstract int version();
 
     public abstract void write(T value, DataOutputView out) throws IOException;
 
     /**
      * @param version in which the value was written, 1 to {@link #version}
-     * @throws IOException also where the bytes are no value of that version
+     * @throws IOException also if the bytes are not a value of that version
      */
     public abstract T read(int version, DataInputView in) throws IOException;
 
-    /** Writes a value that is part of another one: behind its version, so that it may have another than the whole. */
+    /** Writes a value that is part of another one, after its own version, which is independent of the whole's. */
     public final void writePart(T value, DataOutputView out) throws IOException {
         out.writeByte(version());
         write(value, out);
@@ -44,7 +44,7 @@ public abstract class VersionedSerializer<T> extends TypeInfoFactory<T> implemen
         return read(in.readUnsignedByte(), in);
     }
 
-    /** A value that shares nothing changeable with the given one; the same where the type cannot be changed. */
+    /** A value that shares no mutable state with the given one; the same if the type is immutable. */
     public T copy(T value) {
         return value;
     }
@@ -54,7 +54,7 @@ public abstract class VersionedSerializer<T> extends TypeInfoFactory<T> implemen
         return true;
     }
 
-    /** The refusal of a version that the format does not know. */
+    /** The exception for an unknown version. */
     protected final IOException unknown(int version) {
         return new IOException(type().getSimpleName() + " was written in version " + version + ", this release writes "
                 + version() + "; use the release that wrote it, or start without the savepoint");

@@ -9,9 +9,9 @@ import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 import org.apache.flink.util.InstantiationUtil;
 
-/** What a savepoint says of a {@link VersionedTypeSerializer}: which format wrote the state, and in which of its versions. */
+/** The snapshot of a {@link VersionedTypeSerializer} in a savepoint: the class and version of the serializer that wrote the state. */
 public final class VersionedSerializerSnapshot<T> implements TypeSerializerSnapshot<T> {
-    /** Class name of the format, its version. */
+    /** Class name of the serializer, its version. */
     private static final int VERSION = 1;
 
     private VersionedSerializer<T> format;

@@ -4,7 +4,7 @@ import org.apache.flink.api.common.serialization.SerializerConfig;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.api.common.typeutils.TypeSerializer;
 
-/** The type information of what a {@link VersionedSerializer} writes; they are keys where they say what makes them equal. */
+/** The type information for a {@link VersionedSerializer}; values are keys if they define equality. */
 public final class VersionedTypeInfo<T> extends TypeInformation<T> {
     private static final long serialVersionUID = 1L;
 

@@ -7,7 +7,7 @@ import org.apache.flink.api.common.typeutils.TypeSerializerSnapshot;
 import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 
-/** Flink's view of a {@link VersionedSerializer}: reads one version of it, writes the newest. */
+/** Adapts a {@link VersionedSerializer} to Flink: reads one version of it, writes the newest. */
 final class VersionedTypeSerializer<T> extends TypeSerializer<T> {
     private static final long serialVersionUID = 1L;
 
@@ -33,7 +33,7 @@ final class VersionedTypeSerializer<T> extends TypeSerializer<T> {
         return this;
     }
 
-    /** None: no value of a format is ever filled in place. */
+    /** Null: values are never filled in place. */
     @Override
     public T createInstance() {
         return null;

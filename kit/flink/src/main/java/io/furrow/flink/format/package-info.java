@@ -1,2 +1,2 @@
-/** Hand-written serializers: compact, with a version for each form that state was ever written in. */
+/** Hand-written serializers: compact, with a version for each format that state was ever written in. */
 package io.furrow.flink.format;

@@ -5,7 +5,7 @@ import java.util.Optional;
 
 import picocli.CommandLine.Option;
 
-/** How far the partitions of a job's input may be apart. Holds no Flink type, as {@link JobOptions}. */
+/** Options for the drift between the partitions of a job's input. Holds no Flink type, like {@link JobOptions}. */
 public final class AlignmentOptions {
     @Option(
             names = "--max-drift",

@@ -4,7 +4,7 @@ import java.time.Duration;
 
 import picocli.CommandLine.Option;
 
-/** How far a job believes the clocks of those that report to it. */
+/** Options for the tolerated clock skew of devices and sources. */
 public final class ClockOptions {
     @Option(
             names = "--clock-skew",

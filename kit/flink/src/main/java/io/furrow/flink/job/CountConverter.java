@@ -3,7 +3,7 @@ package io.furrow.flink.job;
 import picocli.CommandLine.ITypeConverter;
 import picocli.CommandLine.TypeConversionException;
 
-/** Whole numbers from 1 on that a broker takes for partitions and replicas. */
+/** Converts whole numbers from 1 on that a broker accepts as numbers of partitions and replicas. */
 public final class CountConverter implements ITypeConverter<Integer> {
     @Override
     public Integer convert(String text) {

@@ -1,8 +1,8 @@
 package io.furrow.flink.job;
 
-/** What a job promises about the records it writes when it is restarted. */
+/** The delivery guarantee of a job for the records it writes when it is restarted. */
 public enum Delivery {
-    /** Each record at least once, at once visible; repeats carry the same event id. */
+    /** Each record at least once, immediately visible; duplicates have the same event id. */
     AT_LEAST_ONCE,
     /** Each record once for readers with {@code isolation.level=read_committed}, visible after the next checkpoint. */
     EXACTLY_ONCE

@@ -8,7 +8,7 @@ import java.util.regex.Pattern;
 import picocli.CommandLine.ITypeConverter;
 import picocli.CommandLine.TypeConversionException;
 
-/** Durations as people write them: a whole number and one of {@code ms}, {@code s}, {@code min}, {@code h}, {@code d}. */
+/** Converts durations: a whole number and one of {@code ms}, {@code s}, {@code min}, {@code h}, {@code d}. */
 public final class DurationConverter implements ITypeConverter<Duration> {
     private static final Pattern FORM = Pattern.compile("(\\d{1,9})\\s*(ms|s|min|h|d)");
     private static final Map<String, Duration> UNITS = Map.of(

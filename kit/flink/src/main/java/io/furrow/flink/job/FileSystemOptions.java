@@ -11,8 +11,8 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.ScopeType;
 
 /**
- * How a command reaches Flink's file systems, the same for every command: as Flink itself, by {@code FLINK_CONF_DIR} and {@code
- * FLINK_PLUGINS_DIR} (S3) and Hadoop on the class path (HDFS); and by option.
+ * Configures Flink's file systems in the same way for every command: like Flink itself, by {@code FLINK_CONF_DIR} and
+ * {@code FLINK_PLUGINS_DIR} (S3) and Hadoop on the class path (HDFS); and by option.
  */
 public final class FileSystemOptions {
     @Option(
@@ -25,7 +25,7 @@ public final class FileSystemOptions {
                             + "HADOOP_CLASSPATH, as for Flink itself.")
     private Map<String, String> settings = new LinkedHashMap<>();
 
-    /** To be called before the first path is used. */
+    /** Must be called before the first path is used. */
     public void initialize() {
         Configuration flink =
                 System.getenv("FLINK_CONF_DIR") == null ? new Configuration() : GlobalConfiguration.loadConfiguration();

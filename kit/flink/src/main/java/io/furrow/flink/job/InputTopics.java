@@ -9,11 +9,10 @@ import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.topic.Topics;
 
 /**
- * What {@code --input} names: topics, or where one of the names could not be a topic's, a pattern that takes the topics named
- * in full and every topic whose whole name a regular expression matches, also those that come later. Of the latter it takes none
- * of dead letters or of what analytics find: a job would read its own results and set aside again what it has set aside. A mission's own topic is
- * taken whatever the mission is called. Neither does it take a replay, now or later: an event time of its own needs an instance of
- * its own, so that a replay is the only topic, named in full.
+ * The topics of {@code --input}: names, or, if one of them cannot be a topic's name, a pattern that matches the topics named in full and
+ * every topic whose whole name a regular expression matches, also future ones. Expressions never match dead letters or results of
+ * analytics: a job would read its own output. They match a mission's own topic whatever the mission's name. They never match a replay: its
+ * event time requires a separate instance, so a replay must be the only topic, named in full.
  *
  * @param names topics and regular expressions
  */
@@ -46,13 +45,13 @@ public record InputTopics(List<String> names) {
         return Optional.of(Pattern.compile(any));
     }
 
-    /** The topic of the one replay that is read; empty if live topics are. */
+    /** The topic of the replay to read; empty for live topics. */
     public Optional<String> replay() {
         return names.stream().filter(Topics::isReplay).findFirst();
     }
 
     /**
-     * Why these topics cannot be read together, and the remedy; empty if all have one event time.
+     * Why these topics cannot be read together, and the remedy; empty if they can.
      *
      * @param job name of the command
      */
@@ -71,7 +70,7 @@ public record InputTopics(List<String> names) {
                                 .formatted(job));
     }
 
-    /** Whether a pattern, without its escapes, names a replay's topic; one that merely matches some reads live topics only. */
+    /** Whether a pattern, without its escapes, names a replay's topic; one that only matches some reads live topics. */
     private static boolean spellsReplay(String name) {
         return !isTopic(name) && name.replaceAll("[\\\\\\[\\]]", "").contains(".replay.");
     }

@@ -13,13 +13,13 @@ import picocli.CommandLine.TypeConversionException;
 public final class JobCommandLine {
     private JobCommandLine() {}
 
-    /** Starts the job of the options that were given. */
+    /** Starts the job of the parsed options. */
     @FunctionalInterface
     public interface JobStarter {
         void start(JobOptions options) throws Exception;
     }
 
-    /** What {@code main} of a job jar does. */
+    /** The {@code main} of a job jar. */
     public static void run(Object root, JobStarter starter, String... args) {
         int exitCode = starting(root, starter).execute(args);
         if (exitCode != 0) {
@@ -27,7 +27,7 @@ public final class JobCommandLine {
         }
     }
 
-    /** {@code main} also runs inside a job manager that serves others: the JVM is only ended where Flink is not. */
+    /** {@code main} also runs inside a job manager that serves others: the JVM is only ended without Flink. */
     private static void fail(int exitCode) {
         try {
             throw NotStarted.exception();
@@ -36,9 +36,9 @@ public final class JobCommandLine {
         }
     }
 
-    /** Apart, since it cannot be loaded without Flink. */
+    /** A separate class, because it cannot be loaded without Flink. */
     private static final class NotStarted {
-        /** The reason has been printed; of this exception {@code flink run} prints the message alone. */
+        /** The reason has been printed; {@code flink run} prints only the message of this exception. */
         static RuntimeException exception() {
             return new ProgramParametrizationException("The job was not started.");
         }
@@ -68,7 +68,7 @@ public final class JobCommandLine {
         });
     }
 
-    /** A parser with the value types that job options have. */
+    /** A parser with converters for the value types of job options. */
     public static CommandLine of(Object command) {
         CommandLine line = new CommandLine(command);
         // Set on the root, inherited by every subcommand.
@@ -109,7 +109,7 @@ public final class JobCommandLine {
         };
     }
 
-    /** One sentence and where to read more; the whole usage would bury it. */
+    /** Prints one sentence and a hint at the help, rather than the whole usage. */
     private static int explain(ParameterException refused, String[] args) {
         CommandLine line = refused.getCommandLine();
         line.getErr().println(refused.getMessage());

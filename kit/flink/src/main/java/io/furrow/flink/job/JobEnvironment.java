@@ -15,11 +15,11 @@ import org.apache.flink.configuration.RestartStrategyOptions;
 import org.apache.flink.configuration.StateBackendOptions;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
-/** The one place that sets checkpointing, restarts, parallelism and type rules of a job; see {@link JobSettings}. */
+/** Sets checkpointing, restarts, parallelism and type rules of all jobs; see {@link JobSettings}. */
 public final class JobEnvironment {
-    /** Key groups; fixed forever, because state is kept by them. */
+    /** Number of key groups; fixed forever, because state is partitioned by them. */
     private static final int MAX_PARALLELISM = 720;
-    /** Kept short: a record waits at most this long for company on its way to the next subtask. */
+    /** Short, because it is the maximum time for which a record is buffered on its way to the next subtask. */
     private static final Duration BUFFER_TIMEOUT = Duration.ofMillis(5);
 
     private static final Duration CHECKPOINT_INTERVAL = Duration.ofSeconds(10);
@@ -28,7 +28,7 @@ public final class JobEnvironment {
 
     private JobEnvironment() {}
 
-    /** The environment of a job with its options, in a client of a cluster or in a program that has one of its own. */
+    /** The environment of a job with its options, in a client of a cluster or in a program with its own. */
     public static StreamExecutionEnvironment create(JobOptions options) {
         StreamExecutionEnvironment env = StreamExecutionEnvironment.getExecutionEnvironment();
         JobSettings settings = settings(options, env.getConfiguration());
@@ -37,8 +37,8 @@ public final class JobEnvironment {
     }
 
     /**
-     * The same for a job whose answers are needed in milliseconds. Buffers are flushed after 1 ms; watermarks come often, so that what
-     * each brings about holds up little.
+     * The same for a job with a latency of milliseconds. Buffers are flushed after 1 ms; watermarks are frequent, so that the work for
+     * each is small.
      */
     public static StreamExecutionEnvironment createPrompt(JobOptions options) {
         StreamExecutionEnvironment env = StreamExecutionEnvironment.getExecutionEnvironment();
@@ -87,7 +87,7 @@ public final class JobEnvironment {
         return settings;
     }
 
-    /** A strategy and its numbers belong together: the options say all of it, or the cluster. */
+    /** A strategy and its parameters are set together: either by the options, or by the cluster. */
     private static void setRestarts(JobSettings settings, RecoveryOptions faults) {
         if (!faults.setRestarts() && settings.says(RestartStrategyOptions.RESTART_STRATEGY)) {
             settings.set(RestartStrategyOptions.RESTART_STRATEGY, Optional.empty());
@@ -118,7 +118,7 @@ public final class JobEnvironment {
         }
     }
 
-    /** Shown by the web UI under the job's configuration. */
+    /** The web UI shows them as the job's configuration. */
     private static final class EffectiveOptions extends ExecutionConfig.GlobalJobParameters {
         private static final long serialVersionUID = 1L;
 

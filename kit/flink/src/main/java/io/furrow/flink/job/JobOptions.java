@@ -22,10 +22,7 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.model.topic.Topics;
 
-/**
- * The options that every job has, read from the command line by picocli. Holds no Flink type, so that {@code --help} works
- * without Flink on the class path.
- */
+/** The options of every job, parsed by picocli. Holds no Flink type, so that {@code --help} works without Flink on the class path. */
 public abstract class JobOptions {
     /** User and password of a URI. */
     private static final Pattern CREDENTIALS = Pattern.compile("://[^/@]*@");
@@ -131,9 +128,9 @@ public abstract class JobOptions {
     private boolean help;
 
     /**
-     * The name of this instance of the job, which its consumer group and its transactions bear.
+     * The name of this instance of the job, part of its consumer group and its transactional ids.
      *
-     * @throws ParameterException if no client of Kafka could bear it
+     * @throws ParameterException if Kafka does not accept it
      */
     public String jobName() {
         if (name == null) {
@@ -150,12 +147,12 @@ public abstract class JobOptions {
         return name;
     }
 
-    /** The name of an instance that is given none. */
+    /** The default name of an instance. */
     protected String defaultName() {
         return spec.name();
     }
 
-    /** Whether this instance was given a name. */
+    /** Whether a name is configured. */
     boolean isNamed() {
         return name != null;
     }
@@ -170,7 +167,7 @@ public abstract class JobOptions {
     }
 
     /**
-     * A fresh copy of what {@code --kafka-properties} holds; empty without it.
+     * A fresh copy of the file of {@code --kafka-properties}; empty without it.
      *
      * @throws ParameterException if the file cannot be read
      */
@@ -182,13 +179,13 @@ public abstract class JobOptions {
         try (Reader reader = Files.newBufferedReader(kafkaProperties)) {
             properties.load(reader);
             return properties;
-        } catch (IOException | IllegalArgumentException e) { // the latter: an escape that stands for no character
+        } catch (IOException | IllegalArgumentException e) { // the latter: an invalid escape
             throw refused(
                     "--kafka-properties " + kafkaProperties + " cannot be read; name a readable properties file", e);
         }
     }
 
-    /** Settings of its producers in which a job differs from the others; {@code --kafka-properties} goes before them. */
+    /** The job's own defaults for its producers; {@code --kafka-properties} overrides them. */
     public Map<String, String> producerDefaults() {
         return Map.of();
     }
@@ -197,7 +194,7 @@ public abstract class JobOptions {
         return List.copyOf(input);
     }
 
-    /** The same as topics or a pattern; a name that is neither is refused, and so are topics that share no event time. */
+    /** The input as topics or a pattern; rejects invalid names, and topics that share no event time. */
     public InputTopics inputTopics() {
         InputTopics topics = new InputTopics(input());
         try {
@@ -246,12 +243,12 @@ public abstract class JobOptions {
         return interval;
     }
 
-    /** How far clocks are believed. */
+    /** The tolerated clock skew. */
     public ClockOptions clocks() {
         return clocks;
     }
 
-    /** How checkpoints are taken and what follows a failure. */
+    /** The options for checkpoints and restarts. */
     RecoveryOptions faults() {
         return faults;
     }
@@ -270,8 +267,8 @@ public abstract class JobOptions {
     }
 
     /**
-     * Every option with the value in force, as one would write it, less passwords in addresses; the web UI shows it as the
-     * job's configuration.
+     * Every option with its effective value as on the command line, without passwords in addresses; the web UI shows it as
+     * the job's configuration.
      */
     Map<String, String> effective() {
         Map<String, String> values = new TreeMap<>();
@@ -279,7 +276,7 @@ public abstract class JobOptions {
             if (!option.usageHelp() && option.getValue() != null) {
                 List<String> given = option.originalStringValues();
                 String text = given.isEmpty() ? option.defaultValueString() : String.join(",", given);
-                if (text != null) { // null: an option that may be repeated and was not given
+                if (text != null) { // null: a repeatable option without a value
                     values.put(option.longestName(), masked(text));
                 }
             }
@@ -287,7 +284,7 @@ public abstract class JobOptions {
         return values;
     }
 
-    /** Less passwords in addresses. */
+    /** Removes passwords in addresses. */
     static String masked(String text) {
         return CREDENTIALS.matcher(text).replaceAll("://***@");
     }

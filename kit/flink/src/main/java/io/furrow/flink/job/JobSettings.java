@@ -9,25 +9,27 @@ import org.apache.flink.configuration.Configuration;
 import org.apache.flink.configuration.ReadableConfig;
 
 /**
- * The settings of a job: what its options say, else what the cluster's configuration or {@code -D} says, else what every job of
- * Furrow has. Remembers of each where it is from.
+ * The settings of a job: by its options, else by the cluster's configuration or {@code -D}, else Furrow's default. Records the
+ * origin of each.
  */
 final class JobSettings {
     private final ReadableConfig cluster;
     private final Configuration settings = new Configuration();
     private final Map<String, String> origins = new TreeMap<>();
 
-    /** @param cluster its configuration, with what {@code -D} adds */
+    /**
+     * @param cluster its configuration, including {@code -D}
+     */
     JobSettings(ReadableConfig cluster) {
         this.cluster = cluster;
     }
 
-    /** What every job must have. */
+    /** Sets a value that every job must have. */
     <T> void fix(ConfigOption<T> option, T value) {
         settings.set(option, value);
     }
 
-    /** What an option says; empty if it was not given: then the cluster decides. */
+    /** Sets a value from an option; if empty, the cluster's applies. */
     <T> void set(ConfigOption<T> option, Optional<T> given) {
         given.ifPresent(value -> set(option, value, "option"));
         if (given.isEmpty() && says(option)) {
@@ -35,7 +37,7 @@ final class JobSettings {
         }
     }
 
-    /** The same, with a value for where the cluster says nothing either. */
+    /** The same, with a default if the cluster has no value either. */
     <T> void set(ConfigOption<T> option, Optional<T> given, T otherwise) {
         set(option, given);
         if (given.isEmpty() && !says(option)) {
@@ -48,7 +50,7 @@ final class JobSettings {
         note(option, value, origin);
     }
 
-    /** What is in force. */
+    /** The effective value. */
     <T> T get(ConfigOption<T> option) {
         return settings.getOptional(option).orElseGet(() -> cluster.get(option));
     }
@@ -57,12 +59,15 @@ final class JobSettings {
         return cluster.getOptional(option).isPresent();
     }
 
-    /** Those that are to be laid over the cluster's configuration. */
+    /** The values that override the cluster's configuration. */
     Configuration overlay() {
         return settings;
     }
 
-    /** Settings by their names in Flink's configuration, as in {@code 10 s (default)}: from an option, the cluster or by default. */
+    /**
+     * Effective values by their names in Flink's configuration, as in {@code 10 s (default)}: from an option, the cluster or by
+     * default.
+     */
     Map<String, String> origins() {
         return origins;
     }

@@ -7,16 +7,16 @@ import java.util.function.Function;
 import org.apache.flink.metrics.MetricGroup;
 
 /**
- * Meters per domain and mission, in the groups {@code domain=<name>}, {@code mission=<name>}. The first so many pairs have
- * meters of their own; all others share those of domain and mission {@value #OTHERS}, because a reporter keeps what it has
- * once seen.
+ * Meters per domain and mission, in the groups {@code domain=<name>}, {@code mission=<name>}. A limited number of pairs
+ * have their own meters; all others share those of domain and mission {@value #OTHERS}, because a reporter never drops a
+ * metric.
  */
 public final class PerMissionMetrics<M> {
-    /** Pairs with meters of their own, per subtask, where nothing else is requested. */
+    /** Default number of pairs with their own meters, per subtask. */
     public static final int USUAL_LIMIT = 100;
 
     private static final String OTHERS = "others";
-    /** What stands for no name: a reporter may take none for a fault. */
+    /** Replaces an empty name, which a reporter may reject. */
     private static final String NONE = "none";
 
     private final MetricGroup group;
@@ -26,7 +26,9 @@ public final class PerMissionMetrics<M> {
     private int pairs;
     private M others;
 
-    /** @param making registers the meters of one pair in its group */
+    /**
+     * @param making registers the meters of one pair in its group
+     */
     public PerMissionMetrics(MetricGroup group, int atMost, Function<MetricGroup, M> making) {
         this.group = group;
         this.atMost = atMost;

@@ -5,9 +5,9 @@ import java.util.Optional;
 
 import picocli.CommandLine.Option;
 
-/** How a job keeps its state and comes back after a failure. Holds no Flink type, as {@link JobOptions}. */
+/** Options for a job's checkpoints and its restarts after a failure. Holds no Flink type, like {@link JobOptions}. */
 final class RecoveryOptions {
-    /** What Flink calls the ways of coming back. */
+    /** Flink's names of restart strategies. */
     public enum Restart {
         EXPONENTIAL_DELAY,
         FIXED_DELAY,
@@ -91,7 +91,7 @@ final class RecoveryOptions {
         return Optional.ofNullable(stateBackend);
     }
 
-    /** Whether any of the options of restarts was given: then they, and not the cluster, say all of it. */
+    /** Whether any of the options of restarts is set: then they replace the cluster's settings completely. */
     boolean setRestarts() {
         return restart != null || restartDelay != null || restartDelayMax != null || restartAttempts != null;
     }

@@ -8,14 +8,15 @@ import java.util.Optional;
 import picocli.CommandLine.TypeConversionException;
 
 /**
- * Where a job without a savepoint or checkpoint begins to read. Holds no Flink type, as {@link JobOptions}.
+ * The position at which a job without a savepoint or checkpoint begins to read. Holds no Flink type, like
+ * {@link JobOptions}.
  *
- * @param time where the kind is {@link Kind#TIME}, else empty
+ * @param time if the kind is {@link Kind#TIME}, else empty
  */
 public record StartPosition(Kind kind, Optional<Instant> time) {
-    /** How the position is given. */
+    /** The kind of position. */
     public enum Kind {
-        /** Where the consumer group left off, else the beginning. */
+        /** The committed offset of the consumer group, else the beginning. */
         COMMITTED,
         EARLIEST,
         LATEST,
@@ -23,7 +24,7 @@ public record StartPosition(Kind kind, Optional<Instant> time) {
         TIME
     }
 
-    /** @throws TypeConversionException if the text names no position */
+    /** @throws TypeConversionException if the text is not a position */
     static StartPosition of(String text) {
         return switch (text.toLowerCase(Locale.ROOT)) {
             case "committed" -> new StartPosition(Kind.COMMITTED, Optional.empty());

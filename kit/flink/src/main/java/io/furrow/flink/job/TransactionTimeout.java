@@ -2,17 +2,17 @@ package io.furrow.flink.job;
 
 import java.time.Duration;
 
-/** How long the broker leaves a transaction of a job open. A transaction lasts from one checkpoint to the next. */
+/** The timeout of a job's transactions at the broker. A transaction lasts from one checkpoint to the next. */
 public final class TransactionTimeout {
     private static final String PROPERTY = "transaction.timeout.ms";
     /** Below the broker's default limit of 15 min. */
     private static final Duration DEFAULT = Duration.ofMinutes(10);
-    /** What a checkpoint takes until its transactions have ended. */
+    /** Time to complete a checkpoint until its transactions have ended. */
     private static final Duration COMMIT = Duration.ofMinutes(1);
 
     private TransactionTimeout() {}
 
-    /** As {@code --kafka-properties} says, else 10 min. */
+    /** From {@code --kafka-properties}, else 10 min. */
     public static Duration of(JobOptions options) {
         String given = options.kafkaProperties().getProperty(PROPERTY);
         try {
@@ -24,7 +24,9 @@ public final class TransactionTimeout {
         }
     }
 
-    /** @param interval of checkpoints in force, whoever set it */
+    /**
+     * @param interval of checkpoints, whatever its origin
+     */
     static void check(JobOptions options, Duration interval) {
         if (options.delivery() != Delivery.EXACTLY_ONCE) {
             return;

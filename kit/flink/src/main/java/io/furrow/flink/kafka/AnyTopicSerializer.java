@@ -10,9 +10,9 @@ import org.apache.flink.connector.kafka.lineage.KafkaDatasetFacetProvider;
 import org.apache.flink.connector.kafka.sink.KafkaRecordSerializationSchema;
 
 /**
- * Serializes records that name their topic. With exactly-once the sink asks, when it starts, for transactions that an earlier
- * attempt left open on the topics that its serializer names. This one names none: Kafka then lists all that are open and that the
- * job may see, and the sink aborts those that bear its own prefix. So topics need not be known, nor readable.
+ * Serializes records that name their topic. With exactly-once, a starting sink queries transactions that an earlier attempt left
+ * open on the topics that its serializer names. This one names none: Kafka then lists all open ones that are visible to the job,
+ * and the sink aborts those with its own prefix. Topics need not be known or readable, therefore.
  */
 public interface AnyTopicSerializer<T> extends KafkaRecordSerializationSchema<T>, KafkaDatasetFacetProvider {
     @Override

@@ -11,7 +11,8 @@ import io.furrow.flink.record.TopicRecord;
 
 /**
  * A sink for the dead letters of another sink, whose writer opens and flushes a writer of this one. It takes no part in
- * transactions: after a failure a letter may be there twice. Topics are made, and letters shortened, as by {@link EnsureTopics}.
+ * transactions: after a failure a letter may be duplicated. Topics are created, and letters truncated, as by
+ * {@link EnsureTopics}.
  */
 public final class DeadLetterSink implements Sink<TopicRecord> {
     private static final long serialVersionUID = 1L;

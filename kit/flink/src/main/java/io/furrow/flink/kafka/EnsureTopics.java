@@ -13,8 +13,8 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.ngsi.Reason;
 
 /**
- * Passes on what Kafka takes: each record, its topic made where it is not there, or in its place the dead letter of one that is
- * too large for the producer or its topic. An unreachable broker is asked again for a minute, then the job fails and is
+ * Forwards records that Kafka accepts: each record, after creating its topic if missing, or, if it is too large for the
+ * producer or its topic, its dead letter instead. With an unreachable broker it retries for a minute, then the job fails and is
  * restarted.
  */
 public final class EnsureTopics extends RichMapFunction<TopicRecord, TopicRecord> {

@@ -27,22 +27,20 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.ClockBoundedWatermarks;
 import io.furrow.flink.time.ReplayWatermarks;
 
-/** The Kafka sources and sinks of a job, with the settings that every job of Furrow has. */
+/** Creates the Kafka sources and sinks of a job, with the common settings of all jobs of Furrow. */
 public final class KafkaConnectors {
     static final int MAX_REQUEST_BYTES = 16 * 1024 * 1024;
-    /** A backlog is at the drift within as long, and waits for the next look. */
+    /** Short, because a backlog reaches the drift within as long, and then waits for the next alignment. */
     private static final Duration ALIGNMENT_INTERVAL = Duration.ofMillis(200);
 
     private KafkaConnectors() {}
 
-    /**
-     * Reads the job's input from where the job's options say; only committed records. Record timestamps are the event times.
-     */
+    /** Reads the job's input from the configured position; only committed records. Record timestamps are the event times. */
     public static KafkaSource<TopicRecord> source(JobOptions options) {
         return source(options, new TopicRecordSchema());
     }
 
-    /** The same for records in another form. */
+    /** The same for another record type. */
     public static <T> KafkaSource<T> source(JobOptions options, KafkaRecordDeserializationSchema<T> form) {
         InputTopics topics = options.inputTopics();
         KafkaSourceBuilder<T> source = source(options, form, options.groupId());
@@ -60,7 +58,7 @@ public final class KafkaConnectors {
         };
     }
 
-    /** Reads a topic from its beginning and all that comes; a topic that is not there yet is awaited. */
+    /** Reads a topic from its beginning, unbounded; waits for a topic that does not exist yet. */
     public static KafkaSource<TopicRecord> wholeTopic(JobOptions options, String topic) {
         return source(options, new TopicRecordSchema(), options.groupId() + "-" + topic)
                 .setTopicPattern(Pattern.compile(Pattern.quote(topic)))
@@ -81,7 +79,7 @@ public final class KafkaConnectors {
     static Properties consumerProperties(JobOptions options) {
         Properties properties = options.kafkaProperties();
         properties.setProperty(
-                "isolation.level", "read_committed"); // what no transaction has committed is none of a job's
+                "isolation.level", "read_committed"); // uncommitted records are skipped
         properties.putIfAbsent("partition.discovery.interval.ms", "10000");
         return properties;
     }
@@ -91,22 +89,22 @@ public final class KafkaConnectors {
         return sink(options, "topics");
     }
 
-    /** The same for one of several sinks of a job, separated by name: their transactions are. */
+    /** The same for one of several sinks of a job, whose transactions are separated by name. */
     static KafkaSink<TopicRecord> sink(JobOptions options, String name) {
         return sink(options, name, new TopicRecordSchema());
     }
 
-    /** The same for records in another form. */
+    /** The same for another record type. */
     public static <T> KafkaSink<T> sink(JobOptions options, String name, AnyTopicSerializer<T> form) {
         return sinkOf(options, form, name, guarantee(options));
     }
 
-    /** The same without transactions: what is written is visible at once, whatever the job's delivery guarantee. */
+    /** The same without transactions: records are visible immediately, whatever the job's delivery guarantee. */
     public static KafkaSink<TopicRecord> promptSink(JobOptions options, String name) {
         return sinkOf(options, new TopicRecordSchema(), name, DeliveryGuarantee.AT_LEAST_ONCE);
     }
 
-    /** The same: a writer of it can work inside another sink's. */
+    /** The same, for a writer inside another sink's. */
     static KafkaSink<TopicRecord> atLeastOnceSink(JobOptions options) {
         return sinkOf(options, new TopicRecordSchema(), "dead-letters", DeliveryGuarantee.AT_LEAST_ONCE);
     }
@@ -119,8 +117,8 @@ public final class KafkaConnectors {
     }
 
     /**
-     * Transactional ids are used again once their transactions have ended: a handful for each subtask. A sink aborts what its
-     * prefix begins, so none is the beginning of another: {@code furrow-<job>:<sink>:}.
+     * Transactional ids are reused once their transactions have ended: a handful for each subtask. A sink aborts transactions with its
+     * prefix, so no prefix may begin another: {@code furrow-<job>:<sink>:}.
      */
     private static <T> KafkaSink<T> sinkOf(
             JobOptions options, AnyTopicSerializer<T> form, String name, DeliveryGuarantee guarantee) {
@@ -134,7 +132,7 @@ public final class KafkaConnectors {
                 .build();
     }
 
-    /** Settings of the producers of a job beside the bootstrap servers; what {@code --kafka-properties} says goes before them. */
+    /** Settings of the producers of a job besides the bootstrap servers; {@code --kafka-properties} overrides them. */
     public static Properties producerProperties(JobOptions options) {
         Properties properties = options.kafkaProperties();
         options.producerDefaults().forEach(properties::putIfAbsent);
@@ -144,17 +142,16 @@ public final class KafkaConnectors {
         properties.setProperty(
                 "transaction.timeout.ms",
                 Long.toString(TransactionTimeout.of(options).toMillis()));
-        // A mission's topic may have been created just now. Were two requests under way, the broker could refuse the
-        // first
-        // (the partition is not there yet), accept the second, and then refuse the first forever: two minutes without
-        // any result until the producer gives up (KAFKA-15591).
+        // A mission's topic may have just been created. With two requests in flight, the broker could refuse the first (the partition
+        // does not exist yet), accept the second, and then refuse the first forever: two minutes without any result until the producer
+        // gives up (KAFKA-15591).
         properties.putIfAbsent("max.in.flight.requests.per.connection", "1");
         return properties;
     }
 
     /**
-     * Event time = record timestamp, behind by the job's out-of-orderness; see {@link ClockBoundedWatermarks}. That of a replay, which
-     * one subtask must read, is reported by its records alone; see {@link Epochs}.
+     * Event time = record timestamp, less the job's out-of-orderness; see {@link ClockBoundedWatermarks}. For a replay, which one
+     * subtask must read, it follows from its records alone; see {@link Epochs}.
      */
     public static WatermarkStrategy<TopicRecord> watermarks(JobOptions options) {
         ClockBoundedWatermarks.Hold hold = new ClockBoundedWatermarks.Hold(
@@ -166,18 +163,15 @@ public final class KafkaConnectors {
     }
 
     /**
-     * The same for a job that keeps what is ahead of event time: a partition that is ahead of the slowest by more than the drift is
-     * not read on until the slowest has come closer.
+     * The same for a job that buffers records ahead of event time: a partition that is ahead of the slowest by more than the drift
+     * pauses until the slowest has come closer.
      */
     public static WatermarkStrategy<TopicRecord> watermarks(JobOptions options, Optional<Duration> maxDrift) {
         return maxDrift.map(drift -> watermarks(options).withWatermarkAlignment("input", drift, ALIGNMENT_INTERVAL))
                 .orElseGet(() -> watermarks(options));
     }
 
-    /**
-     * For a stream beside the events that has no event time of its own: it is always idle, so that it never holds back their
-     * watermark and never advances it while no event arrives.
-     */
+    /** For a stream beside the events without event time: it is always idle, so that it neither holds back nor advances their watermark. */
     public static WatermarkStrategy<TopicRecord> alwaysIdle() {
         return WatermarkStrategy.forGenerator(context -> new AlwaysIdle());
     }

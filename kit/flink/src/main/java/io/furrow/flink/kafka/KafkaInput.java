@@ -12,15 +12,15 @@ import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.AdvanceIdleInput;
 
-/** Where the analytics jobs' records come from. */
+/** The input of the analytics jobs. */
 public final class KafkaInput {
     private KafkaInput() {}
 
     /**
-     * The topics that {@code --input} names, with event time, from the source of the uid {@code reported-changes}.
+     * The topics of {@code --input}, with event time, from the source of the uid {@code reported-changes}.
      *
-     * @param maxDrift how far partitions of live topics may be ahead of the slowest; those of a replay never wait for each
-     *     other, nor do any with the idle advance, where the slowest may be as far behind as its last record
+     * @param maxDrift how far partitions of live topics may be ahead of the slowest; never applies to a replay, nor with
+     *     the idle advance, where the slowest may be as far behind as its last record
      */
     public static DataStream<TopicRecord> reportedChanges(
             StreamExecutionEnvironment env, JobOptions options, Optional<Duration> maxDrift) {
@@ -30,7 +30,7 @@ public final class KafkaInput {
         DataStreamSource<TopicRecord> records =
                 env.fromSource(KafkaConnectors.source(options), watermarks, "Reported changes");
         if (replay) {
-            records.setParallelism(1); // only who reads all partitions sees that the replay is paused
+            records.setParallelism(1); // a pause of the replay is visible in all partitions only
         }
         return AdvanceIdleInput.of(records.uid("read-events"), options);
     }

@@ -5,12 +5,14 @@ import org.apache.flink.streaming.api.datastream.DataStream;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.record.TopicRecord;
 
-/** Where a job's records go that name their topic; a test puts something else in its place. */
+/** The output of a job for records that name their topic; tests replace it. */
 public interface KafkaOutput {
-    /** @param name of the stream, in kebab-case; {@code write-<name>} is the sink's uid */
+    /**
+     * @param name of the stream, in kebab-case; {@code write-<name>} is the sink's uid
+     */
     void write(String name, DataStream<TopicRecord> records);
 
-    /** All that a job writes, through one sink of the uid {@code write-topics}; else as {@link #of}. */
+    /** Writes all output of a job through one sink of the uid {@code write-topics}; else as {@link #of}. */
     static void writeAll(DataStream<TopicRecord> records, JobOptions options, TopicOptions.Settings topics) {
         records.map(new EnsureTopics(options, topics))
                 .uid("ensure-topics")
@@ -20,7 +22,7 @@ public interface KafkaOutput {
                 .name("Write topics");
     }
 
-    /** Kafka under the job's delivery guarantee; topics are made when needed. */
+    /** Kafka under the job's delivery guarantee; topics are created when needed. */
     static KafkaOutput of(JobOptions options, TopicOptions.Settings topics) {
         return (name, records) -> records.map(new EnsureTopics(options, topics))
                 .uid("ensure-topics-of-" + name)

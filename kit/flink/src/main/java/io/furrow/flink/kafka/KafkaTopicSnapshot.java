@@ -14,10 +14,9 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.kafka.CommittedReader;
 
 /**
- * Reads the topic from its beginning to where it ended when the reading began; a missing topic has no records. Operators of one
- * process that ask for all records of a topic at the same time share one reading. A reading takes as long as records come; it
- * fails when the broker gave nothing for {@code default.api.timeout.ms} of the Kafka properties, a minute unless they say
- * otherwise.
+ * Reads the topic from its beginning to the end offsets at the start of the read; a missing topic has no records. Operators of
+ * one process that read the same topic at the same time share one read. A read takes as long as records arrive; it fails when
+ * the broker returned nothing for {@code default.api.timeout.ms} of the Kafka properties, by default a minute.
  */
 public final class KafkaTopicSnapshot implements TopicSnapshot {
     private static final long serialVersionUID = 1L;

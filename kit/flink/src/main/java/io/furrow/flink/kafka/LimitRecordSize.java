@@ -14,9 +14,9 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.topic.Topics;
 
 /**
- * Converts a record into one that Kafka accepts: the record itself, or, where it is too large, its dead letter on
- * {@code <topic>.dead}. A dead letter that is itself too large loses the end of its value, and says so; where not even
- * that makes it fit, its own headers and its key. The topics are made when needed.
+ * Converts a record into one that Kafka accepts: the record itself, or, if it is too large, its dead letter on
+ * {@code <topic>.dead}. A dead letter that is itself too large is truncated and marked; if that does not suffice, it loses
+ * its own headers and its key. Topics are created when needed.
  */
 public final class LimitRecordSize implements AutoCloseable {
     private static final String STAGE = "kafka";
@@ -31,27 +31,27 @@ public final class LimitRecordSize implements AutoCloseable {
     }
 
     /**
-     * Makes the topic where it is not there; {@link #of(TopicRecord)} does not wait for its sake then. From any thread.
+     * Creates the topic if it is missing; {@link #of(TopicRecord)} then does not wait for that. Thread-safe.
      *
      * @return its partitions
-     * @throws IOException if it cannot be made or seen; the message says what to do
+     * @throws IOException if it cannot be created or described; the message says what to do
      */
     public int prepare(String topic) throws IOException, InterruptedException {
         return topics.partitions(topic);
     }
 
     /**
-     * The broker's ids of those topics that it has heard of: a topic that is made again has another. From any thread.
+     * The broker's ids of the existing topics: a recreated topic has another. Thread-safe.
      *
-     * @throws IOException if that cannot be asked now
+     * @throws IOException if the broker does not answer
      */
     public Map<String, String> ids(Collection<String> names) throws IOException, InterruptedException {
         return topics.ids(names);
     }
 
     /**
-     * @throws IOException if a topic cannot be made, or takes not even a dead letter without its value; the message says what
-     *     to do
+     * @throws IOException if a topic cannot be created, or does not even accept a dead letter without its value; the message
+     *     says what to do
      */
     public TopicRecord of(TopicRecord record) throws IOException, InterruptedException {
         long most = room(record);
@@ -66,7 +66,7 @@ public final class LimitRecordSize implements AutoCloseable {
         return left == FITS ? letter : shortened(letter, left);
     }
 
-    /** What the record may weigh, if it weighs more; {@link #FITS} otherwise. */
+    /** The size limit, if the record exceeds it; {@link #FITS} otherwise. */
     private long room(TopicRecord record) throws IOException, InterruptedException {
         long bytes = RecordSize.atMost(record);
         long most = Math.min(limits.ofProducer(), topics.limit(record.topic()));

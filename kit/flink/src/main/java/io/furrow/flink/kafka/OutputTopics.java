@@ -27,16 +27,20 @@ import org.slf4j.LoggerFactory;
 import io.furrow.model.text.FailureText;
 
 /**
- * The topics that a subtask writes to: made where they are not there, and how large a record each takes. Asks once per topic, and
- * again after a pause in which somebody may have deleted it; an unreachable broker is asked again for a minute. Nobody waits for what others ask about another topic.
+ * The topics that a subtask writes to: creates missing ones and reads their limits of record size. Queries each topic once, and again after
+ * a pause in which it may have been deleted; with an unreachable broker it retries for a minute. Queries of different topics do not wait
+ * for each other.
  */
 final class OutputTopics implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(OutputTopics.class);
     private static final Duration TIMEOUT = Duration.ofMinutes(1);
-    /** A limit is asked for again at most this often, however many records are too large. */
+    /** Minimum time between queries of a limit, however many records are too large. */
     private static final long ANEW_NANOS = Duration.ofSeconds(10).toNanos();
 
-    /** A producer that writes to a deleted topic waits for a minute and fails; the control plane deletes none that was written to since. */
+    /**
+     * A producer that writes to a deleted topic waits for a minute and fails; the control plane deletes no topic written to within this
+     * time.
+     */
     private static final long UNUSED_NANOS = Duration.ofMinutes(5).toNanos();
 
     private static final Duration UNHEARD_OF = Duration.ofMillis(50);
@@ -49,16 +53,18 @@ final class OutputTopics implements AutoCloseable {
     private final TopicOptions.Settings settings;
     private final LongSupplier nanoTime;
     private final Map<String, Limit> known = new ConcurrentHashMap<>();
-    /** When a record for each topic came last. */
+    /** The time of the last record by topic. */
     private final Map<String, Long> used = new ConcurrentHashMap<>();
-    /** For each topic what whoever asks about it holds meanwhile. */
+    /** Lock by topic, held during a query. */
     private final Map<String, Object> locks = new ConcurrentHashMap<>();
 
     private Admin admin;
 
     private record Limit(long bytes, long asked) {}
 
-    /** @param client of Kafka, with {@code bootstrap.servers} */
+    /**
+     * @param client settings of Kafka clients, with {@code bootstrap.servers}
+     */
     OutputTopics(Properties client, TopicOptions.Settings settings) {
         this(client, settings, System::nanoTime);
     }
@@ -70,7 +76,7 @@ final class OutputTopics implements AutoCloseable {
         client.setProperty(AdminClientConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, Long.toString(TIMEOUT.toMillis()));
     }
 
-    /** Bytes of the largest record that the topic, which is there afterwards, takes; no limit where it may not be read. */
+    /** Bytes of the largest record that the topic accepts, after creating it if missing; unlimited if the limit may not be read. */
     long limit(String topic) throws IOException, InterruptedException {
         long now = nanoTime.getAsLong();
         Long before = used.put(topic, now);
@@ -83,7 +89,7 @@ final class OutputTopics implements AutoCloseable {
         return known.getOrDefault(topic, NO_LIMIT).bytes();
     }
 
-    /** The same for whoever has met the limit that is known: somebody may have raised it. */
+    /** The same without the cache, for a record above the cached limit: it may have been raised. */
     long limitAskedAnew(String topic) throws IOException, InterruptedException {
         Limit limit = known.get(topic);
         if (limit != null && nanoTime.getAsLong() - limit.asked() > ANEW_NANOS) {
@@ -106,8 +112,8 @@ final class OutputTopics implements AutoCloseable {
     }
 
     /**
-     * How many partitions the topic has, which is there afterwards, and its limit known. A broker that has not yet heard of a new topic is
-     * asked again.
+     * The number of partitions of the topic, after creating it if missing and caching its limit. Retries while a broker has no metadata of
+     * a new topic.
      */
     int partitions(String topic) throws IOException, InterruptedException {
         synchronized (lock(topic)) {
@@ -116,7 +122,7 @@ final class OutputTopics implements AutoCloseable {
             while (true) {
                 int partitions = describe(topic, until);
                 if (partitions == 0) {
-                    ensure(topic); // somebody may have deleted it since it was made
+                    ensure(topic); // it may have been deleted since its creation
                 }
                 if (partitions > 0 && !known.containsKey(topic)) {
                     ask(topic);
@@ -129,7 +135,7 @@ final class OutputTopics implements AutoCloseable {
         }
     }
 
-    /** 0 where the broker has not heard of the topic, until a time. */
+    /** 0 if the broker has no metadata of the topic by a time. */
     private int describe(String topic, long until) throws IOException, InterruptedException {
         try {
             return admin().describeTopics(List.of(topic))
@@ -150,7 +156,7 @@ final class OutputTopics implements AutoCloseable {
         }
     }
 
-    /** The broker's ids of those topics that it has heard of: a topic that is made again has another. */
+    /** The broker's ids of the existing topics: a recreated topic has another. */
     Map<String, String> ids(Collection<String> topics) throws IOException, InterruptedException {
         Map<String, String> ids = new HashMap<>();
         for (Map.Entry<String, KafkaFuture<TopicDescription>> each :
@@ -182,7 +188,7 @@ final class OutputTopics implements AutoCloseable {
         }
     }
 
-    /** Who may not make topics may still write to those that others made. */
+    /** A client without permission to create topics may still write to existing ones. */
     private boolean isAllowedOnlyToWrite(String topic, Throwable refusal) throws InterruptedException {
         if (!(refusal instanceof AuthorizationException)) {
             return false;
@@ -211,7 +217,7 @@ final class OutputTopics implements AutoCloseable {
                 return;
             }
             if (e.getCause() instanceof UnknownTopicOrPartitionException) {
-                return; // made just now, this broker has not heard of it: the next record asks again
+                return; // new, and unknown to this broker: the next record retries
             }
             throw new IOException(
                     "how large records " + topic + " takes cannot be read: " + FailureText.of(e.getCause()),

@@ -8,16 +8,19 @@ import org.apache.kafka.common.record.SimpleRecord;
 import io.furrow.flink.record.TextHeaders;
 import io.furrow.flink.record.TopicRecord;
 
-/** What a record weighs: in a producer, which counts it generously, and at the broker, as a batch of its own. */
+/** The size of a record: in a producer, which overestimates it, and at the broker, as a separate batch. */
 final class RecordSize {
-    /** A batch's own bytes, and the record's numbers and lengths where they take most room. */
+    /** Bytes of a batch, and of the record's numbers and lengths at most. */
     private static final long OVERHEAD = 61 + 21 + 3 * 5;
-    /** The two lengths that stand before the name and the text of a header. */
+    /** The lengths of the name and the text of a header, at most. */
     private static final long PER_HEADER = 2 * 5;
 
     private RecordSize() {}
 
-    /** In bytes, at least what the producer compares with {@code max.request.size}, and what the broker gets uncompressed. */
+    /**
+     * Upper bound in bytes of the size that the producer compares with {@code max.request.size}, and of the uncompressed size
+     * at the broker.
+     */
     static long atMost(TopicRecord record) {
         long bytes = OVERHEAD + length(record.key()) + length(record.value());
         for (Header header : TextHeaders.of(record.headers()).bytes()) {
@@ -26,7 +29,7 @@ final class RecordSize {
         return bytes;
     }
 
-    /** In bytes, exactly what the broker compares with {@code max.message.bytes}: costs as much as writing it. */
+    /** The exact size in bytes that the broker compares with {@code max.message.bytes}: costs as much as writing it. */
     static long atTheBroker(TopicRecord record, Compression compression) {
         Header[] headers = TextHeaders.of(record.headers()).bytes().toArray(Header[]::new);
         SimpleRecord alone = new SimpleRecord(Math.max(0, record.timestamp()), record.key(), record.value(), headers);

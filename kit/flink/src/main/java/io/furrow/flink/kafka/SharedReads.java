@@ -8,11 +8,10 @@ import java.util.concurrent.ConcurrentMap;
 import java.util.concurrent.ExecutionException;
 
 /**
- * Reads that are under way: who wants one that another thread has begun waits for its result. Nothing is kept of a read that has
- * ended.
+ * Joins concurrent reads: a thread waits for the result of an equal read in progress. Results are not cached.
  *
- * @param <K> what makes two reads the same
- * @param <V> what is read; shared, so not to be changed
+ * @param <K> identifies equal reads
+ * @param <V> the result; shared, so must not be modified
  */
 final class SharedReads<K, V> {
     private final ConcurrentMap<K, CompletableFuture<V>> underWay = new ConcurrentHashMap<>();
@@ -22,7 +21,7 @@ final class SharedReads<K, V> {
         V run() throws IOException;
     }
 
-    /** The result of the read that is under way, else of this one; also of this one where the other fails. */
+    /** The result of the read in progress, else of this one; also of this one if the other fails. */
     V join(K key, Read<V> read) throws IOException {
         CompletableFuture<V> mine = new CompletableFuture<>();
         CompletableFuture<V> other = underWay.putIfAbsent(key, mine);
@@ -31,7 +30,7 @@ final class SharedReads<K, V> {
         }
         try {
             return other.get();
-        } catch (ExecutionException e) { // its thread may have been stopped, which is no reason for this one
+        } catch (ExecutionException e) { // its thread may have been stopped, which does not concern this one
             return read.run();
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
@@ -50,7 +49,7 @@ final class SharedReads<K, V> {
         }
     }
 
-    /** How many reads are under way. */
+    /** The number of reads in progress. */
     int size() {
         return underWay.size();
     }

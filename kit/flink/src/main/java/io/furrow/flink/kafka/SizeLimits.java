@@ -10,13 +10,13 @@ import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.record.CompressionType;
 
 /**
- * How large a record may be.
+ * The limits of record size.
  *
- * @param ofProducer bytes that the producer takes, whatever the topic
+ * @param ofProducer bytes that the producer accepts, whatever the topic
  * @param compression of the producer, because a topic's limit is one of compressed bytes
  */
 record SizeLimits(long ofProducer, Compression compression) {
-    /** As the settings say, else Kafka's own defaults. */
+    /** From the settings, else Kafka's defaults. */
     static SizeLimits of(Properties producer) {
         long request = number(producer, ProducerConfig.MAX_REQUEST_SIZE_CONFIG);
         long buffer = number(producer, ProducerConfig.BUFFER_MEMORY_CONFIG);

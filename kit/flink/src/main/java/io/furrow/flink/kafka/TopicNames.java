@@ -11,14 +11,14 @@ import org.apache.kafka.clients.admin.AdminClientConfig;
 
 import io.furrow.flink.job.JobOptions;
 
-/** The topics that there are at the moment of the call. */
+/** Lists the existing topics at the moment of the call. */
 public interface TopicNames extends Serializable {
-    /** For a job that makes none. */
+    /** For a job that creates none. */
     TopicNames NONE = Set::of;
 
     Set<String> read() throws IOException;
 
-    /** Those of the Kafka that the options name. */
+    /** The topics of the configured Kafka. */
     static TopicNames ofKafka(JobOptions options) {
         Properties client = options.kafkaProperties();
         client.setProperty(AdminClientConfig.BOOTSTRAP_SERVERS_CONFIG, options.bootstrapServers());

@@ -14,7 +14,7 @@ import picocli.CommandLine.Option;
 import io.furrow.flink.job.CountConverter;
 import io.furrow.model.topic.Topics;
 
-/** How topics are made that a job writes to and that are not there; those that exist stay as they are. */
+/** Options for creating missing topics that a job writes to; existing ones stay unchanged. */
 public final class TopicOptions {
     @Option(
             names = "--topic-partitions",
@@ -37,7 +37,7 @@ public final class TopicOptions {
                     + "log.retention.")
     private Duration retention;
 
-    /** What is asked of the broker, without picocli, because it travels with the job. */
+    /** The settings without picocli, because they are serialized with the job. */
     public Settings settings(Set<String> compacted) {
         return new Settings(
                 partitions,
@@ -48,10 +48,10 @@ public final class TopicOptions {
     }
 
     /**
-     * @param partitions null for the broker's default, as are {@code replication} and {@code retentionMillis}
-     * @param compacted topics that keep the newest record of each key forever
+     * @param partitions null for the broker's default, like {@code replication} and {@code retentionMillis}
+     * @param compacted topics that retain the newest record of each key forever
      * @param replayBytes of a partition of a replay's topic or of one of its results, which are bounded by size instead of time:
-     *     their records are as old as what they replay, or stamped ahead; null for no bound
+     *     their records have past or future timestamps; null for unbounded
      */
     public record Settings(
             Integer partitions, Short replication, Long retentionMillis, Set<String> compacted, Long replayBytes)
@@ -60,12 +60,12 @@ public final class TopicOptions {
             this(partitions, replication, retentionMillis, compacted, null);
         }
 
-        /** The same with a bound for each partition of a replay's topic. */
+        /** The same with a limit for each partition of a replay's topic. */
         public Settings withReplayBytes(long bytes) {
             return new Settings(partitions, replication, retentionMillis, compacted, bytes);
         }
 
-        /** The topic to be asked for; it takes records as large as the job may write. */
+        /** The topic to create; it accepts records as large as the job may write. */
         NewTopic topic(String name) {
             Map<String, String> configs = new HashMap<>();
             configs.put(TopicConfig.MAX_MESSAGE_BYTES_CONFIG, Integer.toString(KafkaConnectors.MAX_REQUEST_BYTES));

@@ -9,7 +9,7 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 import io.furrow.flink.record.TextHeaders;
 import io.furrow.flink.record.TopicRecord;
 
-/** Between Kafka's records and {@link TopicRecord}; no byte of key or value is looked at. */
+/** Converts between Kafka's records and {@link TopicRecord}, without parsing key or value. */
 public final class TopicRecordSchema
         implements KafkaRecordDeserializationSchema<TopicRecord>, AnyTopicSerializer<TopicRecord> {
     private static final long serialVersionUID = 1L;

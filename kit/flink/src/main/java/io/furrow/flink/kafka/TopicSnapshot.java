@@ -7,18 +7,18 @@ import java.util.List;
 import io.furrow.flink.record.TopicRecord;
 
 /**
- * What is on a topic at the moment of the call. An operator that joins events with the topic's records reads it before its
- * first event, here and after each restart; what comes later reaches it as a broadcast stream, which begins with the same
- * records again.
+ * The content of a topic at the moment of the call. An operator that joins events with the topic's records reads it before
+ * its first event, also after each restart; later records reach it as a broadcast stream, which repeats the same records
+ * first.
  */
 public interface TopicSnapshot extends Serializable {
-    /** For a job that does not look at the topic. */
+    /** For a job that does not read the topic. */
     TopicSnapshot NONE = List::of;
 
-    /** In the order of the topic, as far as it has one: by offset within each partition. */
+    /** In the topic's order: by offset within each partition. */
     List<TopicRecord> read() throws IOException;
 
-    /** Takes one record after the other. */
+    /** Receives one record at a time. */
     interface Taker<E extends Exception> {
         void take(TopicRecord record) throws E;
     }

@@ -14,17 +14,17 @@ import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.api.common.typeinfo.Types;
 
 /**
- * Keyed state of the entities that share an id, by their type. Nearly always there is one: it is a value of its own, the others
+ * Keyed state of the entities that share an id, by their type. Nearly always there is one: it is a separate value, the others
  * are in a map.
  *
- * @param <T> what is known of an entity
+ * @param <T> the state of an entity
  */
 public final class ByType<T> {
     private final ValueState<T> first;
     private final MapState<String, T> others;
     private final Function<T, String> typeOf;
 
-    /** What state is called, and how it names its type. */
+    /** The name and type of the state, and how to find the entity's type. */
     public record Descriptor<T>(String name, Class<T> type, TypeOf<T> typeOf) {
         public ByType<T> of(RuntimeContext context) {
             TypeInformation<T> information = TypeInformation.of(type);
@@ -35,7 +35,7 @@ public final class ByType<T> {
         }
     }
 
-    /** The entity type of what is known; empty where a deletion did not name it. */
+    /** Returns the entity type of a state; empty for a deletion without one. */
     public interface TypeOf<T> extends Function<T, String>, Serializable {}
 
     private ByType(ValueState<T> first, MapState<String, T> others, Function<T, String> typeOf) {
@@ -44,13 +44,13 @@ public final class ByType<T> {
         this.typeOf = typeOf;
     }
 
-    /** Null if nothing is known. */
+    /** Null if there is none. */
     public T get(String type) throws Exception {
         T one = first.value();
         return one != null && is(one, type) ? one : others.get(type);
     }
 
-    /** What is known of one type, or of all if the type is empty. */
+    /** The state of one type, or of all if the type is empty. */
     public List<T> allOf(String type) throws Exception {
         if (!type.isEmpty()) {
             T one = get(type);
@@ -68,7 +68,7 @@ public final class ByType<T> {
         return first.value() == null && others.isEmpty();
     }
 
-    /** Null if nothing is known. */
+    /** Null if there is none. */
     public T first() throws Exception {
         return first.value();
     }
@@ -81,7 +81,7 @@ public final class ByType<T> {
         return isOther;
     }
 
-    /** As {@link #put} where it is known whether it is the first. */
+    /** As {@link #put} if the caller knows whether it is the first. */
     public void put(boolean isFirst, T known) throws Exception {
         if (isFirst) {
             first.update(known);

@@ -10,8 +10,8 @@ import io.furrow.flink.job.PerMissionMetrics;
 import io.furrow.model.ngsi.Reason;
 
 /**
- * Counts what an operator sets aside: {@code dead}, the same in a group per {@code reason}, and, of what belongs to them, in
- * groups per {@code domain} and {@code mission}.
+ * Counts an operator's dead letters: {@code dead}, the same in a group per {@code reason}, and, if assigned, in groups per
+ * {@code domain} and {@code mission}.
  */
 public final class DeadLetterCounters {
     private final MetricGroup group;
@@ -34,7 +34,7 @@ public final class DeadLetterCounters {
                 .inc();
     }
 
-    /** The same of something whose domain and mission are known; each may be empty. */
+    /** The same with domain and mission; each may be empty. */
     public void count(Reason reason, String domain, String mission) {
         count(reason);
         perMissionMetrics.of(domain, mission).inc();

@@ -8,11 +8,11 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /**
- * What an operator sets aside: the original key and bytes on {@code <topic>.dead}, the reason in the headers; of a large record
- * the beginning, and where all of it is.
+ * Creates an operator's dead letters: the original key and bytes on {@code <topic>.dead}, the reason in the headers; of a large
+ * record the beginning, and its position.
  */
 public final class DeadLetters {
-    /** The side output of every operator that can meet bad input. */
+    /** The side output of every operator that can receive invalid input. */
     public static final OutputTag<TopicRecord> TAG = new OutputTag<>("dead-letters") {
         private static final long serialVersionUID = 1L;
     };
@@ -20,18 +20,18 @@ public final class DeadLetters {
     private DeadLetters() {}
 
     /**
-     * Whether a job that reads what {@code ingest} reads leaves this record's dead letter to it: both refuse the same, and one
-     * letter says it.
+     * Whether a job leaves this record's dead letter to {@code ingest}, which reads the same input and rejects the same
+     * records, so that there is one letter.
      */
     public static boolean areOfIngest(TopicRecord record) {
         return record.topic().equals(Topics.RAW);
     }
 
     /**
-     * A letter has the time of its record, but one from the future that of now, and its record's in {@link DeadLetter#TIME}: a
-     * topic need not take it otherwise.
+     * A letter has the time of its record; for a record from the future the current time, with its record's in
+     * {@link DeadLetter#TIME}, because a topic may reject it otherwise.
      *
-     * @param stage who set it aside, for instance {@code ingest}
+     * @param stage that rejected the record, for instance {@code ingest}
      */
     public static TopicRecord of(TopicRecord record, UnreadableException why, String stage) {
         DeadLetter letter = new DeadLetter(why.reason(), why.getMessage(), stage, record.position());

@@ -6,17 +6,17 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /**
- * Event time where a replay seeks back, loops or starts again: each start begins an epoch, and each epoch has {@link #SPAN} of
- * event time to itself, so that event time only ever goes forward:
+ * Event time of a replay that seeks back, loops or restarts: each start begins an epoch, and each epoch has {@link #SPAN} of
+ * event time to itself, so that event time never goes back:
  *
  * <pre>event time = epoch × SPAN + original time</pre>
  *
- * <p>What is open when an epoch begins ends as it would without a further record, and nothing of the new epoch is late.
- * Whatever compares times with each other goes by event time; whatever asks which field or device there was, or reports a
- * time, goes by the {@link #original} one. In epoch 0, where all live topics are, both are the same.
+ * <p>State that is open when an epoch begins ends as without further records, and no record of the new epoch is late. Times
+ * are compared by event time; lookups of fields and devices, and reported times, use the {@link #original} time. In epoch 0,
+ * that of all live topics, both are the same.
  */
 public final class Epochs {
-    /** Milliseconds, 557 years; a power of two, so that nothing has to be divided. */
+    /** Milliseconds, 557 years; a power of two, so that no division is needed. */
     public static final long SPAN = 1L << 44;
 
     /** The greatest epoch: one every ten seconds for a month. */
@@ -29,7 +29,7 @@ public final class Epochs {
         return time < SPAN ? 0 : time / SPAN;
     }
 
-    /** When it was, epoch ms. */
+    /** The original time, epoch ms. */
     public static long original(long time) {
         return time < SPAN ? time : time % SPAN;
     }
@@ -57,7 +57,7 @@ public final class Epochs {
     /**
      * The event time of a record; a replay's without a header is of epoch 0, or of the time of its timestamp.
      *
-     * @throws UnreadableException if the record is a replay's and a header cannot be its epoch or offset
+     * @throws UnreadableException if the record is a replay's and a header is not a valid epoch or offset
      */
     public static long timeOf(TopicRecord record) throws UnreadableException {
         if (!Topics.isReplay(record.topic())) {

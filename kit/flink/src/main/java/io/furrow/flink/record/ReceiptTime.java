@@ -9,23 +9,23 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 
 /**
- * When a record was received, epoch ms: what its source stamped, {@code ts-source}, but no later than the wall clock and the
- * skew; the wall clock if there is no stamp. What is replayed, on the topic of a replay, has none: it may be of any time.
- * A stamp that can be right does not depend on the wall clock, so the same input gives the same receipts.
+ * The time at which a record was received, epoch ms: the source's stamp, {@code ts-source}, but no later than the wall clock
+ * and the skew; the wall clock without a stamp. Records on the topic of a replay have no receipt: they may be of any time. A
+ * plausible stamp does not depend on the wall clock, so the same input gives the same receipts.
  *
  * @param skew how far the source's clock may be ahead
  */
 public record ReceiptTime(Duration skew) implements Serializable {
-    /** Of what is replayed. */
+    /** The receipt of replayed records. */
     public static final long NONE = Long.MAX_VALUE;
 
-    /** As a job's options say. */
+    /** With the skew of a job's options. */
     public static ReceiptTime of(JobOptions options) {
         return new ReceiptTime(options.clocks().clockSkew());
     }
 
     /**
-     * {@link #NONE} of what is replayed and later than it was received.
+     * {@link #NONE} for records that are replayed and later than they were received.
      *
      * @param time its event time, epoch ms
      * @param now the wall clock, epoch ms
@@ -42,13 +42,13 @@ public record ReceiptTime(Duration skew) implements Serializable {
         }
         try {
             return Math.min(Long.parseLong(text), now + skew.toMillis());
-        } catch (NumberFormatException e) { // a stranger's header
+        } catch (NumberFormatException e) { // another producer's header
             return now;
         }
     }
 
     /**
-     * What the source stamped, where it did and can be right, and the record is not a replay's.
+     * The source's stamp, if there is a plausible one and the record is not a replay's.
      *
      * @param now the wall clock, epoch ms
      */
@@ -60,7 +60,7 @@ public record ReceiptTime(Duration skew) implements Serializable {
         try {
             long stamp = Long.parseLong(text);
             return stamp > now + skew.toMillis() ? OptionalLong.empty() : OptionalLong.of(stamp);
-        } catch (NumberFormatException e) { // a stranger's header
+        } catch (NumberFormatException e) { // another producer's header
             return OptionalLong.empty();
         }
     }

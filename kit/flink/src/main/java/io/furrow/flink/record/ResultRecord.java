@@ -11,24 +11,23 @@ import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.topic.Topics;
 
 /**
- * What a job found out, as the record that it writes: an entity in normalized form with the headers of every {@code data.*}
- * record; that of an epoch of a replay has the original times and names the epoch. No wall clock goes into it, so a job that computes the same result again writes the same record with the same
- * event id.
+ * Creates the record of a job's result: an entity in normalized form with the headers of every {@code data.*} record; in an epoch of a
+ * replay it has the original times and names the epoch. It does not depend on the wall clock, so a job that computes the same result again
+ * writes the same record with the same event id.
  */
 public final class ResultRecord {
     private ResultRecord() {}
 
     /**
-     * @param timestamp event time of the result, see {@link Epochs}; its original time is that of the record, and what {@code
-     *     ts-device} says
-     * @param source which job it is, for instance {@code /analytics/temperature}
+     * @param timestamp event time of the result, see {@link Epochs}; its original time is that of the record and of {@code ts-device}
+     * @param source the job, for instance {@code /analytics/temperature}
      */
     public static TopicRecord of(
             String topic, String key, EntityBuilder entity, FiwareScope scope, long timestamp, String source) {
         long original = Epochs.original(timestamp);
         Instant time = Instant.ofEpochMilli(original);
         Map<String, String> headers = new LinkedHashMap<>();
-        // By event time: what is found in two epochs alike is not a repetition.
+        // By event time: equal results in two epochs are not duplicates.
         headers.put(HeaderNames.CE_ID, EventId.of(scope, entity, Instant.ofEpochMilli(timestamp)));
         headers.put(HeaderNames.CE_SOURCE, source);
         headers.put(HeaderNames.CE_TIME, time.toString());

@@ -13,8 +13,8 @@ import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.header.internals.RecordHeader;
 
 /**
- * The headers of a Kafka record as texts by name, not to be changed. They stay the bytes that they were until someone asks for
- * one, because most headers pass through a job unread.
+ * The headers of a Kafka record as an unmodifiable map of texts by name. They stay bytes until one is read, because most
+ * headers pass through a job unread.
  */
 public final class TextHeaders extends AbstractMap<String, String> {
     public static final TextHeaders NONE = new TextHeaders(new Header[0]);
@@ -43,7 +43,7 @@ public final class TextHeaders extends AbstractMap<String, String> {
         return texts instanceof TextHeaders same ? same : NONE.with(texts);
     }
 
-    /** The same with more, some of which may stand for others of the name. */
+    /** The same with further headers, which replace those of the same name. */
     TextHeaders with(Map<String, String> more) {
         Header[] all = Arrays.copyOf(headers, headers.length + more.size());
         int count = headers.length;
@@ -55,7 +55,7 @@ public final class TextHeaders extends AbstractMap<String, String> {
         return new TextHeaders(count == all.length ? all : Arrays.copyOf(all, count));
     }
 
-    /** The same with more. @param more with values, and with names that are neither here nor repeated; that is not checked */
+    /** The same with further headers. @param more with values, and with distinct new names; not checked */
     public TextHeaders plus(Header... more) {
         Header[] all = Arrays.copyOf(headers, headers.length + more.length);
         System.arraycopy(more, 0, all, headers.length, more.length);

@@ -8,8 +8,8 @@ import org.apache.flink.api.common.typeinfo.TypeInfo;
 /**
  * A record read from, or to be written to, a Kafka topic.
  *
- * @param partition −1 and {@code offset} −1 where the record was not read from a topic; a partition without an offset is that to
- *     which the record shall be written, else the key decides
+ * @param partition −1 like {@code offset} if the record was not read from a topic; a partition without an offset is the target
+ *     partition, otherwise the key decides
  * @param timestamp event time, epoch ms
  * @param key null if there is none
  * @param value null for a deletion
@@ -52,7 +52,7 @@ public record TopicRecord(
         return new TopicRecord(topic, partition, offset, time, key, value, headers);
     }
 
-    /** The same record with one header more. */
+    /** The same record with an additional header. */
     public TopicRecord with(String header, String text) {
         return with(Map.of(header, text));
     }

@@ -12,8 +12,8 @@ import org.apache.kafka.common.header.internals.RecordHeader;
 import io.furrow.flink.format.VersionedSerializer;
 
 /**
- * Writes a {@link TopicRecord} for other subtasks and for state: the fields in their order, numbers in full, texts as UTF-8
- * behind their length, null as length −1. Records between subtasks are most of what a job sends, and Flink's own serializer
+ * Serializes a {@link TopicRecord} for other subtasks and for state: the fields in order, fixed-size numbers, texts as
+ * UTF-8 after their length, null as length −1. Records are most of the traffic between subtasks, and Flink's own serializer
  * of records writes texts character by character.
  */
 public final class TopicRecordSerializer extends VersionedSerializer<TopicRecord> {

@@ -20,14 +20,13 @@ import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.record.TopicRecord;
 
 /**
- * Advances event time with the wall clock while no record has arrived since a restart, as {@link
- * ClockBoundedWatermarks} with the idle advance does after one has: of what came before the restart those know
- * nothing. It continues from where it stood; the time for which the job was down does not count, because what came
- * meanwhile may still have to be read. A subtask that is quiet is active for its watermarks alone, so that it holds up
- * none that is further.
+ * Advances event time with the wall clock while no record has arrived since a restart, like {@link ClockBoundedWatermarks} with the idle
+ * advance after a record: those have no state from before the restart. It continues from the last event time; downtime does not count,
+ * because a backlog may still have to be read. A quiet subtask is active only for its watermarks, so that it does not hold back any that is
+ * further.
  *
- * <p>State: the union list {@code idle-input} with the event time of each subtask, epoch milliseconds, and whether records came to it: where any did, those count. Late: nothing is judged
- * here. Emits: records as they come; watermarks that are higher than those before.
+ * <p>State: the union list {@code idle-input} with the event time of each subtask, epoch milliseconds, and whether it received records: if
+ * any did, only those count. Late: not decided here. Emits: records unchanged; watermarks that are higher than those before.
  */
 public final class AdvanceIdleInput<T> extends AbstractStreamOperator<T>
         implements OneInputStreamOperator<T, T>, ProcessingTimeService.ProcessingTimeCallback {
@@ -36,17 +35,17 @@ public final class AdvanceIdleInput<T> extends AbstractStreamOperator<T>
     private static final long INTERVAL_MILLIS = 200;
 
     private transient ListState<Tuple2<Long, Boolean>> saved;
-    /** Of the slowest subtask with records before the restart; of the furthest where none had any. */
+    /** Event time before the restart, of the slowest subtask with records; of the furthest if none had any. */
     private transient long before;
-    /** Of this subtask. */
+    /** Event time of this subtask. */
     private transient long reached;
-    /** Whether a watermark has come, which only a record brings about. */
+    /** Whether a watermark has arrived, which requires a record. */
     private transient boolean fed;
 
     private transient boolean quiet;
     private transient long quietSince;
 
-    /** The input of a job, with event time that continues where the options say so. */
+    /** The input of a job, with event time that continues if configured. */
     public static DataStream<TopicRecord> of(DataStream<TopicRecord> input, JobOptions options) {
         return options.idleAdvance()
                 ? input.transform("Advance idle input", input.getType(), new AdvanceIdleInput<>())
@@ -94,7 +93,7 @@ public final class AdvanceIdleInput<T> extends AbstractStreamOperator<T>
         }
     }
 
-    /** Idle is a subtask of which no partition has had a record since the start. */
+    /** A subtask is idle if no partition has had a record since the start. */
     @Override
     public void processWatermarkStatus(WatermarkStatus status) throws Exception {
         if (before == NOTHING_YET || fed) {

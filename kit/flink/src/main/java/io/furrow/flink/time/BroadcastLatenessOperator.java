@@ -8,7 +8,7 @@ import org.apache.flink.runtime.state.StateSnapshotContext;
 import org.apache.flink.streaming.api.functions.co.KeyedBroadcastProcessFunction;
 import org.apache.flink.streaming.api.watermark.Watermark;
 
-/** The same as {@link KeyedLatenessOperator} for a function that takes a broadcast stream without event time too. */
+/** The same as {@link KeyedLatenessOperator} for a function with a broadcast stream without event time. */
 public final class BroadcastLatenessOperator<K, I, B, O> extends KeyedTimelessBroadcastOperator<K, I, B, O> {
     private static final long serialVersionUID = 1L;
 

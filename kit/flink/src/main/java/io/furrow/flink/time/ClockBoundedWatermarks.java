@@ -18,17 +18,17 @@ import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
 
 /**
- * Event time of one partition: its newest timestamp, behind by the out-of-orderness. A record counts as of its {@link ReceiptTime} at the
- * latest, so that a device whose clock is ahead makes no other late; its own events wait until event time has come to
- * them. Nor does a source whose clock is ahead: where its stamps are later than the wall clock and the skew, and there alone, event time
- * depends on the wall clock; it comes to be ahead by the skew at most, and so little is lost when the clock is right again.
- * What is replayed has no receipt. A quiet partition holds up nothing; with the idle advance its event
- * time continues with the wall clock instead.
+ * Generates the event time of one partition: its newest timestamp, less the out-of-orderness. A record counts as of its
+ * {@link ReceiptTime} at the latest, so that a device whose clock is ahead makes no other's records late; its own are buffered until
+ * event time reaches them. The same holds for a source whose clock is ahead: only where its stamps are later than the wall clock and the
+ * skew, event time depends on the wall clock; it is then ahead by the skew at most, so that little is lost when the clock is corrected.
+ * Replayed records have no receipt. A quiet partition holds back nothing; with the idle advance its event time continues with the wall
+ * clock instead.
  *
- * <p>Nor does a device hold up others whose clock is behind. The delay of a partition is by how much its newest record is behind its
- * receipt; where none has been newer for the idle timeout, by how much each is. A partition whose delay exceeds the least one of its
- * subtask by more than {@link Hold#maxBehind} counts as of its receipts, less that least delay. Where even that is more, the whole
- * subtask is active for its watermarks alone: they advance event time where no other subtask does.
+ * <p>A device whose clock is behind does not hold back others either. The delay of a partition is that of its newest record relative to
+ * its receipt; if none has been newer for the idle timeout, that of each record. A partition whose delay exceeds the least one of its
+ * subtask by more than {@link Hold#maxBehind} counts as of its receipts, less that least delay. If the least delay itself exceeds the
+ * limit, the whole subtask is active for its watermarks alone: they advance event time if no other subtask does.
  */
 public final class ClockBoundedWatermarks implements WatermarkGenerator<TopicRecord> {
     private static final long NOTHING_YET = Long.MIN_VALUE;
@@ -40,7 +40,7 @@ public final class ClockBoundedWatermarks implements WatermarkGenerator<TopicRec
     private final Reader reader;
     private long newest = NOTHING_YET;
     private long newestSeen;
-    /** The newest receipt; the same as of the newest record. */
+    /** The newest receipt, and that of the newest record. */
     private long received;
 
     private long newestReceived;
@@ -48,11 +48,11 @@ public final class ClockBoundedWatermarks implements WatermarkGenerator<TopicRec
     private long emitted = NOTHING_YET;
 
     /**
-     * How long a partition holds up event time.
+     * How long a partition holds back event time.
      *
      * @param idleTimeout without a record
-     * @param advance whether event time continues with the clock then; else the partition holds up nothing
-     * @param maxBehind how much longer the delay of its records may be than that of others
+     * @param advance whether event time then continues with the clock; otherwise the partition no longer holds it back
+     * @param maxBehind how much the delay of its records may exceed that of others
      */
     public record Hold(Duration idleTimeout, boolean advance, Duration maxBehind) implements Serializable {}
 
@@ -60,18 +60,18 @@ public final class ClockBoundedWatermarks implements WatermarkGenerator<TopicRec
      * Both in milliseconds.
      *
      * @param wall since 1970
-     * @param activity stands still while the job takes no records in, so that what it does not read does not look quiet
+     * @param activity stands still while the job reads no records, so that unread partitions do not seem quiet
      */
     record Clocks(LongSupplier wall, LongSupplier activity) {}
 
     /**
-     * What the partitions of a subtask share.
+     * The shared state of a subtask's partitions.
      *
-     * @param ahead counts the records stamped later than their receipt by more than the out-of-orderness
+     * @param ahead counts records whose stamp is later than their receipt by more than the out-of-orderness
      */
     record Reader(Counter ahead, List<ClockBoundedWatermarks> partitions) {
         Reader(Counter ahead) {
-            this(ahead, new CopyOnWriteArrayList<>()); // metrics look at it
+            this(ahead, new CopyOnWriteArrayList<>()); // metrics read it
         }
 
         long leastDelay() {
@@ -118,7 +118,7 @@ public final class ClockBoundedWatermarks implements WatermarkGenerator<TopicRec
             received = Math.max(received, at);
             see(time, at - time);
         } else {
-            see(time, 0); // no receipt is known
+            see(time, 0); // without a receipt
         }
         if (timestamp - bound > at) {
             reader.ahead.inc();
@@ -157,7 +157,7 @@ public final class ClockBoundedWatermarks implements WatermarkGenerator<TopicRec
         output.markIdle();
     }
 
-    /** How far the partition has come. */
+    /** Event time of the partition. */
     private long time(long leastDelay) {
         boolean isBehind = delay - leastDelay > hold.maxBehind.toMillis();
         return (isBehind ? Math.max(newest, received - leastDelay) : newest) + Math.max(0, quietMillis());
@@ -167,12 +167,12 @@ public final class ClockBoundedWatermarks implements WatermarkGenerator<TopicRec
         return newest != NOTHING_YET && (hold.advance || quietMillis() < 0);
     }
 
-    /** From the idle timeout on. */
+    /** Counted from the idle timeout on. */
     private long quietMillis() {
         return clocks.activity.getAsLong() - newestSeen - hold.idleTimeout.toMillis();
     }
 
-    /** One for each partition; those of a subtask count together as {@code recordsAhead} and {@code partitionsBehind}. */
+    /** Creates a generator per partition; those of a subtask count together as {@code recordsAhead} and {@code partitionsBehind}. */
     public static final class Supplier implements WatermarkGeneratorSupplier<TopicRecord> {
         private static final long serialVersionUID = 1L;
 

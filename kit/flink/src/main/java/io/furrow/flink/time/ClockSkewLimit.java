@@ -11,13 +11,13 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Refuses records from the future: those whose event time is after their {@link ReceiptTime} by more than the limit. What is of such a
- * time stands in the way of all that comes until then: it is the newest, and it waits.
+ * Rejects records from the future: those whose event time is after their {@link ReceiptTime} by more than the limit. Such a record
+ * would supersede all that arrive until then, and would be buffered for as long.
  *
  * @param max how far ahead a record may be
  */
 public record ClockSkewLimit(ReceiptTime receiptTime, Duration max) implements Serializable {
-    /** As a job's options say. */
+    /** With a job's options. */
     public static ClockSkewLimit of(JobOptions options) {
         return new ClockSkewLimit(ReceiptTime.of(options), options.clocks().maxAhead());
     }

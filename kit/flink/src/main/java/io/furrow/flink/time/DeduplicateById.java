@@ -20,18 +20,18 @@ import io.furrow.flink.job.PerMissionMetrics;
 /**
  * Deduplicates events by id within a time after the first one; keyed by entity, so that their order is preserved.
  *
- * <p>State: ids seen and when each is forgotten, per entity. Cleared: by event-time timers, a tenth of the time apart.
- * Late: an event behind the watermark, of this run or an earlier one, is remembered from there on. Emits: first appearances, in order; the rest are
- * counted as {@code repeated}.
+ * <p>State: ids seen and their expiry, per entity. Cleared: by event-time timers, a tenth of the time apart. Late: an event behind the
+ * watermark, of this run or an earlier one, is stored from that watermark on. Emits: first appearances, in order; the rest are counted as
+ * {@code repeated}.
  */
 public final class DeduplicateById<T> extends KeyedProcessFunction<String, T, T> implements LatenessAware {
     private static final long serialVersionUID = 1L;
     private static final int TIMERS_PER_WINDOW = 10;
 
-    /** How an event's id is found; serializable because it travels with the job. */
+    /** Extracts an event's id; serialized with the job. */
     public interface IdOf<T> extends Function<T, String>, Serializable {}
 
-    /** To which domain and mission a repeat is counted; serializable because it travels with the job. */
+    /** Extracts the domain or mission for which a duplicate counts; serialized with the job. */
     public interface NameOf<T> extends Function<T, String>, Serializable {}
 
     private final IdOf<T> idOf;
@@ -47,7 +47,7 @@ public final class DeduplicateById<T> extends KeyedProcessFunction<String, T, T>
         this(window, idOf, null, null);
     }
 
-    /** Counts repeats per domain and mission too. */
+    /** Also counts duplicates per domain and mission. */
     public DeduplicateById(Duration window, IdOf<T> idOf, NameOf<T> domainOf, NameOf<T> missionOf) {
         this.idOf = idOf;
         this.windowMillis = window.toMillis();
@@ -99,7 +99,7 @@ public final class DeduplicateById<T> extends KeyedProcessFunction<String, T, T>
             }
         }
         if (forgetAt.isEmpty()) {
-            forgetAt.clear(); // the heap backend would keep an empty map per entity
+            forgetAt.clear(); // the heap backend would retain an empty map per entity
         }
     }
 }

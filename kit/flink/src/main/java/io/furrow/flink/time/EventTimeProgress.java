@@ -14,11 +14,11 @@ import org.apache.flink.runtime.state.KeyGroupRange;
 import org.apache.flink.runtime.state.KeyGroupRangeAssignment;
 
 /**
- * How far event time has come for the keys of a subtask, in this run or in an earlier one, in epoch milliseconds. Watermarks are
- * in no checkpoint: without it a restored job would accept what is late until its first watermark.
+ * Stores the event time reached for the keys of a subtask, in this run or in an earlier one, in epoch milliseconds. Watermarks
+ * are in no checkpoint: without it a restored job would accept late events until its first watermark.
  *
- * <p>Each key group has its own: in an unaligned checkpoint one subtask may have passed a watermark that is still on its way to
- * another, and what is in front of that watermark is not late. The end of event time is not kept, so that a job that was stopped
+ * <p>Each key group has its own: in an unaligned checkpoint one subtask may have passed a watermark that is still in flight to
+ * another, and events before that watermark are not late. The end of event time is not stored, so that a job that was stopped
  * with {@code --drain} can continue.
  *
  * <p>State: the union list {@code event-time-reached-by-key-group} with ranges of key groups (first, last, time).
@@ -29,7 +29,7 @@ public final class EventTimeProgress {
     private final ListState<Tuple3<Integer, Integer, Long>> byKeyGroup;
     private final KeyGroupRange keyGroups;
     private final int maxParallelism;
-    /** What earlier runs have reached, from the first key group on; null once this run has passed it all. */
+    /** The event time of earlier runs, from the first key group on; null once this run has passed all of it. */
     private long[] before;
 
     private long now = NOTHING_YET;
@@ -42,7 +42,7 @@ public final class EventTimeProgress {
                 "event-time-reached-by-key-group", Types.TUPLE(Types.INT, Types.INT, Types.LONG)));
     }
 
-    /** As of the checkpoint that the task is restored from, if it is. */
+    /** Restores from the task's checkpoint, if there is one. */
     public static EventTimeProgress restore(OperatorStateStore states, TaskInfo task) throws Exception {
         EventTimeProgress reached = new EventTimeProgress(states, task);
         reached.read();
@@ -68,7 +68,7 @@ public final class EventTimeProgress {
         }
     }
 
-    /** To be called with each watermark, before anything is done about it. */
+    /** Must be called with each watermark, before it is processed. */
     public void advance(long watermark) {
         if (watermark > now && !EndOfEventTime.isAt(watermark)) {
             now = watermark;
@@ -87,12 +87,12 @@ public final class EventTimeProgress {
         return before == null ? now : Math.max(now, before[indexOf(key)]);
     }
 
-    /** The furthest that any key group of this subtask has come. */
+    /** The greatest event time of the key groups of this subtask. */
     long furthest() {
         return before == null ? now : Math.max(now, Arrays.stream(before).max().orElse(NOTHING_YET));
     }
 
-    /** Whether it is too late for something of this time and key. */
+    /** Whether an event of this time and key is late. */
     public boolean hasPassed(long time, Object key) {
         return time <= now || before != null && time <= before[indexOf(key)];
     }

@@ -7,8 +7,8 @@ import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
 import org.apache.flink.streaming.api.watermark.Watermark;
 
 /**
- * Runs a keyed function that judges what is late. The operator sees every watermark, a function only those at which something
- * comes or is due, so it keeps how far event time has come.
+ * Runs a keyed function that handles late events. The operator receives every watermark, a function sees only those at which
+ * an event arrives or a timer fires; the operator therefore stores the event time reached.
  */
 public final class KeyedLatenessOperator<K, I, O> extends KeyedProcessOperator<K, I, O> {
     private static final long serialVersionUID = 1L;

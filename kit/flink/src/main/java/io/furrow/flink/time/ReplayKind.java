@@ -6,16 +6,16 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/** What a record is there for. */
+/** The purpose of a record. */
 public enum ReplayKind {
-    /** Something that was reported, live or then. */
+    /** A reported event, live or replayed. */
     EVENT,
-    /** Where a device is at the point at which an epoch begins: a position, and no reading. */
+    /** The position of a device at the beginning of an epoch; not a reading. */
     PRIME,
-    /** Nothing more comes in this epoch. */
+    /** The end of an epoch's records. */
     END;
 
-    /** Records of live topics, and those that do not say, are events; any other word than these three is refused. */
+    /** Live records, and those without a kind, are events; unknown kinds are rejected. */
     public static ReplayKind of(TopicRecord record) throws UnreadableException {
         String kind = Topics.isReplay(record.topic()) ? record.headers().get(HeaderNames.REPLAY_KIND) : null;
         if (kind == null) {

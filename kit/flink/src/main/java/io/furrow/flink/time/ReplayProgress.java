@@ -3,9 +3,9 @@ package io.furrow.flink.time;
 import java.util.function.LongSupplier;
 
 /**
- * How long a replay has been read, over all partitions of its reader: a clock that stands still while the replay is paused.
- * The time between two records counts, of a long one no more than a pause; after the end of an epoch, when nothing more is to
- * come, all of it, unless the next record begins another: then it was the replay that waited, and no partition is behind.
+ * Measures how long a replay has been read, over all partitions of its reader: a clock that stands still while the replay is paused.
+ * The time between two records counts, up to the length of a pause; after the end of an epoch all of it counts, unless the next
+ * record begins another epoch: then the replay waited, and no partition is behind.
  */
 final class ReplayProgress {
     private final LongSupplier clock;
@@ -17,7 +17,9 @@ final class ReplayProgress {
     private long began;
     private long furthest = Long.MIN_VALUE;
 
-    /** @param clock milliseconds since whenever */
+    /**
+     * @param clock milliseconds from any origin
+     */
     ReplayProgress(LongSupplier clock, long pauseMillis) {
         this.clock = clock;
         this.pauseMillis = pauseMillis;
@@ -25,7 +27,7 @@ final class ReplayProgress {
     }
 
     /**
-     * A record was read.
+     * Called for each record.
      *
      * @param time event time of the record
      * @param reached event time of its partition
@@ -47,12 +49,12 @@ final class ReplayProgress {
         return read + (ended ? since : Math.min(since, pauseMillis));
     }
 
-    /** Milliseconds by the clock itself. */
+    /** Milliseconds of the underlying clock. */
     long clockMillis() {
         return clock.getAsLong();
     }
 
-    /** Milliseconds by the clock itself since a moment of it or since the first record, whichever is later; 0 before that record. */
+    /** Milliseconds of the underlying clock since a moment or since the first record, whichever is later; 0 before that record. */
     long clockMillisSince(long moment) {
         return begun ? clock.getAsLong() - Math.max(moment, began) : 0;
     }

@@ -16,15 +16,15 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Event time of one partition of a replay, see {@link Epochs}: its newest record's, behind by the out-of-orderness; after an
- * {@code end} the last instant of the epoch. A partition holds up nothing without a first record for the idle timeout, counted from
- * the first record of any, and afterwards without a record for as much time of reading ({@link ReplayProgress}), which stands still
- * while the replay is paused: else its next record, after the pause, could be late. The one that is furthest holds up nobody and is
- * never idle: were all idle at once, event time would stay where it is.
+ * Event time of one partition of a replay, see {@link Epochs}: that of its newest record, less the out-of-orderness; after an
+ * {@code end} the last instant of the epoch. A partition holds back nothing without a first record for the idle timeout, counted
+ * from the first record of any, and afterwards without a record for as much time of reading ({@link ReplayProgress}), which stands
+ * still while the replay is paused: otherwise its next record, after the pause, could be late. The furthest partition holds back
+ * none and is never idle: if all were idle at once, event time would stop.
  */
 public final class ReplayWatermarks implements WatermarkGenerator<TopicRecord> {
     private static final long NOTHING_YET = Long.MIN_VALUE;
-    /** As a share of the idle timeout. */
+    /** Share of the idle timeout. */
     private static final int PAUSE_SHARE = 10;
 
     private final long bound;
@@ -48,12 +48,12 @@ public final class ReplayWatermarks implements WatermarkGenerator<TopicRecord> {
         try {
             Epochs.timeOf(record);
             isEnd = ReplayKind.of(record) == ReplayKind.END;
-        } catch (UnreadableException e) { // becomes a dead letter where it is read
+        } catch (UnreadableException e) { // another stage emits its dead letter
             return;
         }
         if (reached != NOTHING_YET && Epochs.of(timestamp) > Epochs.of(reached)) {
             output.emitWatermark(
-                    new Watermark(reached)); // as far as the former epoch came, however soon this one follows
+                    new Watermark(reached)); // the end of the previous epoch, however soon this one follows
         }
         reached = Math.max(reached, isEnd ? Epochs.end(Epochs.of(timestamp)) : timestamp - bound - 1);
         replay.advance(timestamp, reached, isEnd);
@@ -85,13 +85,13 @@ public final class ReplayWatermarks implements WatermarkGenerator<TopicRecord> {
         public long extractTimestamp(TopicRecord record, long stamped) {
             try {
                 return Epochs.timeOf(record);
-            } catch (UnreadableException e) { // becomes a dead letter where it is read
+            } catch (UnreadableException e) { // another stage emits its dead letter
                 return record.timestamp();
             }
         }
     }
 
-    /** One for each partition; those of a subtask share their progress. */
+    /** Creates a generator per partition; those of a subtask share their progress. */
     private static final class Supplier implements WatermarkGeneratorSupplier<TopicRecord> {
         private static final long serialVersionUID = 1L;
 

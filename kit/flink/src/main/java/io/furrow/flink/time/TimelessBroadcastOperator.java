@@ -9,8 +9,8 @@ import org.apache.flink.streaming.api.watermark.Watermark;
 import org.apache.flink.streaming.runtime.watermarkstatus.WatermarkStatus;
 
 /**
- * Joins events with a broadcast stream that has no event time. The watermark is that of the events alone: whether the broadcast
- * stream is idle, ahead or behind never decides what is late. The output is idle when both are.
+ * Joins events with a broadcast stream without event time. The watermark is that of the events alone: lateness does not depend
+ * on the broadcast stream, idle, ahead or behind. The output is idle when both are.
  */
 public final class TimelessBroadcastOperator<I, B, O> extends CoBroadcastWithNonKeyedOperator<I, B, O> {
     private static final long serialVersionUID = 1L;

@@ -19,10 +19,10 @@ import io.furrow.model.ngsi.NgsiJson;
  * @param before the version valid at that time; null if there is none
  */
 public record FieldChange(Kind kind, FieldVersion version, FieldVersion before) {
-    /** Of which fields none ends. */
+    /** Ends no field. */
     public static final Predicate<FieldVersion> NONE = field -> false;
 
-    /** How the version differs from the one valid at that time. */
+    /** The difference from the version valid at that time. */
     public enum Kind {
         ADDED,
         CHANGED,
@@ -31,7 +31,7 @@ public record FieldChange(Kind kind, FieldVersion version, FieldVersion before) 
     }
 
     /**
-     * Returns the change for each version, in order; then the end of each field that they replace without holding it.
+     * Returns the change for each version, in order; then the end of each replaced field that is not among them.
      *
      * @param known every version of {@code service.fields}
      * @param replaced the fields that the versions replace
@@ -51,7 +51,7 @@ public record FieldChange(Kind kind, FieldVersion version, FieldVersion before) 
         return changes;
     }
 
-    /** The version with which a field ends. */
+    /** The version that ends a field. */
     static FieldVersion end(String id, long time) {
         return new FieldVersion(id, time, null, NgsiJson.object());
     }

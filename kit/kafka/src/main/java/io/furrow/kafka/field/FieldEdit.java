@@ -13,22 +13,21 @@ import io.furrow.model.control.RejectedException;
 import io.furrow.model.field.FieldVersion;
 
 /**
- * How fields change on {@code service.fields} other than by a file. A field ends as it does where an import replaces it: with a version
- * without a geometry.
+ * An edit of fields on {@code service.fields}, other than an import. A field ends as in an import: with a version without a geometry.
  *
  * @param written versions to write
- * @param removed keys of versions to take back, as if they had never been
+ * @param removed keys of versions to remove, as if they had never existed
  */
 public record FieldEdit(List<FieldVersion> written, List<String> removed) {
     private static final int MAX_NAMED = 20;
     private static final int MAX_QUOTE_LENGTH = 60;
 
     /**
-     * Ends a field. Versions that begin later are taken back: else the field would come back with them.
+     * Ends a field. Later versions are removed: otherwise the field would reappear with them.
      *
      * @param at event time, epoch ms
      * @param known every version of {@code service.fields}
-     * @throws RejectedException if there is no such field, or it does not hold at that time
+     * @throws RejectedException if there is no such field, or it is not valid at that time
      */
     public static FieldEdit end(String id, long at, List<FieldVersion> known) throws RejectedException {
         List<FieldVersion> own = of(id, known);
@@ -48,7 +47,7 @@ public record FieldEdit(List<FieldVersion> written, List<String> removed) {
         return ended(own, at);
     }
 
-    /** Ends the fields of a domain now; those that are to begin later are taken back. @param now epoch ms */
+    /** Ends the fields of a domain now; future ones are removed. @param now epoch ms */
     public static FieldEdit endOfDomain(String domain, long now, List<FieldVersion> known) {
         FieldEdit all = new FieldEdit(new ArrayList<>(), new ArrayList<>());
         for (String id : ofDomain(domain, now, known)) {
@@ -60,7 +59,7 @@ public record FieldEdit(List<FieldVersion> written, List<String> removed) {
         return all;
     }
 
-    /** Gives a field another name, in all its versions: it is the field that is called so, whatever its border was. */
+    /** Renames a field in all its versions: the name belongs to the field, whatever its border was. */
     public static FieldEdit rename(String id, String name, List<FieldVersion> known) throws RejectedException {
         List<FieldVersion> renamed = new ArrayList<>();
         for (FieldVersion version : of(id, known)) {
@@ -72,7 +71,7 @@ public record FieldEdit(List<FieldVersion> written, List<String> removed) {
         return new FieldEdit(renamed, List.of());
     }
 
-    /** The ids of those that the edit ends or takes back. */
+    /** The ids of the fields that are ended or removed. */
     public List<String> ids() {
         TreeSet<String> ids = new TreeSet<>();
         written.forEach(version -> ids.add(version.id()));
@@ -80,7 +79,7 @@ public record FieldEdit(List<FieldVersion> written, List<String> removed) {
         return List.copyOf(ids);
     }
 
-    /** That there is no field of an id, and which there are. */
+    /** The exception for an unknown id, listing the existing ones. */
     public static RejectedException unknown(String id, List<FieldVersion> known) {
         List<String> ids = known.stream().map(FieldVersion::id).distinct().toList();
         return new RejectedException(
@@ -94,7 +93,7 @@ public record FieldEdit(List<FieldVersion> written, List<String> removed) {
                                                 + (ids.size() > MAX_NAMED ? ", …" : "")));
     }
 
-    /** The ids of fields whose version that holds now, else the next one, names the domain. */
+    /** The ids of fields whose current version, else the next one, names the domain. */
     private static TreeSet<String> ofDomain(String domain, long now, List<FieldVersion> known) {
         TreeSet<String> ids = new TreeSet<>();
         TreeSet<String> others = new TreeSet<>(FieldChange.asOf(now, known).keySet());
@@ -120,7 +119,7 @@ public record FieldEdit(List<FieldVersion> written, List<String> removed) {
         return new FieldEdit(ends, later);
     }
 
-    /** In the order of their times. */
+    /** In order of time. */
     private static List<FieldVersion> of(String id, List<FieldVersion> known) throws RejectedException {
         List<FieldVersion> own = known.stream()
                 .filter(version -> version.id().equals(id))

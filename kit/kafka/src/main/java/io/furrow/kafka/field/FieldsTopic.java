@@ -46,8 +46,8 @@ public final class FieldsTopic {
     }
 
     /**
-     * Returns all versions in the order of their keys; none if the topic does not exist. Skips records that are not
-     * versions of a field, or whose area is not valid; the jobs report them.
+     * Returns all versions in the order of their keys; empty if the topic does not exist. Skips records that are not
+     * versions of a field, or whose area is invalid; the jobs report them.
      *
      * @throws IOException if Kafka does not respond; the message says what to do
      */
@@ -58,7 +58,7 @@ public final class FieldsTopic {
     }
 
     /**
-     * Returns the keys of the versions that the topic has of a field, of those too that {@link #read} skips.
+     * Returns the keys of a field's versions on the topic, including those that {@link #read} skips.
      *
      * @throws IOException if Kafka does not respond; the message says what to do
      */
@@ -72,7 +72,7 @@ public final class FieldsTopic {
                     keys.add(record.key());
                 }
             } catch (UnreadableException e) {
-                // The key of no version of any field.
+                // Not the key of a version.
             }
         });
         return List.copyOf(keys);
@@ -120,7 +120,7 @@ public final class FieldsTopic {
         write(new FieldEdit(versions, List.of()));
     }
 
-    /** The same of an edit; what it takes back is removed after all else is written. */
+    /** Writes an edit; versions are removed after all others are written. */
     public void write(FieldEdit edit) throws IOException {
         Map<String, byte[]> records = new LinkedHashMap<>();
         edit.written().forEach(version -> records.put(version.key(), version.toBytes()));

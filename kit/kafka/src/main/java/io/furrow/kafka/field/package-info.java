@@ -1,2 +1,2 @@
-/** Fields on {@code service.fields}: read, written and compared. */
+/** Reads, writes and compares fields on {@code service.fields}. */
 package io.furrow.kafka.field;

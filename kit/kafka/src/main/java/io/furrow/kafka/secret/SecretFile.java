@@ -15,8 +15,8 @@ import io.furrow.model.file.PrivateFile;
 import io.furrow.model.file.ReloadedFile;
 
 /**
- * The file of a farm's secret, read again when it changes. A file with another secret than the farm's is not taken up: the one from
- * before stays in use, and the log says so.
+ * The file of a farm's secret, reloaded when it changes. A file with another secret than the farm's is rejected: the previous one
+ * stays in use, with a log message.
  */
 public final class SecretFile implements SecretSource {
     private static final Logger LOG = LoggerFactory.getLogger(SecretFile.class);
@@ -32,10 +32,10 @@ public final class SecretFile implements SecretSource {
     }
 
     /**
-     * Reads a file; Kafka is not asked yet.
+     * Reads a file, without contacting Kafka.
      *
      * @param client settings of Kafka clients
-     * @param replaced fingerprint of a secret of the farm that this one takes the place of; null for none
+     * @param replaced fingerprint of the farm's former secret, which this one replaces; null for none
      * @throws IOException if it cannot be read or is not a secret; the message says what to do
      */
     public static SecretFile open(Path file, Properties client, String replaced) throws IOException {
@@ -62,7 +62,7 @@ public final class SecretFile implements SecretSource {
         topic.claim(file.get());
     }
 
-    /** Reads the file; from the second time on only a secret that is the farm's. */
+    /** Reads the file; from the second time on accepts only a secret of the farm. */
     private static final class Changes implements ReloadedFile.Source<FarmSecret> {
         private final Path file;
         private final SecretTopic topic;

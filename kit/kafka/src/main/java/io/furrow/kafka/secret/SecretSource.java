@@ -6,25 +6,25 @@ import java.util.function.Supplier;
 
 import io.furrow.model.device.FarmSecret;
 
-/** The farm's secret as a process knows it, which may be rotated while the process runs. Safe from all threads. */
+/** Provides the farm's secret, which may be rotated while the process runs. Thread-safe. */
 public interface SecretSource extends Supplier<FarmSecret> {
-    /** The secret as it is now: of keys whose time is over no login is accepted. */
+    /** The current secret: no login is accepted with expired keys. */
     @Override
     FarmSecret get();
 
     /**
      * Checks that it is the secret of the farm.
      *
-     * @throws IOException if the farm has another or a newer one, or that cannot be found out; the message says what to do
+     * @throws IOException if the farm has another or a newer one, or the check fails; the message says what to do
      */
     void verify() throws IOException;
 
-    /** Why the secret that it was last given is not in use; empty if it is. */
+    /** Why the last secret provided is not in use; empty if it is. */
     default Optional<String> problem() {
         return Optional.empty();
     }
 
-    /** One that never changes and is the farm's without being asked. */
+    /** A constant secret that is not checked. */
     static SecretSource of(FarmSecret secret) {
         return new SecretSource() {
             @Override
@@ -34,7 +34,7 @@ public interface SecretSource extends Supplier<FarmSecret> {
 
             @Override
             public void verify() {
-                // It is known to be.
+                // No check is needed.
             }
         };
     }

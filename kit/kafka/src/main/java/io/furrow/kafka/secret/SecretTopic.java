@@ -23,9 +23,9 @@ import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
- * The fingerprints of the farm's secret on {@code service.secrets}. A record is written only by who has read the one before it and
- * has not been overtaken: of two processes with different secrets on a new farm exactly one gets its own, and the other is rejected.
- * The transactional id sees to that, Kafka lets one producer with it write at a time.
+ * The fingerprints of the farm's secret on {@code service.secrets}. A process writes a record only after reading the previous one,
+ * and if no other has written since: of two processes with different secrets on a new farm exactly one succeeds, and the other is
+ * rejected. The transactional id ensures this: Kafka allows one producer with it at a time.
  */
 public final class SecretTopic {
     private static final Logger LOG = LoggerFactory.getLogger(SecretTopic.class);
@@ -39,7 +39,7 @@ public final class SecretTopic {
 
     /**
      * @param client settings of Kafka clients
-     * @param replaced fingerprint of the newest key of a secret that another may take the place of; null for none
+     * @param replaced fingerprint of the newest key of the secret that may be replaced; null for none
      */
     public SecretTopic(Properties client, String replaced) {
         this.client = client;
@@ -47,7 +47,7 @@ public final class SecretTopic {
     }
 
     /**
-     * Makes a secret that of the farm where the farm has none, or an earlier one of it; else checks that it is.
+     * Makes a secret that of the farm if the farm has none, or an earlier rotation of it; otherwise checks that it is.
      *
      * @throws IOException if the farm has another or a newer one, or Kafka does not answer; the message says what to do
      */
@@ -56,7 +56,7 @@ public final class SecretTopic {
         try {
             long deadline = System.nanoTime() + CLAIM_TIMEOUT.toNanos();
             while (!isAgreed(own, read()) && !isWritten(own, deadline)) {
-                // Another length for each, so that they do not continue overtaking one another.
+                // Random, so that two processes do not continue to fence each other.
                 Thread.sleep(ThreadLocalRandom.current().nextLong(MAX_BACKOFF_MS));
             }
         } catch (InterruptedException e) {
@@ -70,7 +70,7 @@ public final class SecretTopic {
         }
     }
 
-    /** @return whether there is nothing to be written */
+    /** @return whether nothing has to be written */
     private boolean isAgreed(SecretFingerprints own, Optional<SecretFingerprints> farms) throws IOException {
         if (farms.isEmpty()) {
             return false;
@@ -97,8 +97,8 @@ public final class SecretTopic {
     }
 
     /**
-     * Answers false if another process was at it at the same time: what fails then depends on what this producer was about, and is
-     * not always the producer's being fenced, but after reading again it may as well be tried again.
+     * Returns false after a conflict with another process: the error then depends on this producer's operation, and is not always a
+     * fenced producer, but it can be retried after reading again.
      */
     private boolean isWritten(SecretFingerprints own, long deadline) throws IOException, UnreadableException {
         try {
@@ -108,7 +108,7 @@ public final class SecretTopic {
             if (e instanceof AuthorizationException || System.nanoTime() > deadline) {
                 throw e;
             }
-            LOG.debug("{} could not be written, which is tried again", Topics.SECRETS, e);
+            LOG.debug("{} could not be written; retrying", Topics.SECRETS, e);
             return false;
         }
     }
@@ -119,7 +119,7 @@ public final class SecretTopic {
         settings.put("enable.idempotence", "true");
         settings.put("acks", "all");
         try (KafkaProducer<String, byte[]> producer = KafkaClients.producer(settings)) {
-            // From here on nobody who began before can write any more, and what somebody wrote can be read.
+            // Fences earlier producers; their records can be read from here on.
             producer.initTransactions();
             if (isAgreed(own, read())) {
                 return;

@@ -1,2 +1,2 @@
-/** Which secret a farm has, agreed on over {@code service.secrets}, and how processes follow its rotation. */
+/** Agrees on the farm's secret over {@code service.secrets}, and follows its rotation. */
 package io.furrow.kafka.secret;

@@ -17,7 +17,7 @@ import io.furrow.model.ngsi.UnreadableException;
  * entities at fault are isolated, so that one entity does not affect others: 2 log₂ n requests for one of n.
  */
 abstract class BatchSender<T> implements AutoCloseable {
-    /** What the context broker rejects, and its reason. */
+    /** An item that the context broker rejects, and its reason. */
     record Rejected<T>(T of, String words) {}
 
     /** An entity that alone causes a 500: a defect of the context broker with this entity, or with all. */

@@ -139,7 +139,7 @@ public record NgsiLd(String context) implements ContextBrokerApi {
             }
         });
         String desired = "&options=sysAttrs&limit=" + names.size() + "&id=" + list(names);
-        boolean typesAreKnown = ids.values().stream().noneMatch(Collection::isEmpty); // a deletion knows none
+        boolean typesAreKnown = ids.values().stream().noneMatch(Collection::isEmpty); // a deletion has none
         String query = typesAreKnown ? "type=" + list(types) : "local=true";
         return scoped(BrokerRequest.get(scope, "/ngsi-ld/v1/entities?" + query + desired));
     }

@@ -9,8 +9,8 @@ import javax.imageio.ImageIO;
 import javax.imageio.stream.MemoryCacheImageOutputStream;
 
 /**
- * Draws what a camera sees: sky, a sun that crosses it once a minute, crop rows and robots in sight. Set pixel by pixel, because a
- * bare JDK may lack fonts and a display.
+ * Draws the view of a camera: sky, a sun that crosses it once a minute, crop rows and robots in sight. Set pixel by pixel, because
+ * a bare JDK may lack fonts and a display.
  */
 public final class FieldPicture {
     static final int WIDTH = 320;
@@ -40,7 +40,7 @@ public final class FieldPicture {
         return encode(image);
     }
 
-    /** A block with two wheels, the larger the nearer. */
+    /** A block with two wheels, larger if nearer. */
     private static void draw(BufferedImage image, CameraView.VisibleRobot seen) {
         int size = (int) Math.min(60, Math.max(6, 300 / seen.meters()));
         int middle = (int) (WIDTH / 2d * (1 + seen.aside()));

@@ -1,2 +1,2 @@
-/** The pictures of simulated cameras, drawn without fonts or a display. */
+/** Draws the pictures of simulated cameras, without fonts or a display. */
 package io.furrow.simulators.camera;

@@ -1,2 +1,2 @@
-/** Brings the devices that run in line with those that are requested on {@code service.devices}. */
+/** Reconciles running devices with those desired on {@code service.devices}. */
 package io.furrow.simulators.desired;

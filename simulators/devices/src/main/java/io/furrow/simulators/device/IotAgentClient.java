@@ -42,7 +42,7 @@ public final class IotAgentClient {
         }
     }
 
-    /** One known device makes the agent answer 409 for a whole batch: then each is sent separately. */
+    /** One registered device makes the agent answer 409 for a whole batch: then each is sent separately. */
     private void register(List<ObjectNode> batch) throws IOException, InterruptedException {
         if (post("/iot/devices", "devices", batch) != ALREADY_THERE || batch.size() == 1) {
             return;

@@ -1,2 +1,2 @@
-/** What devices and load have in common: the ends that they speak to, and how they are provisioned. */
+/** Common parts of devices and load: their endpoints, and their provisioning. */
 package io.furrow.simulators.device;

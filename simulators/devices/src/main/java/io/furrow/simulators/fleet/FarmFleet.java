@@ -175,7 +175,7 @@ public final class FarmFleet implements AutoCloseable {
         draining = true;
         long begun = steps;
         long end = System.nanoTime() + timeout.toNanos();
-        // After two steps none is running that started before.
+        // After two steps, no step that started before is running.
         while (steps < begun + 2 || tally.open() > 0) {
             if (System.nanoTime() > end) {
                 return false;

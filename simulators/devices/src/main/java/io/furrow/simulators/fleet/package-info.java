@@ -1,2 +1,2 @@
-/** A farm at work: who reports when, what, and over which connection. */
+/** Runs a farm: schedules reports and sends them over the devices' connections. */
 package io.furrow.simulators.fleet;

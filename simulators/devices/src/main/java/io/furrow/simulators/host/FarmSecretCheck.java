@@ -22,7 +22,7 @@ final class FarmSecretCheck implements Supplier<FarmSecret> {
     private volatile FarmSecret used;
     private SecretFingerprints farms;
 
-    /** The secret of the host is not the farm's: the MQTT broker knows none of its logins. */
+    /** The secret of the host is not the farm's: the MQTT broker accepts none of its logins. */
     static final class AnotherSecretException extends Exception {
         private static final long serialVersionUID = 1L;
 

@@ -46,7 +46,7 @@ final class FleetReconciler {
     private final Map<String, DesiredDevice> desired = new HashMap<>();
     private final Map<String, Step> stuck = new LinkedHashMap<>();
     private final MissionDeviceLists lists = new MissionDeviceLists();
-    /** Devices whose settings are not known yet, because their record is still to come. */
+    /** Devices whose settings are missing, because their record has not arrived yet. */
     private final Map<String, DesiredDevice> unresolved = new LinkedHashMap<>();
 
     private DesiredDeviceReader reader;

@@ -1,2 +1,2 @@
-/** A fleet that runs what is requested on {@code service.devices}, and says on {@code service.devices.status} how it is. */
+/** Runs the fleet desired on {@code service.devices}, and publishes its status on {@code service.devices.status}. */
 package io.furrow.simulators.host;

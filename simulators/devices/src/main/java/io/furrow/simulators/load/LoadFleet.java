@@ -17,7 +17,7 @@ import io.furrow.simulators.mqtt.MqttConnection;
 
 /**
  * Sends a load: the devices of a plan, evenly phased, over {@value #GATEWAYS} MQTT connections. The schedule is
- * absolute: late messages are sent as soon as possible and none is left out; {@code time} in a message is the actual
+ * absolute: late messages are sent as soon as possible and none is skipped; {@code time} in a message is the actual
  * time of sending.
  */
 public final class LoadFleet implements AutoCloseable {
@@ -155,7 +155,7 @@ public final class LoadFleet implements AutoCloseable {
         }
     }
 
-    /** Waits, then takes acknowledgements and reconnects where a connection is broken. */
+    /** Waits, then takes acknowledgements and reconnects broken connections. */
     private void pause(long nanos) {
         LockSupport.parkNanos(nanos);
         gateways.forEach(MqttConnection::push);
@@ -163,7 +163,7 @@ public final class LoadFleet implements AutoCloseable {
     }
 
     private void send(int device, long sequence) {
-        // A device keeps to one connection, which keeps its messages in order.
+        // A device always uses the same connection, which preserves its order.
         MqttConnection gateway = gateways.get(device % gateways.size());
         while (gateway.open() >= inflight && !closed) {
             held += holding ? 0 : 1;

@@ -1,2 +1,2 @@
-/** Devices that do nothing but send at a set pace, to measure what the suite carries. */
+/** Simulates devices that only send at a fixed rate, to measure the suite's capacity. */
 package io.furrow.simulators.load;

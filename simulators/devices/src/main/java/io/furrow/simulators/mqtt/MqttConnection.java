@@ -32,12 +32,12 @@ public final class MqttConnection implements MqttCallbackExtended, AutoCloseable
     private static final Logger LOG = LoggerFactory.getLogger(MqttConnection.class);
     private static final int CONNECT_SECONDS = 10;
     /**
-     * Time for a broker to accept or refuse. Paho itself waits forever for a broker that does not answer, or where a
+     * Time for a broker to accept or refuse. Paho itself waits forever for a broker that does not answer, or if a
      * connection is cut while Paho starts its threads.
      */
     static final Duration RESPONSE_TIMEOUT = Duration.ofSeconds(15);
 
-    /** Enough for 10,000 in a second; brokers drop what they are given faster than they can take it. */
+    /** Enough for 10,000 in a second; brokers drop messages above their rate. */
     private static final int INFLIGHT = 100;
 
     private static final int COMMAND_QOS = 1;
@@ -61,14 +61,14 @@ public final class MqttConnection implements MqttCallbackExtended, AutoCloseable
     private long watchedSince;
 
     /**
-     * What a connection is for.
+     * The purpose and limits of a connection.
      *
      * @param login user name and password
      * @param name start of the client id; its end is random, so that two fleets do not evict each other
      * @param topics subscribed to, again after each reconnect
-     * @param maxMessages how many may wait for the broker, at QoS 1
-     * @param maxBytes memory that they may take, about
-     * @param inflight how many may be sent and not acknowledged
+     * @param maxMessages maximum number waiting for the broker, at QoS 1
+     * @param maxBytes their maximum memory, approximately
+     * @param inflight maximum number sent and not acknowledged
      */
     public record Plan(
             MqttAccess.Login login,
@@ -165,7 +165,7 @@ public final class MqttConnection implements MqttCallbackExtended, AutoCloseable
         }
     }
 
-    /** A broker that dropped a message acknowledges it only when it comes again over another connection. */
+    /** A broker that dropped a message acknowledges it only after a retransmission over another connection. */
     private void disconnectIfStalled() {
         Long oldest = queue.oldestInFlight();
         if (oldest == null || !oldest.equals(watched)) {

@@ -1,2 +1,2 @@
-/** How simulated devices reach the MQTT broker: with a connection each, or many through a gateway. */
+/** Connects simulated devices with the MQTT broker: each with its own connection, or many through a gateway. */
 package io.furrow.simulators.mqtt;

@@ -18,7 +18,7 @@ public record LocalPlane(Position origin) {
                 (place.latitude() - origin.latitude()) * METERS_PER_DEGREE);
     }
 
-    /** The place so many meters east and north. */
+    /** The place at a distance in meters east and north. */
     public Position toPosition(Coordinate meters) {
         return new Position(
                 origin.latitude() + meters.y / METERS_PER_DEGREE,

@@ -12,7 +12,7 @@ import io.furrow.model.position.Position;
 
 /**
  * A robot on its way. Of two robots that come near each other the one with the smaller id continues; the other, if it has it ahead,
- * waits until it has passed, but not longer than its patience, so that no two wait forever.
+ * waits until it has passed, up to a maximum time, so that no two wait forever.
  *
  * @param encounterDistance meters within which it lets another robot pass; 0 to ignore others
  * @param maxWait maximum time of waiting for another

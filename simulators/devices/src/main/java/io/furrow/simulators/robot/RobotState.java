@@ -4,14 +4,14 @@ import java.time.Duration;
 import java.time.Instant;
 
 /**
- * How far a robot has come.
+ * The progress of a robot.
  *
- * @param driven seconds of driving behind it
- * @param waited how long it has waited for the robot that it lets pass
- * @param passing id of the robot that it passes because it has waited long enough; null if it passes none
+ * @param driven seconds of driving so far
+ * @param waited time it has waited for the robot that it lets pass
+ * @param passing id of the robot that it passes after waiting the maximum time; null for none
  */
 public record RobotState(Instant time, double driven, Activity activity, Duration waited, String passing) {
-    /** Running from an instant on, with this many seconds of its way behind it. */
+    /** Running from an instant on, with this many seconds of its way completed. */
     public static RobotState starting(Instant time, double driven) {
         return new RobotState(time, driven, Activity.RUNNING, Duration.ZERO, null);
     }

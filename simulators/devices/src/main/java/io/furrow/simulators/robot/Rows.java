@@ -17,7 +17,7 @@ import org.locationtech.jts.geom.util.AffineTransformation;
  * {@code margin} meters from the edge.
  */
 final class Rows {
-    /** Shorter pieces are left out. */
+    /** Shorter pieces are skipped. */
     static final double MIN = 0.5;
 
     private static final int MAX_ROWS = 10_000;
@@ -26,7 +26,7 @@ final class Rows {
 
     /**
      * @param bearing direction of the rows, degrees clockwise from north; null for that of the field's longer side
-     * @throws IllegalArgumentException where no row has room, or there are more than {@value #MAX_ROWS}
+     * @throws IllegalArgumentException if the field has no room for a row, or there are more than {@value #MAX_ROWS}
      */
     static List<LineSegment> of(WorkField field, double spacing, double margin, Double bearing) {
         double angle = bearing == null ? longerSide(field.area()) : Math.toRadians(90 - bearing);

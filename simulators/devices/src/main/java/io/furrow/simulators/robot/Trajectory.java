@@ -89,10 +89,10 @@ public final class Trajectory {
     }
 
     /**
-     * How a field is worked.
+     * The pattern of work in a field.
      *
      * @param spacing meters from row to row
-     * @param margin meters that rows keep from the field's edge
+     * @param margin minimum distance of rows from the field's edge, meters
      * @param bearing direction of the rows, degrees clockwise from north; null for that of the field's longer side
      */
     public record Work(double spacing, double margin, Double bearing) {

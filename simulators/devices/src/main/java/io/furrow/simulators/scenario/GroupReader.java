@@ -128,7 +128,7 @@ final class GroupReader {
                 identity, group.duration("period"), place(group, number, own), heading, silent, battery(group, own));
     }
 
-    /** The charge of its battery, if the entry says how long one lasts. */
+    /** The charge of its battery, if the entry states how long one lasts. */
     private static List<Quantity> battery(ScenarioObjectReader group, long own) throws InvalidScenarioException {
         if (!group.has("battery")) {
             return List.of();

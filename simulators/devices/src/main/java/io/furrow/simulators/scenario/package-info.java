@@ -1,2 +1,2 @@
-/** The file that says which devices a simulated farm has, where they are, what they do and what is wrong with them. */
+/** Reads the scenario file of a simulated farm: its devices, their places, behavior and faults. */
 package io.furrow.simulators.scenario;

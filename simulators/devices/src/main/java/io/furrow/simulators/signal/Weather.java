@@ -46,7 +46,7 @@ public record Weather(double meanCelsius, long seed) {
                 .rounded(1);
     }
 
-    /** Where the wind comes from, degrees clockwise from north, 0 to below 360. */
+    /** Direction from which the wind blows, degrees clockwise from north, 0 to below 360. */
     public Signal windDirection() {
         Signal wind = Curves.wandering(180, Duration.ofHours(3), part("direction"));
         return time -> OptionalDouble.of(Math.floorMod(Math.round(value(wind, time)), 360));

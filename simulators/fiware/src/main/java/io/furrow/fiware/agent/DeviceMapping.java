@@ -92,7 +92,7 @@ record DeviceMapping(
     }
 
     /**
-     * The update of one measure: measures, static attributes, {@code TimeInstant}, in this order. What a device calls
+     * The update of one measure: measures, static attributes, {@code TimeInstant}, in this order. A measure named
      * {@code id} becomes {@code measure_id}, as in FIWARE's agents, and so do all names that an attribute cannot have.
      */
     Map<String, AttributeInput> attributes(ObjectNode measure, String receivedAt) throws NgsiError {

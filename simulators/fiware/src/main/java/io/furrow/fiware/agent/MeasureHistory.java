@@ -8,9 +8,9 @@ import java.util.Optional;
 import java.util.function.UnaryOperator;
 
 /**
- * Remembers when devices last sent a measure, and what the agent could not read; an agent of FIWARE only logs it. Of senders that
- * the agent does not know, as of devices, the newest are remembered: anybody who may publish can name as many as he likes. Safe
- * from all threads.
+ * Tracks the last measure of each device, and the messages that the agent could not read; an agent of FIWARE only logs them.
+ * Tracks the newest devices and the newest unknown senders only, because any client that may publish can name any number of them.
+ * Thread-safe.
  */
 public final class MeasureHistory {
     private static final int MAX_DEVICES = 100_000;
@@ -26,15 +26,15 @@ public final class MeasureHistory {
     private record Sender(String apikey, String device) {}
 
     /**
-     * What came from a device; all times are epoch ms.
+     * The messages of a device; all times are epoch ms.
      *
-     * @param measured when it last sent a measure that could be read; null if never
-     * @param ignored the newest message that was not taken; null if there was none
+     * @param measured time of the last readable measure; null if there is none
+     * @param ignored the newest rejected message; null if there is none
      */
     public record Received(Long measured, Ignored ignored) {}
 
     /**
-     * Messages that were not taken.
+     * Rejected messages.
      *
      * @param reason of the last one
      * @param payload the first bytes of the last one
@@ -56,7 +56,7 @@ public final class MeasureHistory {
         };
     }
 
-    /** What came from a device, or under a name that no device has; empty if nothing did, or too long ago. */
+    /** The messages of a device, or under an unknown name; empty if there are none, or only very old ones. */
     public synchronized Optional<Received> of(String apikey, String device) {
         Sender sender = new Sender(apikey, device);
         return Optional.ofNullable(devices.getOrDefault(sender, strangers.get(sender)));

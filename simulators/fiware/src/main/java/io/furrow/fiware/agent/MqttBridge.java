@@ -92,7 +92,7 @@ public final class MqttBridge implements IotAgent.Downlink, AutoCloseable {
                 .serverPort(broker.getPort() < 0 ? DEFAULT_PORT : broker.getPort())
                 .executorConfig()
                 .nettyThreads(1)
-                // Messages go to a thread of our own at once, the client needs no further one for them.
+                // Messages go to a thread of our own at once, so the client needs no further one for them.
                 .applicationScheduler(Schedulers.trampoline())
                 .applyExecutorConfig()
                 .addDisconnectedListener(this::disconnected);
@@ -130,7 +130,7 @@ public final class MqttBridge implements IotAgent.Downlink, AutoCloseable {
         if (client.getState().isConnected()) {
             leave();
         }
-        // Else the client's thread would stay for the messages of a connection that may come back.
+        // Otherwise the client's thread would stay for messages of a connection that may be restored.
         messages.dispose();
         receiver.shutdown();
     }

@@ -16,7 +16,7 @@ import io.furrow.fiware.http.NgsiResponse;
 /** Routes {@code /version} and {@code /v2}, with Orion's status codes and error bodies. */
 public final class NgsiV2Api implements LoopbackServer.Endpoint {
     private static final Set<String> WITH_BODY = Set.of("POST", "PUT", "PATCH");
-    /** {@code skipForwarding} changes nothing: there is no provider to forward to. */
+    /** {@code skipForwarding} has no effect: there is no provider to forward to. */
     private static final Set<String> OPTIONS = Set.of("count", "forcedUpdate", "keyValues", "skipForwarding", "upsert");
 
     private final EntityResource entities;
@@ -62,7 +62,7 @@ public final class NgsiV2Api implements LoopbackServer.Endpoint {
         return NgsiResponse.json(error.status(), json.put("description", error.getMessage()));
     }
 
-    /** In Orion's format, for checks of clients. */
+    /** In Orion's format, for version checks of clients. */
     private static ObjectNode version() {
         ObjectNode version = JsonNodeFactory.instance.objectNode();
         version.putObject("orion").put("version", "4.7.0-furrow-stand-in");

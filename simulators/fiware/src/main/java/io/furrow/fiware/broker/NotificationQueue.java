@@ -4,7 +4,7 @@ import java.util.ArrayDeque;
 import java.util.Queue;
 import java.util.concurrent.Executor;
 
-/** Sends notifications one after the other, each after the answer to the previous one. {@link #offer} never blocks. */
+/** Sends notifications in sequence, each after the answer to the previous one. {@link #offer} never blocks. */
 final class NotificationQueue {
     /** Sends and calls back on the answer or failure. */
     interface Sender {

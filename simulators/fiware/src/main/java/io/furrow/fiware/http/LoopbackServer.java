@@ -135,7 +135,7 @@ public final class LoopbackServer implements AutoCloseable {
             List<String> segments = new ArrayList<>();
             for (String segment : path.split("/")) {
                 if (!segment.isEmpty()) {
-                    // A plus sign stands for itself in a path, the decoder takes it for a space.
+                    // A plus sign is literal in a path, but the decoder takes it for a space.
                     segments.add(URLDecoder.decode(segment.replace("+", "%2B"), StandardCharsets.UTF_8));
                 }
             }

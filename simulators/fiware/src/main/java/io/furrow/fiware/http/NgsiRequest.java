@@ -37,12 +37,12 @@ public record NgsiRequest(
         return list("options").contains(name);
     }
 
-    /** How many elements of a list are skipped. */
+    /** The number of elements of a list to skip. */
     public int offset() throws NgsiError {
         return number("offset", 0);
     }
 
-    /** How many elements of a list are answered at most. */
+    /** The maximum number of elements of a list to return. */
     public int limit() throws NgsiError {
         int limit = number("limit", DEFAULT_LIMIT);
         if (limit > MAX_LIMIT) {

@@ -76,7 +76,7 @@ final class PurgeImages implements Callable<Integer> {
         Path folder = new Path(root);
         try {
             files = folder.getFileSystem();
-            files.getFileStatus(folder); // a listing of nothing would not say that there is nothing
+            files.getFileStatus(folder); // a listing would not show that the folder is missing
             purge(folder);
         } catch (FileNotFoundException e) {
             throw new ParameterException(spec.commandLine(), root + " is not there; name the folder of --images", e);
@@ -120,7 +120,7 @@ final class PurgeImages implements Callable<Integer> {
         try {
             return image.matches() && ImageName.time(image.group(1)).isBefore(now.minus(age));
         } catch (DateTimeException e) {
-            return false; // digits that are no time: not one of ours
+            return false; // digits that are not a time: another file
         }
     }
 }

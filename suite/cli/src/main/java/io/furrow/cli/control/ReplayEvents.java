@@ -100,7 +100,7 @@ final class ReplayEvents implements AutoCloseable {
             newest = api.get(path);
             connected = true;
         } catch (ControlPlaneException e) {
-            LOG.debug("{} cannot be asked now", path, e);
+            LOG.debug("{} cannot be polled now", path, e);
             over = e.isUnknown();
         }
     }
@@ -124,7 +124,7 @@ final class ReplayEvents implements AutoCloseable {
                     newest = json;
                 }
             } catch (UnreadableException e) {
-                LOG.debug("an event of {} is passed over", path, e);
+                LOG.debug("skipped an event of {}", path, e);
             }
         }
         over = over || event.equals("over");

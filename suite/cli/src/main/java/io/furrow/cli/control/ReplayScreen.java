@@ -68,7 +68,7 @@ final class ReplayScreen {
                                 time(replay.at("/range/from").asLong()),
                                 time(replay.at("/range/to").asLong()))
                 : "";
-        String atSpeed = speed.isMissingNode() // of a replay that the manager has forgotten
+        String atSpeed = speed.isMissingNode() // of a replay that the manager has deleted
                 ? ""
                 : "  speed " + (speed.isNumber() ? number(speed.asDouble()) : speed.asText());
         return "%s%s  epoch %d%s"

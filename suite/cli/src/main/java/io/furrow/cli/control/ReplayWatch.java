@@ -123,7 +123,7 @@ final class ReplayWatch implements ControlOptions.Work {
                     keys.press(key, events.newest())
                             .ifPresent(request -> requests.execute(() -> send(api, steered(events.newest()), request)));
                 }
-                if (resized.getAndSet(false)) { // each terminal has its own way to break lines that do not fit any more
+                if (resized.getAndSet(false)) { // terminals differ in wrapping lines that do not fit any more
                     terminal.puts(Capability.clear_screen);
                     display = sized(terminal);
                 }

@@ -74,7 +74,7 @@ final class OriginalReader implements AutoCloseable {
             return time == null
                     ? deadLetter.timestamp()
                     : Long.parseLong(new String(time.value(), StandardCharsets.UTF_8));
-        } catch (NumberFormatException e) { // somebody else's
+        } catch (NumberFormatException e) { // another producer's header
             return deadLetter.timestamp();
         }
     }

@@ -115,8 +115,8 @@ public final class Redrive {
             assign(consumer);
             Map<TopicPartition, Long> ends = consumer.endOffsets(consumer.assignment(), TIMEOUT);
             if (producer != null) {
-                producer.initTransactions(); // another that feeds the same is out from here on, and what it did is
-                // known
+                producer.initTransactions(); // fences another redrive of the same, whose writes are
+                // visible then
             }
             memory = RedriveOffsets.read(kafka, request, producer != null);
             long until = System.nanoTime() + TIMEOUT.toNanos();

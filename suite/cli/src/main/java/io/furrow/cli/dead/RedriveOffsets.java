@@ -123,7 +123,7 @@ final class RedriveOffsets {
     /** Adds an offset to the next {@link #changes()}. */
     void add(int partition, Redrive.Kind kind, long offset) {
         String key = key(partition, kind);
-        if (offset >= next.getOrDefault(key, 0L)) { // what is fed again was remembered before
+        if (offset >= next.getOrDefault(key, 0L)) { // a letter that is redriven again is stored already
             next.put(key, offset + 1);
             changed.put(key, offset + 1);
         }

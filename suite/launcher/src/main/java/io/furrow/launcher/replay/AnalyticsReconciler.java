@@ -93,7 +93,7 @@ final class AnalyticsReconciler {
         try {
             return existing.containsKey(job.topic()) || progress.of(job) != null;
         } catch (AnalyticsException e) {
-            LOG.debug("It is not known whose {} is", job.name(), e);
+            LOG.debug("The replay of {} cannot be determined", job.name(), e);
             return false;
         }
     }

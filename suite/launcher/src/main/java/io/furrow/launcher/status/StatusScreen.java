@@ -132,8 +132,8 @@ public final class StatusScreen implements AutoCloseable {
         try {
             terminal.setAttributes(before);
             terminal.close();
-        } catch (IOException | IOError e) { // of a terminal that is gone
-            LOG.debug("the terminal is not as it was", e);
+        } catch (IOException | IOError e) { // of a closed terminal
+            LOG.debug("the terminal could not be restored", e);
         }
         err.print(printed.toString(Charset.defaultCharset()));
         err.flush();

@@ -128,7 +128,7 @@ final class Jobs {
                         .thenApply(graph ->
                                 graph.getCheckpointStatsSnapshot().getCounts().getNumberOfInProgressCheckpoints())
                         .completeOnTimeout(0, CHECKPOINT.toMillis(), TimeUnit.MILLISECONDS)
-                        .exceptionally(failure -> 0) // of a job that is gone; its stop says so
+                        .exceptionally(failure -> 0) // of an ended job; its stop reports that
                         .join()
                 > 0;
     }

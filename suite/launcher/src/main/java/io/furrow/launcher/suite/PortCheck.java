@@ -55,7 +55,7 @@ public final class PortCheck {
     /** @throws CommandException naming each port that is in use, or configured twice */
     public void requireFree() {
         List<Port> taken = new ArrayList<>();
-        List<ServerSocket> held = new ArrayList<>(); // until all are looked at, so that no two parts have the same
+        List<ServerSocket> held = new ArrayList<>(); // until all are checked, so that no two parts share a port
         try {
             for (Port port : ports) {
                 if (port.number() != 0 && !take(port, held)) {

@@ -114,7 +114,7 @@ public final class Suite implements AutoCloseable {
         parts.add("MQTT and FIWARE", fiwareParts);
         parts.add("Connect", connectParts);
         parts.add("Flink and MongoDB", flinkParts);
-        startMongo(); // the control plane looks there which missions are stored
+        startMongo(); // the control plane reads the stored missions there
         control = parts.add("control plane", new SuiteControl(settings, kafka, directory, secret, mongo));
         ParallelStart.run(
                 this::startFiwareAndConnect,
