@@ -91,7 +91,7 @@ class JournalDamageTest extends QuietJournal {
             append(journal, "instead");
         }
         try (Journal journal = open()) {
-            List<String> all = expected(0, RECORDS - 1);
+            List<String> all = new ArrayList<>(expected(0, RECORDS - 1));
             all.add(RECORDS - 1 + " instead");
             assertThat(read(journal.reader(0))).isEqualTo(all);
             assertThat(journal.damages()).isEmpty();
@@ -163,7 +163,7 @@ class JournalDamageTest extends QuietJournal {
         Files.delete(segments.get(1));
 
         try (Journal journal = open()) {
-            List<String> all = expected(0, (int) from);
+            List<String> all = new ArrayList<>(expected(0, (int) from));
             all.addAll(expected((int) to, RECORDS));
             assertThat(read(journal.reader(0))).isEqualTo(all);
             assertThat(journal.damages()).singleElement().satisfies(damage -> {

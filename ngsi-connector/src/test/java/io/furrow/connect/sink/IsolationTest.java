@@ -1,5 +1,6 @@
 package io.furrow.connect.sink;
 
+import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.stream.IntStream;
@@ -86,7 +87,7 @@ class IsolationTest extends SinkFixture {
     void takesADeletionOfWhatIsAbsentForNoProofThatTheContextBrokerWorks() {
         start("retry.refuse.after", "0");
         poison("append", 500, "out of order");
-        List<SinkRecord> records = records(0, 3);
+        List<SinkRecord> records = new ArrayList<>(records(0, 3));
         records.add(deletion("gone", 1_000));
 
         putAgainAndAgain(records, 10);
