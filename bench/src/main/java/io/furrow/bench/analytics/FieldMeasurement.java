@@ -160,7 +160,8 @@ final class FieldMeasurement {
     }
 
     private DataStream<TopicRecord> changes(StreamExecutionEnvironment env) {
-        return env.fromData(fields.read(), TypeInformation.of(TopicRecord.class)); // its end does not hold back event time
+        return env.fromData(
+                fields.read(), TypeInformation.of(TopicRecord.class)); // its end does not hold back event time
     }
 
     private static TopicRecord record(long n) {

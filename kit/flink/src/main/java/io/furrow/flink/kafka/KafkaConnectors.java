@@ -78,8 +78,7 @@ public final class KafkaConnectors {
 
     static Properties consumerProperties(JobOptions options) {
         Properties properties = options.kafkaProperties();
-        properties.setProperty(
-                "isolation.level", "read_committed"); // uncommitted records are skipped
+        properties.setProperty("isolation.level", "read_committed"); // uncommitted records are skipped
         properties.putIfAbsent("partition.discovery.interval.ms", "10000");
         return properties;
     }
@@ -142,8 +141,10 @@ public final class KafkaConnectors {
         properties.setProperty(
                 "transaction.timeout.ms",
                 Long.toString(TransactionTimeout.of(options).toMillis()));
-        // A mission's topic may have just been created. With two requests in flight, the broker could refuse the first (the partition
-        // does not exist yet), accept the second, and then refuse the first forever: two minutes without any result until the producer
+        // A mission's topic may have just been created. With two requests in flight, the broker could refuse the first
+        // (the partition
+        // does not exist yet), accept the second, and then refuse the first forever: two minutes without any result
+        // until the producer
         // gives up (KAFKA-15591).
         properties.putIfAbsent("max.in.flight.requests.per.connection", "1");
         return properties;
