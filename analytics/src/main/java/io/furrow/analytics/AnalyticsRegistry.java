@@ -24,9 +24,7 @@ public final class AnalyticsRegistry {
         };
     }
 
-    /**
-     * @param options the parsed options of one of the kinds
-     */
+    /** @param options the parsed options of one of the kinds */
     public static StreamExecutionEnvironment assemble(JobOptions options) {
         if (options instanceof CollisionOptions collision) {
             return CollisionJob.assemble(collision);

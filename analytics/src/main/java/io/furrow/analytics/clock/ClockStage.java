@@ -15,9 +15,7 @@ public final class ClockStage {
     private final ReceiptTime receiptTime;
     private final Duration maxBehind;
 
-    /**
-     * @param job its name, for instance {@code collision}
-     */
+    /** @param job its name, for instance {@code collision} */
     public ClockStage(String job, AnalyticsOptions options) {
         this.entities = new ClockEntity(job, options.clockOutput());
         this.receiptTime = ReceiptTime.of(options);

@@ -29,9 +29,7 @@ public final class DetectClockLag extends KeyedProcessFunction<String, LaggingPo
     private transient SingleTimer timer;
     private transient ValueState<LagStreak> streak;
 
-    /**
-     * @param maxBehind {@link ReportDelayedDevices} reports devices that are further behind, except those of replays
-     */
+    /** @param maxBehind {@link ReportDelayedDevices} reports devices that are further behind, except those of replays */
     DetectClockLag(Duration maxBehind) {
         this.maxBehindMillis = maxBehind.toMillis();
     }

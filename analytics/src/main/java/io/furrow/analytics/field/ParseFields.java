@@ -13,9 +13,7 @@ public final class ParseFields extends ProcessFunction<TopicRecord, TopicRecord>
 
     private final String stage;
 
-    /**
-     * @param stage name of the job in dead letters
-     */
+    /** @param stage name of the job in dead letters */
     public ParseFields(String stage) {
         this.stage = stage;
     }

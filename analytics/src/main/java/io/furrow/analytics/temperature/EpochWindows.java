@@ -29,9 +29,7 @@ final class EpochWindows extends WindowAssigner<Object, TimeWindow> {
         this.slide = slide;
     }
 
-    /**
-     * @param slide from start to start; the size if windows do not overlap
-     */
+    /** @param slide from start to start; the size if windows do not overlap */
     static EpochWindows of(Duration size, Duration slide) {
         return new EpochWindows(size.toMillis(), slide.toMillis());
     }

@@ -6,9 +6,7 @@ import java.util.Arrays;
 final class Median {
     private Median() {}
 
-    /**
-     * @param values at least one, in any order; not modified
-     */
+    /** @param values at least one, in any order; not modified */
     static double of(double... values) {
         if (values.length == 0) {
             throw new IllegalArgumentException("no values have no median");

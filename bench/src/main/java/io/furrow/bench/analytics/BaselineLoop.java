@@ -41,9 +41,7 @@ final class BaselineLoop {
         this(devices, UnaryOperator.identity());
     }
 
-    /**
-     * @param received rounds a position as a report does
-     */
+    /** @param received rounds a position as a report does */
     BaselineLoop(int devices, UnaryOperator<PositionFix> received) {
         this.received = received;
         fleet = new Fleet(devices, 0, 1);

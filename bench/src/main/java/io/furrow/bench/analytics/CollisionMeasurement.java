@@ -34,9 +34,7 @@ final class CollisionMeasurement {
 
     private final Path directory;
 
-    /**
-     * @param directory for savepoints, whose size is measured and which stay there
-     */
+    /** @param directory for savepoints, whose size is measured and which stay there */
     CollisionMeasurement(Path directory) {
         this.directory = directory;
     }

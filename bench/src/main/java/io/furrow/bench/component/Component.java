@@ -44,9 +44,7 @@ public enum Component {
     private final Peer peer;
     private final List<Peer> others;
 
-    /**
-     * @param others further peers; one that is not installed has no figure
-     */
+    /** @param others further peers; one that is not installed has no figure */
     Component(String title, String words, String figure, Peer peer, Peer... others) {
         this.title = title;
         this.words = List.of(words.split(" "));
@@ -84,9 +82,7 @@ public enum Component {
         return words;
     }
 
-    /**
-     * @param output of the bench's {@code --output}
-     */
+    /** @param output of the bench's {@code --output} */
     Rates rates(JsonNode output) {
         Map<String, Double> further = new LinkedHashMap<>();
         others.stream()

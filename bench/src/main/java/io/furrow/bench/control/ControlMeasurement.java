@@ -20,9 +20,7 @@ final class ControlMeasurement {
     private final String run;
     private long next;
 
-    /**
-     * @param run letters and digits that make ids and missions unique to this run
-     */
+    /** @param run letters and digits that make ids and missions unique to this run */
     ControlMeasurement(ControlClient client, String run) {
         this.client = client;
         this.run = run;

@@ -26,9 +26,7 @@ record ControlRequest(String topic, String command, ObjectNode members, String m
 
     private static final int STEPS = 3;
 
-    /**
-     * @param run unique to the load, part of the missions' names
-     */
+    /** @param run unique to the load, part of the missions' names */
     static ControlRequest of(long number, String run) {
         ObjectNode members = JsonNodeFactory.instance.objectNode();
         String domain = "bench-" + number % DOMAINS;

@@ -20,9 +20,7 @@ final class HostProcess implements AutoCloseable {
         this.process = process;
     }
 
-    /**
-     * @param folder of its files
-     */
+    /** @param folder of its files */
     static HostProcess start(int heapMb, String kafka, URI mqtt, Path folder) throws IOException {
         Path secret = Files.writeString(folder.resolve("secret"), SECRET);
         return new HostProcess(new ProcessBuilder(

@@ -64,9 +64,7 @@ public final class Engines implements AutoCloseable {
         return kafka(Map.of());
     }
 
-    /**
-     * @param settings of the broker in addition to the defaults
-     */
+    /** @param settings of the broker in addition to the defaults */
     public Engines kafka(Map<String, String> settings) throws Exception {
         EmbeddedKafka kafka = start("Kafka", () -> EmbeddedKafka.start(folder("kafka"), 0, settings));
         client.setProperty("bootstrap.servers", kafka.bootstrapServers());

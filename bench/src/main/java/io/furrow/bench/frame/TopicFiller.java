@@ -14,9 +14,7 @@ public final class TopicFiller implements AutoCloseable {
     private final AtomicReference<Exception> failure = new AtomicReference<>();
     private final KafkaProducer<byte[], byte[]> producer;
 
-    /**
-     * @param settings in addition to those of the client
-     */
+    /** @param settings in addition to those of the client */
     public TopicFiller(Properties client, Map<String, String> settings) {
         Properties all = new Properties();
         all.putAll(client);

@@ -38,9 +38,7 @@ public final class TopicReader implements AutoCloseable {
         consumer = new KafkaConsumer<>(all, new ByteArrayDeserializer(), new ByteArrayDeserializer());
     }
 
-    /**
-     * @param settings of the consumer in addition to those of the client
-     */
+    /** @param settings of the consumer in addition to those of the client */
     public static TopicReader fromBeginning(Properties client, Map<String, String> settings, String... topics) {
         TopicReader reader = new TopicReader(client, settings);
         reader.consumer.seekToBeginning(reader.assign(topics));

@@ -39,9 +39,7 @@ public final class HttpLoad {
     private volatile long sent;
     private volatile long answered;
 
-    /**
-     * @param firstNumber of the notifications, which are numbered consecutively
-     */
+    /** @param firstNumber of the notifications, which are numbered consecutively */
     public HttpLoad(InetSocketAddress target, Plan plan, long firstNumber) {
         this.target = target;
         this.plan = plan;

@@ -40,9 +40,7 @@ final class ImageMeasurement {
     private final List<byte[]> pictures = new ArrayList<>();
     private final List<byte[]> events = new ArrayList<>();
 
-    /**
-     * @param bytes of an image, approximately
-     */
+    /** @param bytes of an image, approximately */
     ImageMeasurement(int images, int bytes) throws IOException {
         this.images = images;
         for (int i = 0; i < DIFFERENT; i++) {

@@ -27,9 +27,7 @@ import static org.apache.flink.api.common.eventtime.WatermarkStrategy.noWatermar
 final class CopyJob {
     private CopyJob() {}
 
-    /**
-     * @param missionTopics used in turn; empty if each record goes to the topic of the domain only
-     */
+    /** @param missionTopics used in turn; empty if each record goes to the topic of the domain only */
     static StreamExecutionEnvironment assemble(JobOptions options, String domainTopic, List<String> missionTopics) {
         StreamExecutionEnvironment env = JobEnvironment.create(options);
         Configuration anyType = new Configuration();

@@ -38,9 +38,7 @@ final class ReportedEntities {
         return "mission-" + number;
     }
 
-    /**
-     * @param progress is called with the number written, now and then
-     */
+    /** @param progress is called with the number written, now and then */
     void writeTo(String topic, Properties kafka, IntConsumer progress) throws UnreadableException {
         try (TopicFiller filler = new TopicFiller(kafka, Map.of("batch.size", "131072"))) {
             for (int number = 0; number < plan.records(); number++) {

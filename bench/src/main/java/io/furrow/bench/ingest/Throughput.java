@@ -17,9 +17,7 @@ final class Throughput {
     private final long expected;
     private final List<Sample> samples = new ArrayList<>();
 
-    /**
-     * @param expected final number of records
-     */
+    /** @param expected final number of records */
     Throughput(long expected) {
         this.expected = expected;
     }

@@ -49,9 +49,7 @@ final class Arrivals {
         records.forEach(record -> add(new String(record.key(), StandardCharsets.UTF_8), record.headers(), now));
     }
 
-    /**
-     * @param entity whose messages should arrive in the order in which they were sent
-     */
+    /** @param entity whose messages should arrive in the order in which they were sent */
     private void add(String entity, Headers headers, long now) {
         if (!ids.add(text(headers, HeaderNames.CE_ID))) {
             repeats++;

@@ -41,9 +41,7 @@ public final class LoadMeasurement {
     private final Properties kafka;
     private final Consumer<String> progress;
 
-    /**
-     * @param progress is called once a second
-     */
+    /** @param progress is called once a second */
     public LoadMeasurement(FleetSettings devices, Properties kafka, Consumer<String> progress) {
         this.devices = devices;
         this.kafka = kafka;

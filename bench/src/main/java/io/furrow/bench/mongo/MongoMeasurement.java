@@ -43,9 +43,7 @@ final class MongoMeasurement {
     private final int documents;
     private final List<MissionEvent> events;
 
-    /**
-     * @param bytes of an event's JSON, approximately
-     */
+    /** @param bytes of an event's JSON, approximately */
     MongoMeasurement(String uri, int documents, int bytes) {
         this.uri = uri;
         this.documents = documents;

@@ -25,9 +25,7 @@ final class ArrivalCheck {
     private long repeats;
     private long lastNanos;
 
-    /**
-     * @param firstNumber of this load; smaller numbers belong to an earlier one and are skipped
-     */
+    /** @param firstNumber of this load; smaller numbers belong to an earlier one and are skipped */
     ArrivalCheck(long firstNumber) {
         this.firstNumber = firstNumber;
     }
@@ -38,9 +36,7 @@ final class ArrivalCheck {
         records.forEach(record -> add(record, now));
     }
 
-    /**
-     * @param nanos when the reader received it
-     */
+    /** @param nanos when the reader received it */
     synchronized void add(ConsumerRecord<byte[], byte[]> record, long nanos) {
         long number = NotificationRequest.numberIn(record.value()) - firstNumber;
         if (number < 0 || number > Integer.MAX_VALUE) {

@@ -43,9 +43,7 @@ final class SuiteLoad {
     private final Suite suite;
     private long firstNumber = NUMBERS_PER_RUN;
 
-    /**
-     * @param entities of the mission, which is started
-     */
+    /** @param entities of the mission, which is started */
     SuiteLoad(Suite suite, int entities) throws InterruptedException, ExecutionException {
         this.suite = suite;
         Engines.makeTopics(

@@ -25,9 +25,7 @@ final class BaselineSchedule {
         }
     }
 
-    /**
-     * @param until event time up to which everything is written, exclusive, epoch ms
-     */
+    /** @param until event time up to which everything is written, exclusive, epoch ms */
     BaselineSchedule(List<ScheduledReplay> replays, long until) {
         Map<StoredMission, List<StoredEvent>> events = new HashMap<>();
         for (ScheduledReplay replay : replays) {

@@ -30,9 +30,7 @@ record Lateness(long p50, long p99, long max, long drift, long least) {
         }
     }
 
-    /**
-     * @param events at least one, in scheduled order
-     */
+    /** @param events at least one, in scheduled order */
     static Lateness of(List<Late> events) {
         long[] sorted = sorted(events);
         int tenth = Math.max(1, events.size() / TENTH);

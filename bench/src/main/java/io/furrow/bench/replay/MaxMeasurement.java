@@ -111,9 +111,7 @@ final class MaxMeasurement {
         return run(replay.topic(), begun, events);
     }
 
-    /**
-     * @param expected −1 if unknown
-     */
+    /** @param expected −1 if unknown */
     private Run run(String topic, long asked, int expected) throws Exception {
         BitSet found = new BitSet();
         long[] appended = {Long.MAX_VALUE, Long.MIN_VALUE};

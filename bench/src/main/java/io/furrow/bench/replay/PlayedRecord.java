@@ -32,9 +32,7 @@ record PlayedRecord(long sequence, long time, long handedOver, long appended) {
         return header(record, HeaderNames.REPLAY_KIND).equals(EVENT);
     }
 
-    /**
-     * @param record of a topic with timestamps set by the broker
-     */
+    /** @param record of a topic with timestamps set by the broker */
     static PlayedRecord of(ConsumerRecord<byte[], byte[]> record) {
         long time = Instant.parse(header(record, HeaderNames.REPLAY_TIME)).toEpochMilli();
         long offset = Long.parseLong(header(record, HeaderNames.REPLAY_OFFSET));

@@ -31,9 +31,7 @@ final class SeekMeasurement {
     private final int turns;
     private final Consumer<String> progress;
 
-    /**
-     * @param turns measured ones, after one of warm-up
-     */
+    /** @param turns measured ones, after one of warm-up */
     SeekMeasurement(String mongo, int events, int turns, Consumer<String> progress) {
         this.mongo = mongo;
         this.mission = new StoredMission("seek", events, PER_SECOND, 1);

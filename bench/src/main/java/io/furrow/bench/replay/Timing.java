@@ -24,9 +24,7 @@ record Timing(Optional<Lateness> start, Lateness steady, Lateness handedOver, lo
         private final List<Late> handedOver = new ArrayList<>();
         private long missing;
 
-        /**
-         * @param startMillis initial time of each replay that is separated; 0 for none
-         */
+        /** @param startMillis initial time of each replay that is separated; 0 for none */
         Collected(long startMillis) {
             this.startMillis = startMillis;
         }

@@ -21,9 +21,7 @@ final class ImageDecoder {
 
     private ImageDecoder() {}
 
-    /**
-     * @param text ASCII or UTF-8; not modified
-     */
+    /** @param text ASCII or UTF-8; not modified */
     static byte[] decode(byte[] text) throws UnreadableException {
         try {
             return decodePlain(text);

@@ -23,9 +23,7 @@ final class InFlightEvent {
         return new InFlightEvent(event, () -> {}, false);
     }
 
-    /**
-     * @param mark the action after everything before it was emitted
-     */
+    /** @param mark the action after everything before it was emitted */
     static InFlightEvent mark(ThrowingRunnable<Exception> mark) {
         return new InFlightEvent(null, mark, true);
     }

@@ -15,9 +15,7 @@ public enum LatestKey {
     /** Tenant, service path and id. */
     IDENTITY;
 
-    /**
-     * @param otherType of an entity that is not the first of its id; empty for the first
-     */
+    /** @param otherType of an entity that is not the first of its id; empty for the first */
     String of(ReportedEvent event, String otherType) {
         return (this == ID ? event.entityId() : event.identity()) + suffix(otherType);
     }

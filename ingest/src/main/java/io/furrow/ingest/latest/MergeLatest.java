@@ -40,9 +40,7 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
     private transient ByType<LatestEntity> entities;
     private transient Counter outdated;
 
-    /**
-     * @param deletionKept how long after a deletion, in event time, older events may still arrive
-     */
+    /** @param deletionKept how long after a deletion, in event time, older events may still arrive */
     public MergeLatest(Duration deletionKept, LatestKey key) {
         this.deletionKeptMillis = deletionKept.toMillis();
         this.key = key;

@@ -42,9 +42,7 @@ public final class MergeLatestOperator extends KeyedProcessOperator<String, Repo
     private transient ListState<Boolean> mark;
     private transient boolean wasRead;
 
-    /**
-     * @param maxAhead how far plausible records may be ahead of the clock
-     */
+    /** @param maxAhead how far plausible records may be ahead of the clock */
     public MergeLatestOperator(MergeLatest merge, LatestKey key, TopicSnapshot latest, Duration maxAhead) {
         super(merge);
         this.merge = merge;

@@ -31,9 +31,7 @@ public final class MissionSink implements Sink<MissionDocument> {
     private final Retention retention;
     private final Sink<TopicRecord> deadLetters;
 
-    /**
-     * @param deadLetters a sink with an independent writer: it takes no part in transactions here
-     */
+    /** @param deadLetters a sink with an independent writer: it takes no part in transactions here */
     public MissionSink(MissionOptions options, Sink<TopicRecord> deadLetters) {
         this(options.access(), options.retention(), deadLetters);
     }

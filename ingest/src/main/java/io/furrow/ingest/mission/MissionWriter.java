@@ -47,9 +47,7 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
     private List<MissionDocument> sent = List.of();
     private Future<List<BulkSender.Refusal<MissionDocument>>> underWay = CompletableFuture.completedFuture(List.of());
 
-    /**
-     * @param connection closed with the writer
-     */
+    /** @param connection closed with the writer */
     MissionWriter(
             BulkSender<MissionDocument> sender,
             SinkWriter<TopicRecord> deadLetters,

@@ -19,9 +19,7 @@ public final class RouteEvents extends ProcessFunction<ReportedEvent, TopicRecor
     private transient Counter unrouted;
     private transient PerMissionMetrics<RouteMeters> meters;
 
-    /**
-     * @param writes if false, events are only measured
-     */
+    /** @param writes if false, events are only measured */
     public RouteEvents(boolean writes) {
         this.writes = writes;
     }

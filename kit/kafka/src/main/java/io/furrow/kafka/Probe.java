@@ -38,9 +38,7 @@ public final class Probe implements AutoCloseable {
         void run() throws IOException, InterruptedException, ExecutionException, TimeoutException;
     }
 
-    /**
-     * @param closing releases the resources of the check
-     */
+    /** @param closing releases the resources of the check */
     public Probe(String name, Check check, Runnable closing) {
         this.name = name;
         this.check = check;

@@ -19,9 +19,7 @@ public final class BrokerBackoff {
         backoff = new Backoff(min, max);
     }
 
-    /**
-     * @param retryAfter the pause that the broker requests; empty for none
-     */
+    /** @param retryAfter the pause that the broker requests; empty for none */
     public Duration after(Optional<Duration> retryAfter) {
         Duration delay = backoff.next();
         Duration asked = retryAfter.orElse(Duration.ZERO);

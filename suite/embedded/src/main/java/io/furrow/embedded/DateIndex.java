@@ -28,9 +28,7 @@ final class DateIndex extends Index<Object> {
 
     private final String field;
 
-    /**
-     * @param key a top-level field of the document
-     */
+    /** @param key a top-level field of the document */
     DateIndex(String name, IndexKey key, MVMap<KeyValue, Object> entries) {
         super(name, List.of(key), true);
         this.field = key.getKey();

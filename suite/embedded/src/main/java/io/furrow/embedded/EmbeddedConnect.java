@@ -36,9 +36,7 @@ public final class EmbeddedConnect implements AutoCloseable {
         return start(bootstrapServers, pluginPath, restPort, extra, AllowedNames.NONE);
     }
 
-    /**
-     * @param allowed further hosts and origins of the REST API
-     */
+    /** @param allowed further hosts and origins of the REST API */
     public static EmbeddedConnect start(
             String bootstrapServers, Path pluginPath, int restPort, Map<String, String> extra, AllowedNames allowed) {
         int port = FreePort.orFree(restPort);

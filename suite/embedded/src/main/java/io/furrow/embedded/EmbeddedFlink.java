@@ -48,9 +48,7 @@ public final class EmbeddedFlink implements AutoCloseable {
         return start(slots, webPort, AllowedNames.NONE);
     }
 
-    /**
-     * @param allowed further hosts and origins of the web UI
-     */
+    /** @param allowed further hosts and origins of the web UI */
     public static EmbeddedFlink start(int slots, int webPort, AllowedNames allowed) {
         Configuration configuration = new Configuration();
         configuration.set(RestOptions.BIND_PORT, Integer.toString(webPort));

@@ -175,8 +175,7 @@ public final class EmbeddedKafka implements AutoCloseable {
                 Map.entry("offsets.topic.num.partitions", PARTITIONS),
                 Map.entry("offsets.topic.replication.factor", 1),
                 // A single node loses and regains its own leadership at each start. A load begun before may then be
-                // taken for that of the
-                // new state, and groups get old offsets; with small reads it notices and stops.
+                // taken for that of the new state, and groups get old offsets; with small reads it notices and stops.
                 Map.entry("offsets.load.buffer.size", 64 * 1024),
                 // How long the broker waits for the markers of a transaction before it refuses the first batch of the
                 // next.

@@ -29,9 +29,7 @@ public record Encounter(
         return id(pairId());
     }
 
-    /**
-     * @param pairId {@link #pairId()}, which costs a digest
-     */
+    /** @param pairId {@link #pairId()}, which costs a digest */
     public String id(String pairId) {
         return pairId + "@" + Epochs.text(startTime);
     }

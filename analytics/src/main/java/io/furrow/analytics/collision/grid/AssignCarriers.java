@@ -55,9 +55,7 @@ public final class AssignCarriers
         this(devicesAtStart, false);
     }
 
-    /**
-     * @param isReplay whether positions may have any past time, repeatedly
-     */
+    /** @param isReplay whether positions may have any past time, repeatedly */
     public AssignCarriers(TopicSnapshot devicesAtStart, boolean isReplay) {
         devices = new DeviceLookup(devicesAtStart, isReplay ? FOR_EVER : KEPT);
     }

@@ -24,9 +24,7 @@ public final class CellEntry {
     /** The change being compared, if this member is a former partner not yet met again. */
     private CellChange partnerOf;
 
-    /**
-     * @param resident whether the cell is its home; else it is a halo copy
-     */
+    /** @param resident whether the cell is its home; else it is a halo copy */
     private CellEntry(PositionFix fix, boolean resident, double x, double y, double z) {
         this.fix = fix;
         this.resident = resident;

@@ -17,9 +17,7 @@ final class NearestNeighbors {
     private final String[] slots;
     private final int shift;
 
-    /**
-     * @param identities of the devices, distinct
-     */
+    /** @param identities of the devices, distinct */
     NearestNeighbors(List<String> identities) {
         this.identities = List.copyOf(identities);
         shift = Integer.numberOfLeadingZeros(ROOM * Math.max(1, identities.size()));

@@ -39,9 +39,7 @@ public final class FleetTopic implements AutoCloseable {
         producer = new TopicFiller(kafka, Map.of("batch.size", "131072", "linger.ms", "5"));
     }
 
-    /**
-     * @param partitions of the topic of reports
-     */
+    /** @param partitions of the topic of reports */
     public static FleetTopic create(String name, int partitions, Properties kafka)
             throws InterruptedException, ExecutionException {
         // The fleet's event times are long past.

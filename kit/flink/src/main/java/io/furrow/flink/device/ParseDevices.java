@@ -17,9 +17,7 @@ public final class ParseDevices extends ProcessFunction<TopicRecord, DeviceChang
 
     private final String stage;
 
-    /**
-     * @param stage name of the job in dead letters, for instance {@code ingest}
-     */
+    /** @param stage name of the job in dead letters, for instance {@code ingest} */
     public ParseDevices(String stage) {
         this.stage = stage;
     }

@@ -17,9 +17,7 @@ final class JobSettings {
     private final Configuration settings = new Configuration();
     private final Map<String, String> origins = new TreeMap<>();
 
-    /**
-     * @param cluster its configuration, including {@code -D}
-     */
+    /** @param cluster its configuration, including {@code -D} */
     JobSettings(ReadableConfig cluster) {
         this.cluster = cluster;
     }

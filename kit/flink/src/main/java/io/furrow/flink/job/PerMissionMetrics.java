@@ -26,9 +26,7 @@ public final class PerMissionMetrics<M> {
     private int pairs;
     private M others;
 
-    /**
-     * @param making registers the meters of one pair in its group
-     */
+    /** @param making registers the meters of one pair in its group */
     public PerMissionMetrics(MetricGroup group, int atMost, Function<MetricGroup, M> making) {
         this.group = group;
         this.atMost = atMost;

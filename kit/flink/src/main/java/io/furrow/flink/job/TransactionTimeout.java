@@ -24,9 +24,7 @@ public final class TransactionTimeout {
         }
     }
 
-    /**
-     * @param interval of checkpoints, whatever its origin
-     */
+    /** @param interval of checkpoints, whatever its origin */
     static void check(JobOptions options, Duration interval) {
         if (options.delivery() != Delivery.EXACTLY_ONCE) {
             return;

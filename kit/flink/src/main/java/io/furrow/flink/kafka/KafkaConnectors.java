@@ -142,10 +142,8 @@ public final class KafkaConnectors {
                 "transaction.timeout.ms",
                 Long.toString(TransactionTimeout.of(options).toMillis()));
         // A mission's topic may have just been created. With two requests in flight, the broker could refuse the first
-        // (the partition
-        // does not exist yet), accept the second, and then refuse the first forever: two minutes without any result
-        // until the producer
-        // gives up (KAFKA-15591).
+        // (the partition does not exist yet), accept the second, and then refuse the first forever: two minutes without
+        // any result until the producer gives up (KAFKA-15591).
         properties.putIfAbsent("max.in.flight.requests.per.connection", "1");
         return properties;
     }

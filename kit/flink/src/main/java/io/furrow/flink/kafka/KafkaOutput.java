@@ -7,9 +7,7 @@ import io.furrow.flink.record.TopicRecord;
 
 /** The output of a job for records that name their topic; tests replace it. */
 public interface KafkaOutput {
-    /**
-     * @param name of the stream, in kebab-case; {@code write-<name>} is the sink's uid
-     */
+    /** @param name of the stream, in kebab-case; {@code write-<name>} is the sink's uid */
     void write(String name, DataStream<TopicRecord> records);
 
     /** Writes all output of a job through one sink of the uid {@code write-topics}; else as {@link #of}. */

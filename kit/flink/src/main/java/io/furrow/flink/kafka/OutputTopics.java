@@ -62,9 +62,7 @@ final class OutputTopics implements AutoCloseable {
 
     private record Limit(long bytes, long asked) {}
 
-    /**
-     * @param client settings of Kafka clients, with {@code bootstrap.servers}
-     */
+    /** @param client settings of Kafka clients, with {@code bootstrap.servers} */
     OutputTopics(Properties client, TopicOptions.Settings settings) {
         this(client, settings, System::nanoTime);
     }

@@ -17,9 +17,7 @@ final class ReplayProgress {
     private long began;
     private long furthest = Long.MIN_VALUE;
 
-    /**
-     * @param clock milliseconds from any origin
-     */
+    /** @param clock milliseconds from any origin */
     ReplayProgress(LongSupplier clock, long pauseMillis) {
         this.clock = clock;
         this.pauseMillis = pauseMillis;

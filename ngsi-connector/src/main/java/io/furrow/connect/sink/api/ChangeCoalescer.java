@@ -27,9 +27,7 @@ final class ChangeCoalescer {
     private int stale;
     private int coalesced;
 
-    /**
-     * @param known must contain every added entity
-     */
+    /** @param known must contain every added entity */
     ChangeCoalescer(EntityTimesCache known) {
         this.known = known;
     }

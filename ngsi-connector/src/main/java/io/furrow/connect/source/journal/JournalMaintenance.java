@@ -38,9 +38,7 @@ public final class JournalMaintenance implements AutoCloseable {
         this.lastResponse = nanoTime.getAsLong();
     }
 
-    /**
-     * @param beside whether there are other tasks, which first open their own journals
-     */
+    /** @param beside whether there are other tasks, which first open their own journals */
     public static JournalMaintenance start(TaskJournals journals, boolean beside) {
         return start(journals, beside, System::nanoTime);
     }

@@ -13,9 +13,7 @@ final class ComparisonTable {
 
     private final int max;
 
-    /**
-     * @param max lines of each kind
-     */
+    /** @param max lines of each kind */
     ComparisonTable(int max) {
         this.max = max;
     }

@@ -34,9 +34,7 @@ final class ResultCollector {
 
     private record Window(ResultSubject subject, long start, long end) {}
 
-    /**
-     * @param mission results of devices of other missions are skipped; null for all
-     */
+    /** @param mission results of devices of other missions are skipped; null for all */
     ResultCollector(String mission) {
         this.mission = mission;
     }

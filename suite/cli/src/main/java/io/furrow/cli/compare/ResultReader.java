@@ -41,9 +41,7 @@ final class ResultReader implements AutoCloseable {
     /** By topic. */
     private final Map<String, Integer> partitions = new HashMap<>();
 
-    /**
-     * @param client settings of Kafka clients, with {@code bootstrap.servers}
-     */
+    /** @param client settings of Kafka clients, with {@code bootstrap.servers} */
     ResultReader(Properties client) {
         Properties properties = CommittedReader.settings(client);
         properties.setProperty(ConsumerConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, Long.toString(TIMEOUT.toMillis()));

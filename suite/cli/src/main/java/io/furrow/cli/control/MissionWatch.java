@@ -19,9 +19,7 @@ final class MissionWatch implements ControlOptions.Work {
     private final String until;
     private boolean reached;
 
-    /**
-     * @param until the state at which it ends; it also ends when that cannot be reached any more
-     */
+    /** @param until the state at which it ends; it also ends when that cannot be reached any more */
     MissionWatch(ControlOptions control, String path, String until) {
         this.control = control;
         this.path = path;

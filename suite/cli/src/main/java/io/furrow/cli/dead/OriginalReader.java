@@ -20,9 +20,7 @@ import io.furrow.model.event.OriginalReference;
 final class OriginalReader implements AutoCloseable {
     private final KafkaConsumer<byte[], byte[]> consumer;
 
-    /**
-     * @param consumer closed with this reader
-     */
+    /** @param consumer closed with this reader */
     OriginalReader(KafkaConsumer<byte[], byte[]> consumer) {
         this.consumer = consumer;
     }

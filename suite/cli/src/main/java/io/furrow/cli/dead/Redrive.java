@@ -98,9 +98,7 @@ public final class Redrive {
     private RedriveOffsets memory;
     private OriginalReader originals;
 
-    /**
-     * @param kafka common settings of clients, at least {@code bootstrap.servers}
-     */
+    /** @param kafka common settings of clients, at least {@code bootstrap.servers} */
     public Redrive(Properties kafka, Request request) {
         this.kafka = kafka;
         this.request = request;

@@ -41,9 +41,7 @@ final class RedriveOffsets {
     private final Map<String, Long> changed = new HashMap<>();
     private final Set<String> left = new HashSet<>();
 
-    /**
-     * @param dead id of the topic of dead letters, because offsets of a recreated topic begin at 0 again
-     */
+    /** @param dead id of the topic of dead letters, because offsets of a recreated topic begin at 0 again */
     private RedriveOffsets(String topic, String dead, String to) {
         this.topic = topic;
         this.prefix = dead + "|" + to + "|";

@@ -16,9 +16,7 @@ public final class LogFile {
         }
     }
 
-    /**
-     * @param file {@code /dev/stderr}, also if that is a socket; another device; or a file, which is rotated at 10 MB
-     */
+    /** @param file {@code /dev/stderr}, also if that is a socket; another device; or a file, which is rotated at 10 MB */
     public static void writeTo(Path file) {
         System.setProperty("furrow.log", file.toString());
         System.setProperty("furrow.log.rotated", Boolean.toString(!Files.exists(file) || Files.isRegularFile(file)));

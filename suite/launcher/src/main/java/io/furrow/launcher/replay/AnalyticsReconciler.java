@@ -40,18 +40,14 @@ final class AnalyticsReconciler {
     private final Set<String> done = new HashSet<>();
     private final Map<String, String> waiting = new TreeMap<>();
 
-    /**
-     * @param millis monotonic clock, ms
-     */
+    /** @param millis monotonic clock, ms */
     AnalyticsReconciler(AnalyticsExecutor executor, JobProgress.Source progress, LongSupplier millis) {
         this.executor = executor;
         this.progress = progress;
         this.millis = millis;
     }
 
-    /**
-     * @param desired all replays
-     */
+    /** @param desired all replays */
     void reconcile(Collection<DesiredAnalytics> desired) throws AnalyticsException {
         Set<String> running = executor.running();
         learn(desired, running);

@@ -16,9 +16,7 @@ record DesiredAnalytics(String topic, List<ReplayAnalyticsJob> jobs, boolean ove
         jobs = List.copyOf(jobs);
     }
 
-    /**
-     * @param status null if there is none yet
-     */
+    /** @param status null if there is none yet */
     static DesiredAnalytics of(DesiredReplay replay, ReplayStatus status) {
         List<ReplayAnalyticsJob> jobs = replay.plan().analytics().stream()
                 .map(job -> new ReplayAnalyticsJob(job, replay.topic()))

@@ -26,9 +26,7 @@ final class GroupProgress implements JobProgress.Source, AutoCloseable {
 
     private final Admin admin;
 
-    /**
-     * @param client settings of Kafka clients, with {@code bootstrap.servers}
-     */
+    /** @param client settings of Kafka clients, with {@code bootstrap.servers} */
     GroupProgress(Properties client) {
         this.admin = Admin.create(client);
     }

@@ -33,9 +33,7 @@ public final class ReplayAnalytics implements AutoCloseable {
         this.executor = executor;
     }
 
-    /**
-     * @param client settings of Kafka clients, with {@code bootstrap.servers}
-     */
+    /** @param client settings of Kafka clients, with {@code bootstrap.servers} */
     public static ReplayAnalytics start(Properties client, AnalyticsExecutor executor) {
         ReplayAnalytics analytics = new ReplayAnalytics(client, executor);
         analytics.thread.setDaemon(true);

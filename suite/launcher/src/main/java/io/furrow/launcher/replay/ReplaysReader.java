@@ -27,9 +27,7 @@ final class ReplaysReader implements AutoCloseable {
     private final Map<String, ReplayStatus> statuses = new HashMap<>();
     private boolean assigned;
 
-    /**
-     * @param client settings of Kafka clients, with {@code bootstrap.servers}
-     */
+    /** @param client settings of Kafka clients, with {@code bootstrap.servers} */
     ReplaysReader(Properties client) {
         reader = CommittedReader.unassigned(client);
     }

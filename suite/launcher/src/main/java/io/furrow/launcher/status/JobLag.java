@@ -41,9 +41,7 @@ final class JobLag {
         this.jobs = jobs;
     }
 
-    /**
-     * @param source empty if the job has only one
-     */
+    /** @param source empty if the job has only one */
     record Lag(String source, long records) {}
 
     /** By job; empty if it has not reported yet, or while Flink is too busy to answer. */

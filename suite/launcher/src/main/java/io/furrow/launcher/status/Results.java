@@ -25,9 +25,7 @@ final class Results implements AutoCloseable {
     private final Consumer<Entity> listener;
     private final Thread thread = new Thread(this::read, "status-results");
 
-    /**
-     * @param listener receives each result entity, always on the same thread
-     */
+    /** @param listener receives each result entity, always on the same thread */
     Results(Properties client, Consumer<Entity> listener) {
         Properties properties = new Properties();
         properties.putAll(client);

@@ -32,9 +32,7 @@ record StatusBlock(
         return lines(Integer.MAX_VALUE);
     }
 
-    /**
-     * @param rows maximum number of lines
-     */
+    /** @param rows maximum number of lines */
     List<String> lines(int rows) {
         List<String> lines = new ArrayList<>();
         int share = Math.max(rows, FEW) / SHARES;
@@ -53,9 +51,7 @@ record StatusBlock(
         return lines;
     }
 
-    /**
-     * @param unsaid number of omitted members
-     */
+    /** @param unsaid number of omitted members */
     private static void add(List<String> lines, String title, List<String> members, int unsaid, int share, int rows) {
         int room = Math.min(share, rows - lines.size()) - (title.isEmpty() ? 0 : 1);
         if (room <= 0 || members.isEmpty() && unsaid == 0) {

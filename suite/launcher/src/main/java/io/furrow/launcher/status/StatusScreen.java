@@ -87,9 +87,7 @@ public final class StatusScreen implements AutoCloseable {
         return !fields[2].equals(fields[5]);
     }
 
-    /**
-     * @param lines returns at most the given number of rows
-     */
+    /** @param lines returns at most the given number of rows */
     synchronized void show(IntFunction<List<String>> lines) {
         block = lines;
         draw();

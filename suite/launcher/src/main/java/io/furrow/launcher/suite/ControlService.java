@@ -117,9 +117,7 @@ public final class ControlService implements AutoCloseable {
         readiness.require(status);
     }
 
-    /**
-     * @param base null if there is none
-     */
+    /** @param base null if there is none */
     private void show(String name, URI base, String path) {
         if (base != null) {
             Probe probe = parts.add(

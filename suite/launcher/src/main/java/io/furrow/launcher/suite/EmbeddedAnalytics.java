@@ -24,9 +24,7 @@ final class EmbeddedAnalytics implements AnalyticsExecutor {
     private final SuiteJobs plans;
     private final Set<String> others;
 
-    /**
-     * @param jobs includes those that belong to no replay
-     */
+    /** @param jobs includes those that belong to no replay */
     EmbeddedAnalytics(EmbeddedFlink flink, Jobs jobs, SuiteJobs plans) {
         this.flink = flink;
         this.jobs = jobs;

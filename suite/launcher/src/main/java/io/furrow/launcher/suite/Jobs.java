@@ -36,9 +36,7 @@ final class Jobs {
     private final Path directory;
     private final Map<String, JobID> running = new LinkedHashMap<>();
 
-    /**
-     * @param directory has a folder per job, with its checkpoints and savepoints
-     */
+    /** @param directory has a folder per job, with its checkpoints and savepoints */
     Jobs(EmbeddedFlink flink, Path directory) {
         this.flink = flink;
         this.directory = directory;

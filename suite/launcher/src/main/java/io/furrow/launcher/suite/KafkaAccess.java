@@ -50,9 +50,7 @@ public final class KafkaAccess implements AutoCloseable {
         this.admin = Admin.create(clientProperties());
     }
 
-    /**
-     * @param propertiesFile for every client; null for none
-     */
+    /** @param propertiesFile for every client; null for none */
     public static KafkaAccess to(String bootstrapServers, Path propertiesFile) {
         return new KafkaAccess(bootstrapServers, propertiesFile, KafkaClient.read(propertiesFile));
     }

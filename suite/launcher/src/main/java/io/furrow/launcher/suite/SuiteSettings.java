@@ -196,9 +196,7 @@ public record SuiteSettings(
     public record Watch(Webhook.Settings webhook, HealthOptions health, String horizon, boolean stops) {
         public static final Watch DEFAULT = new Watch(null, HealthOptions.DEFAULT, "0s", false);
 
-        /**
-         * @param robots sends Stop commands to robots
-         */
+        /** @param robots sends Stop commands to robots */
         public WatchOptions options(CommandSender robots) {
             WatchOptions options = WatchOptions.DEFAULT.with(health);
             if (webhook != null) {

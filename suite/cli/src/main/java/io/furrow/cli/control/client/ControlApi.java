@@ -46,9 +46,7 @@ public final class ControlApi {
         this(base, token, null);
     }
 
-    /**
-     * @param trust the certificates to trust over https; null for those that Java trusts
-     */
+    /** @param trust the certificates to trust over https; null for those that Java trusts */
     ControlApi(URI base, String token, SSLContext trust) {
         this.base = base;
         this.token = token;

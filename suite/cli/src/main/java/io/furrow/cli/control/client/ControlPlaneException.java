@@ -10,9 +10,7 @@ public final class ControlPlaneException extends RuntimeException {
         this(message, false);
     }
 
-    /**
-     * @param unknown whether the requested object does not exist
-     */
+    /** @param unknown whether the requested object does not exist */
     ControlPlaneException(String message, boolean unknown) {
         super(message);
         this.unknown = unknown;

@@ -27,24 +27,18 @@ public final class ControlTable {
 
     private record Column(String title, Function<JsonNode, JsonNode> value, Kind kind) {}
 
-    /**
-     * @param nothing the text without rows
-     */
+    /** @param nothing the text without rows */
     public ControlTable(String nothing) {
         this(nothing, Clock.systemUTC());
     }
 
-    /**
-     * @param clock for ages
-     */
+    /** @param clock for ages */
     ControlTable(String nothing, Clock clock) {
         this.nothing = nothing;
         this.clock = clock;
     }
 
-    /**
-     * @param places JSON pointers; the first that resolves is shown
-     */
+    /** @param places JSON pointers; the first that resolves is shown */
     public ControlTable text(String title, String... places) {
         return column(title, Kind.TEXT, places);
     }

@@ -20,7 +20,7 @@ public final class DeviceListParts {
 
     private DeviceListParts() {}
 
-    /** Splits the member {@code devices} of a request into as many requests as needed; one if it is no list, or fits. */
+    /** Splits the member {@code devices} of a request into as many requests as needed; one if it is not a list, or fits. */
     public static List<ObjectNode> requests(ObjectNode whole) {
         List<ObjectNode> requests = new ArrayList<>();
         if (!whole.path(DEVICES).isArray()) {
