@@ -192,14 +192,16 @@ class CardsIT {
     void sharesTheCursorOfCharts(FarmPage farm) {
         farm.untilStore("(store.entities.get('" + DEFECTIVE + "')?.series.get('Temperature')?.length ?? 0) > 8"
                 + " && (store.entities.get('urn:ngsi-ld:Robot:1')?.series.get('speed')?.length ?? 0) > 16");
-        // A chart holds a number of points, not a period: at the right edge all charts have one.
+        // Cards outside the window are not drawn: no other card comes between these two.
+        farm.find("body").press("/");
+        farm.page().keyboard().type("weeding");
         Locator chart = farm.card(DEFECTIVE).locator("svg.spark");
-        chart.scrollIntoViewIfNeeded();
-        BoundingBox box = chart.boundingBox();
         int[] moves = {0};
 
         // An alarm that comes now moves the chart from under the pointer.
         farm.until(() -> {
+            // A chart holds a number of points, not a period: at the right edge all charts have one.
+            BoundingBox box = chart.boundingBox();
             chart.hover(new Locator.HoverOptions().setPosition(box.width - 2 - moves[0]++ % 2, box.height / 2));
             return hasCursor(farm, DEFECTIVE)
                     && hasCursor(farm, "urn:ngsi-ld:Robot:1")

@@ -17,7 +17,7 @@ import io.furrow.bench.frame.Figures;
 @Command(
         name = "whole",
         description = "Measures what the whole suite costs beside an older commit of this repository, in turns: with "
-                + "nothing to do, the demonstration farm, 125 and 625 messages of 1 kB a second. A turn takes some 12 "
+                + "nothing to do, the demonstration farm, 125 and 625 messages of 1 kB a second. A turn takes some 25 "
                 + "minutes; an interrupted run continues.")
 public final class WholeBench extends Benchmark {
     @Option(
@@ -38,8 +38,11 @@ public final class WholeBench extends Benchmark {
     @Option(names = "--turns", paramLabel = "N", description = "Turns; the table has their medians. " + DEFAULT)
     private int turns = 1;
 
-    @Option(names = "--warmup", paramLabel = "S", description = "Seconds of each part that do not count. " + DEFAULT)
-    private long warmup = 20;
+    @Option(
+            names = "--warmup",
+            paramLabel = "S",
+            description = "Seconds of each part that do not count; in the first minute the JVM compiles. " + DEFAULT)
+    private long warmup = 120;
 
     @Option(names = "--seconds", paramLabel = "S", description = "Seconds of each part that count. " + DEFAULT)
     private long seconds = 40;
@@ -47,7 +50,9 @@ public final class WholeBench extends Benchmark {
     @Option(
             names = "--results",
             paramLabel = "FILE",
-            description = "Grows with each figure; what it already holds is not measured again. " + DEFAULT)
+            description =
+                    "Grows with each figure; what it already holds is not measured again. Another file for another --warmup. "
+                            + DEFAULT)
     private Path results = Path.of("target/whole/results.csv");
 
     @Override
