@@ -17,18 +17,18 @@ import io.furrow.replay.recording.RecordingSources;
 import io.furrow.replay.source.ReplaySource;
 import io.furrow.replay.topic.ReplayTopics;
 
-/** Plays stored missions back, any number at once, each on a topic of its own. */
+/** Plays any number of stored missions at once, each on its own topic. */
 public final class ReplayJob {
     private static final String STATUSES = "statuses";
 
     private ReplayJob() {}
 
-    /** The whole job on Kafka and MongoDB, ready to be executed. */
+    /** Returns the whole job on Kafka and MongoDB, ready to be executed. */
     public static StreamExecutionEnvironment assemble(ReplayOptions options) {
         return assemble(options, options.recordings());
     }
 
-    /** The same with recordings from elsewhere. */
+    /** Returns the same job with other recordings. */
     static StreamExecutionEnvironment assemble(ReplayOptions options, RecordingSources recordings) {
         StreamExecutionEnvironment env = JobEnvironment.createPrompt(options);
 
@@ -46,7 +46,7 @@ public final class ReplayJob {
         return env;
     }
 
-    /** The pipeline; all in one chain, so that the records of a replay stay in order. */
+    /** Defines the pipeline as a single chain, so that the records of a replay stay in order. */
     static void define(DataStream<TopicRecord> records, KafkaOutput kafka, ReplayOptions options) {
         DataStream<TopicRecord> played =
                 records.filter(record -> !isStatus(record)).uid("select-played").name("Select what was played");
@@ -63,7 +63,7 @@ public final class ReplayJob {
         return record.topic().equals(Topics.REPLAYS_STATUS);
     }
 
-    /** What is played goes under the job's delivery guarantee; a status is visible at once. */
+    /** Writes played records with the job's delivery guarantee, and statuses at once. */
     private static KafkaOutput toKafka(ReplayOptions options) {
         return (name, records) -> {
             if (name.equals(STATUSES)) {

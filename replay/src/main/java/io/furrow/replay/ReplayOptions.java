@@ -150,9 +150,9 @@ public final class ReplayOptions extends JobOptions {
             description = "With --once: data.<mission>.replay.<eight hexadecimal digits>. Default: of new digits.")
     private String topic;
 
-    /** The job reads {@code service.replays}, all of it, and no event time: {@code --from} is that of a mission. */
+    /** Removes the options of event time and input; {@code --from} is that of a mission. */
     static final class OwnOptions implements IModelTransformer {
-        /** Until the option of this name that other jobs have is removed. */
+        /** A temporary name, until the inherited option {@code --from} is removed. */
         private static final String BEGIN = "--mission-from";
 
         @Override
@@ -172,9 +172,9 @@ public final class ReplayOptions extends JobOptions {
     }
 
     /**
-     * Records of many topics, each of which should be there at once. A batch takes its whole size of the producer's memory, for each
-     * partition. The producer learns of a new topic when the first record is sent to it, and what is due on others waits meanwhile: it
-     * asks no more often than it retries.
+     * Sends records of many topics without delay. Each partition allocates a whole batch of the producer's memory, so
+     * batches are small. The first record of a topic waits for its metadata and delays all other records; the retry
+     * backoff bounds how often the producer asks for them.
      */
     @Override
     public Map<String, String> producerDefaults() {
@@ -203,7 +203,7 @@ public final class ReplayOptions extends JobOptions {
         return new PageLimits(pageEvents, pageBytes);
     }
 
-    /** Missions from MongoDB; files and topics for replays that name one. */
+    /** Returns the missions of MongoDB, and files and topics for replays that name one. */
     RecordingSources recordings() {
         Properties kafka = kafkaProperties();
         kafka.setProperty(CommonClientConfigs.BOOTSTRAP_SERVERS_CONFIG, bootstrapServers());
@@ -217,7 +217,7 @@ public final class ReplayOptions extends JobOptions {
         }
     }
 
-    /** Those of {@code service.replays}, or the one that these options describe. */
+    /** Returns the replays of {@code service.replays}, or the one that these options describe. */
     DesiredReplays desired() {
         if (!once) {
             return new ReplaysTopic(this);
@@ -229,12 +229,12 @@ public final class ReplayOptions extends JobOptions {
             throw refused("--mission %s is not a name: it takes 1 to 64 of A-Z a-z 0-9 _ -".formatted(mission), null);
         }
         String id8 = UUID.randomUUID().toString().substring(0, ID_DIGITS);
-        String onto = topic == null ? Topics.replay(mission, id8) : topic;
-        String digits = onto.substring(Math.max(0, onto.length() - ID_DIGITS));
-        if (!Topics.replay(mission, digits).equals(onto) || !Topics.isReplay(onto)) {
+        String topicName = topic == null ? Topics.replay(mission, id8) : topic;
+        String digits = topicName.substring(Math.max(0, topicName.length() - ID_DIGITS));
+        if (!Topics.replay(mission, digits).equals(topicName) || !Topics.isReplay(topicName)) {
             throw refused(
                     "--topic %s is not a topic of a replay of this mission; write for instance %s"
-                            .formatted(onto, Topics.replay(mission, id8)),
+                            .formatted(topicName, Topics.replay(mission, id8)),
                     null);
         }
         String replay = mission + "." + digits;
@@ -248,7 +248,7 @@ public final class ReplayOptions extends JobOptions {
                 ReplayPlan.Stamps.ORIGINAL,
                 null,
                 List.of());
-        DesiredReplay desired = DesiredReplay.started(mission, onto, plan, speed(), System.currentTimeMillis(), 0);
+        DesiredReplay desired = DesiredReplay.started(mission, topicName, plan, speed(), System.currentTimeMillis(), 0);
         return new DesiredReplays.One(replay, desired.toBytes());
     }
 

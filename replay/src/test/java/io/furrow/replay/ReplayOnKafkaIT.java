@@ -36,7 +36,7 @@ import static org.awaitility.Awaitility.await;
 
 @Timeout(240)
 class ReplayOnKafkaIT {
-    /** After its absence was told; longer by {@code -Dfurrow.test.mongo-away=SECONDS}. */
+    /** Additional time without MongoDB after the status reports it; set by {@code -Dfurrow.test.mongo-away=SECONDS}. */
     private static final Duration MONGO_AWAY = Duration.ofSeconds(Long.getLong("furrow.test.mongo-away", 0));
 
     @TempDir
@@ -77,21 +77,21 @@ class ReplayOnKafkaIT {
     }
 
     @Test
-    void doesWhatItIsTold() throws Exception {
+    void pausesSeeksAndChangesSpeed() throws Exception {
         suite.store("m", 100, 1_000);
         suite.run(null, "--parallelism", "2");
-        suite.want(desired("m", 1, State.RUNNING, 1));
+        suite.publish(desired("m", 1, State.RUNNING, 1));
         await().until(() -> suite.status("m") != null
                 && suite.status("m").progress() != null
                 && suite.status("m").progress().events() > 0);
-        suite.want(desired("m", 1, State.PAUSED, 2));
+        suite.publish(desired("m", 1, State.PAUSED, 2));
         awaitStatus("m", State.PAUSED, 2);
 
         DesiredReplay sought = seeking(desired("m", 1, State.PAUSED, 3), TIME + 50_000);
-        suite.want(sought);
+        suite.publish(sought);
         awaitStatus("m", State.PAUSED, 3);
         await().until(() -> played("m", "1", "prime").size() == 4);
-        suite.want(seeking(desired("m", ReplayCommand.MAX, State.RUNNING, 4), TIME + 50_000));
+        suite.publish(seeking(desired("m", ReplayCommand.MAX, State.RUNNING, 4), TIME + 50_000));
         await().until(() -> {
             ReplayStatus status = suite.status("m");
             return status.state() == State.ENDED && status.settled() && status.sequence() == 4;
@@ -113,24 +113,24 @@ class ReplayOnKafkaIT {
         assertThat(suite.status("m").progress().primes()).isEqualTo(4);
     }
 
-    private static DesiredReplay seeking(DesiredReplay w, long to) {
-        return w.seeking(to, 3).desired(w.desired(), w.sequence());
+    private static DesiredReplay seeking(DesiredReplay current, long to) {
+        return current.seeking(to, 3).desired(current.desired(), current.sequence());
     }
 
     @Test
-    void stepsBackAndPlaysARangeOverAndOver() throws Exception {
+    void stepsBackAndRepeatsARange() throws Exception {
         suite.store("m", 100, 1_000);
         suite.run(null, "--parallelism", "1", "--page-events", "7");
         DesiredReplay paused = desired("m", 1, State.PAUSED, 1).stepping(20, 1);
-        suite.want(paused);
+        suite.publish(paused);
         await().until(() -> played("m", "0", "event").size() == 20);
 
-        suite.want(paused.stepping(-5, 2));
+        suite.publish(paused.stepping(-5, 2));
         await().until(() -> played("m", "1", "event").size() == 1);
         assertThat(header(played("m", "1", "event").get(0), HeaderNames.REPLAY_CE_ID))
                 .isEqualTo("e00014");
         assertThat(played("m", "1", "prime")).hasSize(4);
-        suite.want(paused.stepping(-5, 2)
+        suite.publish(paused.stepping(-5, 2)
                 .within(new DesiredReplay.Range(TIME + 30_000, TIME + 33_000), 3)
                 .at(ReplayCommand.MAX, 3)
                 .desired(State.RUNNING, 3));
@@ -148,7 +148,7 @@ class ReplayOnKafkaIT {
     }
 
     @Test
-    void playsFilesAndTopicsAndSaysWhereThereAreNone() throws Exception {
+    void playsFilesAndTopicsAndReportsMissingOnes() throws Exception {
         Path folder = Files.createDirectories(directory.resolve("recordings"));
         StringBuilder lines = new StringBuilder();
         for (StoredEvent event : List.of(event("a", TIME), event("b", TIME + 10), event("c", TIME + 20))) {
@@ -157,9 +157,9 @@ class ReplayOnKafkaIT {
         Files.writeString(folder.resolve("field.jsonl"), lines);
         suite.run(null, "--parallelism", "1", "--recordings", folder.toUri().toString());
 
-        suite.want(of("m", new ReplayPlan.Source(null, "field.jsonl")));
-        suite.want(of("n", new ReplayPlan.Source(null, "none.jsonl")));
-        suite.want(of("o", new ReplayPlan.Source("data.none", null)));
+        suite.publish(of("m", new ReplayPlan.Source(null, "field.jsonl")));
+        suite.publish(of("n", new ReplayPlan.Source(null, "none.jsonl")));
+        suite.publish(of("o", new ReplayPlan.Source("data.none", null)));
 
         awaitStatus("n", State.FAILED, 1);
         assertThat(suite.status("n").reason()).contains("no file 'none.jsonl'");
@@ -168,7 +168,7 @@ class ReplayOnKafkaIT {
         awaitStatus("o", State.FAILED, 1);
         assertThat(suite.status("o").reason()).contains("no topic 'data.none'");
 
-        suite.want(of("p", new ReplayPlan.Source(Topics.replay("m", "0a1b2c3d"), null)));
+        suite.publish(of("p", new ReplayPlan.Source(Topics.replay("m", "0a1b2c3d"), null)));
         awaitStatus("p", State.ENDED, 1);
         await().until(() -> played("p", "0", "event").size() >= 3);
         assertThat(played("p", "0", "event"))
@@ -194,11 +194,11 @@ class ReplayOnKafkaIT {
 
     @Tag("full")
     @Test
-    void leavesNoGapAndDoublesNothingWhereItIsKilledAndMoved() throws Exception {
+    void losesAndDuplicatesNothingWhenItIsKilledAndRescaled() throws Exception {
         List<String> missions = List.of("a", "b", "c");
         for (String mission : missions) {
             suite.store(mission, 1_500, 10);
-            suite.want(desired(mission, 1, State.RUNNING, 1));
+            suite.publish(desired(mission, 1, State.RUNNING, 1));
         }
         JobID job = suite.run(null, "--parallelism", "1", "--delivery", "exactly-once");
         await().until(() ->
@@ -215,7 +215,7 @@ class ReplayOnKafkaIT {
         for (String mission : missions) {
             await().until(() ->
                     suite.status(mission).settled() && suite.status(mission).state() == State.ENDED);
-            // a commit is answered before its markers are on every partition
+            // a commit is acknowledged before its markers are on every partition
             await().untilAsserted(() -> assertThat(numbers(mission)).as(mission).isEqualTo(all(1_500)));
             await().untilAsserted(() -> assertThat(played(mission, "0", "end")).hasSize(3));
         }
@@ -223,10 +223,10 @@ class ReplayOnKafkaIT {
 
     @Tag("full")
     @Test
-    void failsWhereItsTopicIsDeletedAndHoldsUpNoOther() throws Exception {
+    void failsWhenItsTopicIsDeletedAndDelaysNoOther() throws Exception {
         for (String mission : List.of("m", "other")) {
             suite.store(mission, 400, 100);
-            suite.want(desired(mission, 1, State.RUNNING, 1));
+            suite.publish(desired(mission, 1, State.RUNNING, 1));
         }
         suite.run(null, "--parallelism", "1");
         for (String mission : List.of("m", "other")) {
@@ -238,24 +238,24 @@ class ReplayOnKafkaIT {
 
         awaitStatus("m", State.FAILED, 1);
         assertThat(suite.status("m").reason()).isEqualTo("its topic was deleted while it was played");
-        await("its end, on the topic that the broker has made again")
+        await("its end, on the topic that was created again")
                 .until(() -> !played("m", "0", "end").isEmpty());
         ReplayStatus other = suite.status("other");
         assertThat(other.state()).isEqualTo(State.RUNNING);
         assertThat(other.progress().slipMillis()).isZero();
-        suite.want(desired("other", ReplayCommand.MAX, State.RUNNING, 2));
+        suite.publish(desired("other", ReplayCommand.MAX, State.RUNNING, 2));
         awaitStatus("other", State.ENDED, 2);
         await().untilAsserted(() -> assertThat(numbers("other")).isEqualTo(all(400)));
     }
 
     @Tag("full")
     @Test
-    void waitsForMongoAndFailsWhatIsUnknown() throws Exception {
+    void waitsForMongoAndFailsUnknownMissions() throws Exception {
         suite.store("m", 400, 100);
         suite.run(null, "--parallelism", "1", "--page-events", "20");
-        suite.want(desired("unknown", 1, State.RUNNING, 1));
+        suite.publish(desired("unknown", 1, State.RUNNING, 1));
         awaitStatus("unknown", State.FAILED, 1);
-        suite.want(desired("m", 1, State.RUNNING, 1));
+        suite.publish(desired("m", 1, State.RUNNING, 1));
         await().until(() ->
                 suite.status("m") != null && suite.status("m").progress().events() > 20);
 
@@ -266,7 +266,7 @@ class ReplayOnKafkaIT {
             assertThat(suite.status("m").progress().waiting()).isNotNull();
         });
         suite.startMongo();
-        suite.want(desired("m", ReplayCommand.MAX, State.RUNNING, 2));
+        suite.publish(desired("m", ReplayCommand.MAX, State.RUNNING, 2));
 
         awaitStatus("m", State.ENDED, 2);
         await().untilAsserted(() -> assertThat(numbers("m")).isEqualTo(all(400)));

@@ -45,7 +45,7 @@ import io.furrow.model.topic.Topics;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** Kafka, Flink and MongoDB's stand-in for the time of a test, and the job {@code replay} on them. */
+/** Runs the job {@code replay} on Kafka, Flink and an embedded MongoDB for the duration of a test. */
 final class ReplaySuite implements AutoCloseable {
     static final long TIME = 1_600_000_000_000L;
 
@@ -87,7 +87,11 @@ final class ReplaySuite implements AutoCloseable {
         return flink;
     }
 
-    /** Events of four devices, one after the other, so many ms apart. */
+    /**
+     * Stores events of four devices in turn.
+     *
+     * @param apart ms between events
+     */
     void store(String mission, int count, long apart) throws Exception {
         try (MongoClient client = new MongoAccess(mongo.uri(), MongoAccess.Waits.of(TIMEOUT)).open()) {
             var missions = new MissionCollections(client, Retention.of(null, Map.of()), Clock.systemUTC());
@@ -109,12 +113,16 @@ final class ReplaySuite implements AutoCloseable {
                 .desired(state, sequence);
     }
 
-    void want(DesiredReplay desired) throws Exception {
+    void publish(DesiredReplay desired) throws Exception {
         producer.send(new ProducerRecord<>(Topics.REPLAYS, desired.replay().getBytes(UTF_8), desired.toBytes()))
                 .get();
     }
 
-    /** Starts the job, from a savepoint where one is given. */
+    /**
+     * Starts the job.
+     *
+     * @param savepoint null to start without state
+     */
     JobID run(String savepoint, String... args) {
         ReplayOptions options = new ReplayOptions();
         List<String> all = new ArrayList<>(List.of(args));
@@ -146,7 +154,7 @@ final class ReplaySuite implements AutoCloseable {
         return Path.of(URI.create(savepoint));
     }
 
-    /** The committed records of a topic that is there, in the order of each partition. */
+    /** Returns the committed records of an existing topic, in the order of each partition. */
     List<ConsumerRecord<byte[], byte[]>> records(String topic) {
         List<ConsumerRecord<byte[], byte[]>> records = new ArrayList<>();
         try (CommittedReader<byte[]> reader = CommittedReader.openBytes(kafka.client(), topic)) {
@@ -155,7 +163,7 @@ final class ReplaySuite implements AutoCloseable {
         return records;
     }
 
-    /** The newest status of a replay; null if there is none. */
+    /** Returns the newest status of a replay; null if there is none. */
     ReplayStatus status(String mission) throws Exception {
         ReplayStatus newest = null;
         for (ConsumerRecord<byte[], byte[]> record : records(Topics.REPLAYS_STATUS)) {

@@ -23,7 +23,7 @@ class ReplayUidsTest {
     }
 
     @Test
-    void keepsTheUidsThatSavepointsKnow() {
+    void keepsTheUidsOfSavepoints() {
         assertThat(JobUids.of(ReplayJob.assemble(options("--mongo", "mongodb://127.0.0.1:27017"))))
                 .isEqualTo(JobUids.checkedIn("replay"));
     }
@@ -37,7 +37,7 @@ class ReplayUidsTest {
     }
 
     @Test
-    void boundsTheMissionByWhatReplaysAreBoundedBy() {
+    void boundsTheMissionByFromAndTo() {
         DesiredReplays once = options(
                         "--mongo mongodb://h --once --mission m --from 1970-01-01T00:00:01Z --to 1970-01-01T00:00:02Z"
                                 .split(" "))
@@ -53,7 +53,7 @@ class ReplayUidsTest {
                 "--idle-advance", "--clock-skew", "--max-ahead",
                 "--max-behind"
             })
-    void hasNoOptionThatDoesNothing(String option) {
+    void hasNoOptionsWithoutEffect(String option) {
         assertThatThrownBy(() -> options("--mongo", "mongodb://h", option))
                 .isInstanceOf(UnmatchedArgumentException.class);
     }
@@ -68,7 +68,7 @@ class ReplayUidsTest {
             --once --mission m --topic data.raw      | --topic data.raw is not a topic of a replay
             --once --mission m --source-topic data.t --source-file f | are both given
             """)
-    void refusesWhatCannotBePlayed(String args, String reason) {
+    void rejectsInvalidOptions(String args, String reason) {
         ReplayOptions options = options(("--mongo mongodb://h " + args).split(" +"));
 
         assertThatThrownBy(options::desired)

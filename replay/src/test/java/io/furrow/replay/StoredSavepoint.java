@@ -13,9 +13,9 @@ import io.furrow.model.control.ReplayStatus.State;
 
 import static org.awaitility.Awaitility.await;
 
-/** Stores a savepoint of what the job is now, for every later build to restore: a paused replay, of which some events were played. */
+/** Stores a savepoint of the current job, a paused replay with some events played, for later builds to restore. */
 final class StoredSavepoint {
-    /** A folder per release, below that of the module. */
+    /** Contains one folder per release; relative to the module. */
     static final Path FOLDER = Path.of("src/test/resources/savepoints");
 
     static final String MISSION = "stored";
@@ -24,13 +24,13 @@ final class StoredSavepoint {
 
     private StoredSavepoint() {}
 
-    /** @param target names the release; one that is stored is never written again */
+    /** @param target folder of the release; an existing one is never overwritten */
     static void store(ReplaySuite suite, Path target, Path work) throws Exception {
         if (Files.exists(target)) {
-            throw new IllegalStateException(target + " is there already and stays as it is; name another release");
+            throw new IllegalStateException(target + " exists already and is not overwritten; name another release");
         }
         suite.store(MISSION, EVENTS, 1_000);
-        suite.want(paused());
+        suite.publish(paused());
         JobID job = suite.run(null, "--parallelism", "1");
         await().until(() -> {
             ReplayStatus status = suite.status(MISSION);
@@ -50,7 +50,7 @@ final class StoredSavepoint {
         }
     }
 
-    /** With a step to each of the events that are played. */
+    /** Returns a paused replay with a step to each played event. */
     static DesiredReplay paused() {
         return ReplaySuite.desired(MISSION, 1, State.PAUSED, 1).stepping(PLAYED, 1);
     }

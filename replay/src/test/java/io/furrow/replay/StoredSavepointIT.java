@@ -24,7 +24,7 @@ import io.furrow.model.topic.Topics;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** Savepoints of released states of the job, as {@link StoredSavepoint} writes them, each restored by what the job is now. */
+/** Restores the savepoints that {@link StoredSavepoint} has written for each release. */
 @Timeout(180)
 class StoredSavepointIT {
     @TempDir
@@ -38,7 +38,7 @@ class StoredSavepointIT {
         suite = ReplaySuite.start(directory.resolve("suite"));
     }
 
-    /** {@code -Dstore.savepoint=0.2.0} writes that of a release. */
+    /** Writes the savepoint of a release with {@code -Dstore.savepoint=0.2.0}. */
     @Test
     @EnabledIfSystemProperty(named = "store.savepoint", matches = "[0-9.]+")
     void isWrittenOncePerRelease() throws Exception {
@@ -51,10 +51,10 @@ class StoredSavepointIT {
 
     @ParameterizedTest
     @MethodSource("releases")
-    void goesOnWithTheNextEvent(Path savepoint) throws Exception {
+    void continuesWithTheNextEvent(Path savepoint) throws Exception {
         suite.store(StoredSavepoint.MISSION, StoredSavepoint.EVENTS, 1_000);
-        suite.want(StoredSavepoint.paused());
-        suite.want(ReplaySuite.desired(StoredSavepoint.MISSION, ReplayCommand.MAX, State.RUNNING, 2));
+        suite.publish(StoredSavepoint.paused());
+        suite.publish(ReplaySuite.desired(StoredSavepoint.MISSION, ReplayCommand.MAX, State.RUNNING, 2));
 
         suite.run(savepoint.toUri().toString(), "--parallelism", "1");
         await().until(() -> {

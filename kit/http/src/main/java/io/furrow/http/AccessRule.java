@@ -12,10 +12,10 @@ import java.util.stream.Collectors;
 import java.util.stream.Stream;
 
 /**
- * Answers a request only if it names this server, and no page of another origin sent it. Without the first, a page whose name server
- * suddenly points to 127.0.0.1 is taken for the server's own; without the second, any page can command a server on its
- * reader's machine, which browsers let it reach. Credentials are no substitute for either, and what proxies say in
- * {@code X-Forwarded-*} is not believed.
+ * Grants a request only if it names this server and was not sent by a page of another origin. The host check stops DNS
+ * rebinding: a page whose name suddenly resolves to 127.0.0.1 would otherwise count as the server's own. The origin
+ * check stops requests of other pages, which browsers allow to reach servers on the user's machine. Neither is a
+ * substitute for credentials, nor credentials for these. The rule ignores {@code X-Forwarded-*}.
  */
 public final class AccessRule {
     private static final Set<String> OTHER_SITES = Set.of("cross-site", "same-site");
@@ -26,10 +26,10 @@ public final class AccessRule {
     private final Set<Origin> origins;
     private final Set<String> probes;
     private final OptionNames options;
-    /** Nearly all requests come under the same few names: those that were found to be this server's. */
+    /** Cache of names that are this server's; nearly all requests use the same few. */
     private final Set<Name> own = ConcurrentHashMap.newKeySet();
 
-    /** A host as a request names it, and the server's end of its connection. */
+    /** The host that a request names, and the server's address of its connection. */
     private record Name(String host, InetAddress local) {}
 
     private AccessRule(Set<String> hosts, Set<Origin> origins, Set<String> probes, OptionNames options) {
@@ -39,7 +39,10 @@ public final class AccessRule {
         this.options = options;
     }
 
-    /** Lets in what names loopback or the address that the connection arrived at, and what an operator allows. */
+    /**
+     * Creates a rule that allows loopback, the address at which the connection arrived, and the names that the operator
+     * allows.
+     */
     public static AccessRule allowing(AllowedNames allowed, OptionNames options) {
         return new AccessRule(
                         Set.of(),
@@ -52,9 +55,9 @@ public final class AccessRule {
     }
 
     /**
-     * Lets these in as well.
+     * Allows further hosts.
      *
-     * @param names for instance the address that is listened on; null and what is not a host add nothing
+     * @param names for instance the listen address; null and invalid hosts are ignored
      */
     public AccessRule servedAs(String... names) {
         Set<String> more = new HashSet<>(hosts);
@@ -65,7 +68,7 @@ public final class AccessRule {
         return new AccessRule(Set.copyOf(more), origins, probes, options);
     }
 
-    /** Lets in the host of this URL as well, for instance the one that clients are given; what is not a URL adds nothing. */
+    /** Allows the host of this URL, for instance the one that clients are given; an invalid URL is ignored. */
     public AccessRule servedAt(String url) {
         return HttpCall.authorityOf(url)
                 .flatMap(Authority::parse)
@@ -73,17 +76,17 @@ public final class AccessRule {
                 .orElse(this);
     }
 
-    /** Lets anybody read these paths under any host: probes come by the address of a pod or by none. */
+    /** Allows reads of these paths under any host, because probes use a pod's address or no host. */
     public AccessRule withProbes(String... paths) {
         return new AccessRule(hosts, origins, Set.of(paths), options);
     }
 
-    /** Decides before anything of the body is read. */
+    /** Decides on a request before its body is read. */
     public Decision decide(HttpCall call) {
         List<String> named = call.values("Host");
         boolean probe = call.isRead() && probes.contains(call.path());
         if (!probe) {
-            Optional<Decision> foreign = refuseHost(call, named);
+            Optional<Decision> foreign = checkHost(call, named);
             if (foreign.isPresent()) {
                 return foreign.get();
             }
@@ -94,14 +97,14 @@ public final class AccessRule {
         }
         Optional<Origin> origin = sent.size() == 1 ? Origin.parse(sent.get(0)) : Optional.empty();
         if (origin.filter(origins::contains).isPresent()) {
-            return share(call, sent.get(0));
+            return withCorsHeaders(call, sent.get(0));
         }
         return origin.isPresent() && origin.equals(ownOrigin(call, named))
                 ? new Decision.Granted(Map.of())
                 : foreignOrigin(origin);
     }
 
-    private Optional<Decision> refuseHost(HttpCall call, List<String> named) {
+    private Optional<Decision> checkHost(HttpCall call, List<String> named) {
         if (named.size() != 1) {
             return Optional.of(new Decision.Refused(
                     "foreign-host", "a request names its host in one Host header; this one has " + named.size()));
@@ -129,14 +132,17 @@ public final class AccessRule {
         return isOwn;
     }
 
-    /** That of a page that this server itself has sent: the browser reached it under the same name. */
+    /** Returns the origin of this server's own pages, as the browser reached it. */
     private static Optional<Origin> ownOrigin(HttpCall call, List<String> named) {
         return named.size() == 1
                 ? Authority.parse(named.get(0)).map(authority -> Origin.of(call.scheme(), authority))
                 : Optional.empty();
     }
 
-    /** Browsers send no origin with images, frames and links; links may be followed. */
+    /**
+     * Returns whether a page of another site sent the request without an origin, as browsers do for images, frames and
+     * links. Links are allowed.
+     */
     private static boolean isOfAnotherSite(HttpCall call) {
         boolean link = call.isRead()
                 && call.header("Sec-Fetch-Mode").filter("navigate"::equals).isPresent()
@@ -144,8 +150,8 @@ public final class AccessRule {
         return !link && call.values("Sec-Fetch-Site").stream().anyMatch(OTHER_SITES::contains);
     }
 
-    /** Without these headers a browser would send what the page asks, and keep the answer from it. */
-    private static Decision share(HttpCall call, String origin) {
+    /** Grants the request with CORS headers; without them the browser hides the answer from the page. */
+    private static Decision withCorsHeaders(HttpCall call, String origin) {
         Map<String, String> headers = new HashMap<>(Map.of("Access-Control-Allow-Origin", origin, "Vary", "Origin"));
         if (!call.isPreflight()) {
             return new Decision.Granted(Map.copyOf(headers));

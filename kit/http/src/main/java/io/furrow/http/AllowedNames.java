@@ -4,7 +4,7 @@ import java.util.List;
 import java.util.function.Consumer;
 
 /**
- * Hosts and origins that an operator lets in beside a server's own.
+ * Hosts and origins that an operator allows in addition to a server's own.
  *
  * @param hosts names or addresses without scheme and port, for instance {@code farm.example.org}
  * @param origins {@code scheme://host} or {@code scheme://host:port}, for instance {@code https://map.example.org}
@@ -12,7 +12,7 @@ import java.util.function.Consumer;
 public record AllowedNames(List<String> hosts, List<String> origins) {
     public static final AllowedNames NONE = new AllowedNames(List.of(), List.of());
 
-    /** @throws IllegalArgumentException saying what is wrong with an entry */
+    /** @throws IllegalArgumentException if an entry is invalid; the message says why */
     public AllowedNames {
         hosts = List.copyOf(hosts);
         origins = List.copyOf(origins);
@@ -20,7 +20,7 @@ public record AllowedNames(List<String> hosts, List<String> origins) {
         origins.forEach(AllowedNames::requireOrigin);
     }
 
-    /** @throws IllegalArgumentException saying what is wrong with an entry of which option */
+    /** @throws IllegalArgumentException if an entry is invalid; the message names the option */
     public static AllowedNames of(OptionNames options, List<String> hosts, List<String> origins) {
         requireEach(options.hosts(), hosts, AllowedNames::requireHost);
         requireEach(options.origins(), origins, AllowedNames::requireOrigin);
@@ -55,7 +55,7 @@ public record AllowedNames(List<String> hosts, List<String> origins) {
         }
     }
 
-    /** IPv6 addresses come without brackets as well. */
+    /** Adds brackets to an IPv6 address without them. */
     static String bracketed(String host) {
         return host.indexOf(':') < 0 || host.startsWith("[") ? host : "[" + host + "]";
     }

@@ -8,10 +8,10 @@ import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 /**
- * A host and a port, as a {@code Host} header, a request target or an origin has them.
+ * The host and port of a {@code Host} header, a request target or an origin.
  *
- * @param host in lower case and without a trailing dot; an address in the one form that Java prints
- * @param port {@value #NO_PORT} where none is named
+ * @param host in lower case and without a trailing dot; an address in the form that Java prints
+ * @param port {@value #NO_PORT} if none is given
  */
 record Authority(String host, int port) {
     static final int NO_PORT = -1;
@@ -22,7 +22,7 @@ record Authority(String host, int port) {
             Pattern.compile("(\\[[0-9A-Fa-f:.]{2,45}]|[A-Za-z0-9._-]{1,255})(?::([0-9]{0,5}))?");
     private static final Pattern OCTETS = Pattern.compile("(?:(?:0|[1-9][0-9]{0,2})(?:\\.|$)){4}");
 
-    /** Empty for what is not a host, with or without a port; resolves no name. */
+    /** Parses a host with or without a port; empty if it is invalid. Resolves no name. */
     static Optional<Authority> parse(String text) {
         Matcher form = FORM.matcher(text);
         if (!form.matches()) {
@@ -36,7 +36,7 @@ record Authority(String host, int port) {
         return host(form.group(1)).map(host -> new Authority(host, port));
     }
 
-    /** The form in which hosts are compared. */
+    /** Normalizes a host for comparison. */
     private static Optional<String> host(String text) {
         if (isLiteral(text)) {
             return address(text).map(InetAddress::getHostAddress);
@@ -49,7 +49,7 @@ record Authority(String host, int port) {
         return text.startsWith("[") || OCTETS.matcher(text).matches();
     }
 
-    /** @param literal IPv4 with four numbers, or IPv6 in brackets, for neither of which Java asks a name server */
+    /** @param literal IPv4 with four numbers, or IPv6 in brackets; Java resolves both without a name server */
     private static Optional<InetAddress> address(String literal) {
         try {
             return Optional.of(InetAddress.getByName(literal));
@@ -58,7 +58,7 @@ record Authority(String host, int port) {
         }
     }
 
-    /** Whether it can only be this machine: {@code localhost}, 127.0.0.0/8 or ::1. */
+    /** Returns whether it can only be this machine: {@code localhost}, 127.0.0.0/8 or ::1. */
     boolean isLoopback() {
         String literal = host.indexOf(':') < 0 ? host : "[" + host + "]";
         return host.equals(LOCALHOST)
@@ -68,7 +68,7 @@ record Authority(String host, int port) {
                                 .isPresent();
     }
 
-    /** Whether it is this very address, written as a number: no name server can make that so. */
+    /** Returns whether it is this address, written as a number, so that no name server is involved. */
     boolean isLiterally(InetAddress address) {
         String printed = address.getHostAddress();
         int zone = printed.indexOf('%');

@@ -8,12 +8,12 @@ import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 /**
- * What the rule looks at of one request.
+ * The parts of a request that {@link AccessRule} checks.
  *
- * @param target as it came: a path with or without a query, or a whole URI
- * @param secure whether it came over TLS
- * @param local the server's end of the connection; null if it is not known
- * @param headers the values of a header, by its name in any case; empty if there is none
+ * @param target as received: a path with or without a query, or a whole URI
+ * @param secure whether it was received over TLS
+ * @param local the server's address of the connection; null if unknown
+ * @param headers returns the values of a header by its name in any case; empty if there is none
  */
 public record HttpCall(
         String method, String target, boolean secure, InetAddress local, Function<String, List<String>> headers) {
@@ -23,7 +23,7 @@ public record HttpCall(
         return method.equals("GET") || method.equals("HEAD");
     }
 
-    /** What a browser asks before it sends a request of another origin that is not simple. */
+    /** Returns whether it is a CORS preflight request. */
     boolean isPreflight() {
         return method.equals("OPTIONS")
                 && header("Access-Control-Request-Method").isPresent();
@@ -33,14 +33,14 @@ public record HttpCall(
         return secure ? "https" : "http";
     }
 
-    /** Without the query. */
+    /** Returns the path without the query. */
     String path() {
         Matcher absolute = ABSOLUTE.matcher(target);
         String path = absolute.matches() ? absolute.group(2) : target;
         return path.split("[?#]", 2)[0];
     }
 
-    /** Host and port as a whole URI has them; empty for a path. */
+    /** Returns the host and port of a whole URI; empty for a path. */
     static Optional<String> authorityOf(String uri) {
         Matcher absolute = ABSOLUTE.matcher(uri);
         return absolute.matches() ? Optional.of(absolute.group(1)) : Optional.empty();

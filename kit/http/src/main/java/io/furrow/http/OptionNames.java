@@ -1,7 +1,7 @@
 package io.furrow.http;
 
-/** How a server calls the options of {@link AllowedNames}, for refusals that say what to set. */
+/** The names of a server's options for {@link AllowedNames}, used in rejections. */
 public record OptionNames(String hosts, String origins) {
-    /** Of the command line. */
+    /** Names of the command line. */
     public static final OptionNames FLAGS = new OptionNames("--allowed-hosts", "--allowed-origins");
 }

@@ -6,14 +6,14 @@ import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 /**
- * Where a page comes from (RFC 6454).
+ * The origin of a page (RFC 6454).
  *
- * @param port the scheme's own where none is named
+ * @param port the scheme's default if none is given
  */
 record Origin(String scheme, String host, int port) {
     private static final Pattern FORM = Pattern.compile("([A-Za-z][A-Za-z0-9+.-]{0,30})://(.+)");
 
-    /** Empty for what is not an origin, {@code null} among it. */
+    /** Parses an origin; empty if it is invalid, as {@code null} is. */
     static Optional<Origin> parse(String text) {
         Matcher form = FORM.matcher(text);
         if (!form.matches()) {
@@ -24,11 +24,11 @@ record Origin(String scheme, String host, int port) {
     }
 
     static Origin of(String scheme, Authority authority) {
-        int port = authority.port() != Authority.NO_PORT ? authority.port() : usualPort(scheme);
+        int port = authority.port() != Authority.NO_PORT ? authority.port() : defaultPort(scheme);
         return new Origin(scheme, authority.host(), port);
     }
 
-    private static int usualPort(String scheme) {
+    private static int defaultPort(String scheme) {
         return switch (scheme) {
             case "http" -> 80;
             case "https" -> 443;
@@ -39,6 +39,6 @@ record Origin(String scheme, String host, int port) {
     @Override
     public String toString() {
         String printed = host.indexOf(':') < 0 ? host : "[" + host + "]";
-        return scheme + "://" + printed + (port == usualPort(scheme) ? "" : ":" + port);
+        return scheme + "://" + printed + (port == defaultPort(scheme) ? "" : ":" + port);
     }
 }

@@ -29,7 +29,7 @@ class AccessRuleTest {
             .servedAs("192.168.7.5", "source.example.org", null, "0.0.0.0/0 is not a host")
             .withProbes("/health", "/ready");
 
-    /** Addressed at 10.1.2.3, as where a server listens on every address. */
+    /** Returns a request that arrived at 10.1.2.3, as on a server that listens on all addresses. */
     private static HttpCall call(String method, String target, boolean secure, Map<String, List<String>> headers) {
         return Unchecked.get(() -> new HttpCall(
                 method,
@@ -39,7 +39,7 @@ class AccessRuleTest {
                 name -> headers.getOrDefault(name.toLowerCase(Locale.ROOT), List.of())));
     }
 
-    /** Header lines are separated by {@code ;}, as in {@code Host: a; Origin: http://b}. */
+    /** Parses header lines separated by {@code ;}, as in {@code Host: a; Origin: http://b}. */
     private static Map<String, List<String>> headers(String lines) {
         Map<String, List<String>> headers = new HashMap<>();
         Stream.of(lines.split(";"))
@@ -72,7 +72,7 @@ class AccessRuleTest {
     }
 
     @Test
-    void saysWhichNameToSetInWhichOption() {
+    void namesTheValueAndTheOptionToSet() {
         assertThat(decide("GET /", "Host: Other.example.org:8085"))
                 .isEqualTo(new Decision.Refused(
                         "foreign-host",
@@ -85,20 +85,20 @@ class AccessRuleTest {
     }
 
     @Test
-    void repeatsNothingThatIsNoName() {
+    void doesNotEchoAnInvalidHost() {
         assertThat(decide("GET /", "Host: <script>alert(1)</script>"))
                 .isEqualTo(new Decision.Refused("foreign-host", "the request names no host that could be read"));
     }
 
     @Test
-    void letsAnAllowedPageReadItsAnswers() {
+    void allowsAnAllowedPageToReadTheAnswer() {
         assertThat(decide("POST /api/domains", "Host: localhost; Origin: https://map.example.org"))
                 .isEqualTo(new Decision.Granted(
                         Map.of("Access-Control-Allow-Origin", "https://map.example.org", "Vary", "Origin")));
     }
 
     @Test
-    void tellsTheBrowserOfAnAllowedPageThatItMaySendWhatItAsks() {
+    void grantsThePreflightOfAnAllowedPage() {
         Decision decision = decide(
                 "OPTIONS /api/domains",
                 "Host: localhost; Origin: https://map.example.org; Access-Control-Request-Method: PUT;"
@@ -114,7 +114,7 @@ class AccessRuleTest {
     }
 
     @Test
-    void takesAnAddressForItsOwnOnlyWhereTheConnectionArrivedAtIt() throws UnknownHostException {
+    void acceptsOnlyTheAddressAtWhichTheConnectionArrived() throws UnknownHostException {
         HttpCall here = call("GET", "/", false, headers("Host: 10.1.2.3:8085"));
         HttpCall unknown = new HttpCall("GET", "/", false, null, here.headers());
         HttpCall linkLocal = new HttpCall(
@@ -130,7 +130,7 @@ class AccessRuleTest {
     }
 
     @Test
-    void decidesAlikeForMoreNamesThanItRemembers() {
+    void decidesAlikeForMoreNamesThanItCaches() {
         for (int time = 0; time < 2; time++) {
             for (int port = 1; port <= 200; port++) {
                 assertThat(decide("POST /notify", "Host: source.example.org:" + port))
@@ -143,7 +143,7 @@ class AccessRuleTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"", "http://a", "a:80", "a:", "a b", "*", "a/b", "[::1", "1:2:3"})
-    void refusesAnAllowedHostThatIsNone(String host) {
+    void rejectsAnInvalidAllowedHost(String host) {
         assertThatThrownBy(() -> new AllowedNames(List.of(host), List.of()))
                 .isInstanceOf(IllegalArgumentException.class)
                 .hasMessage(
@@ -153,7 +153,7 @@ class AccessRuleTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"", "*", "null", "map.example.org", "https://", "https://a/", "https://a/b", "https://a b"})
-    void refusesAnAllowedOriginThatIsNone(String origin) {
+    void rejectsAnInvalidAllowedOrigin(String origin) {
         assertThatThrownBy(() -> new AllowedNames(List.of(), List.of(origin)))
                 .isInstanceOf(IllegalArgumentException.class)
                 .hasMessageStartingWith("'" + origin + "' is not an origin: expected scheme://host");

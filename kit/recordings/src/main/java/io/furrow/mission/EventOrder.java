@@ -7,50 +7,50 @@ import java.util.List;
 import java.util.NoSuchElementException;
 import java.util.PriorityQueue;
 
-/** Events in the order of archives: by event time, those of one millisecond by event id. */
+/** Orders events by event time, then by event id, as archives do. */
 public final class EventOrder {
     public static final Comparator<StoredEvent> COMPARATOR =
             Comparator.comparingLong(StoredEvent::time).thenComparing(StoredEvent::id);
 
     private EventOrder() {}
 
-    /** Brings what is in order of time into the whole order; holds the events of one millisecond. */
+    /** Sorts the events of each millisecond in a sequence that is ordered by time; holds one millisecond in memory. */
     public static Iterator<StoredEvent> within(Iterator<StoredEvent> byTime) {
         return new Iterator<>() {
             private final List<StoredEvent> sameTime = new ArrayList<>();
             private int next;
-            private StoredEvent ahead = byTime.hasNext() ? byTime.next() : null;
+            private StoredEvent following = byTime.hasNext() ? byTime.next() : null;
 
             @Override
             public boolean hasNext() {
-                return next < sameTime.size() || ahead != null;
+                return next < sameTime.size() || following != null;
             }
 
             @Override
             public StoredEvent next() {
                 if (next == sameTime.size()) {
-                    gather();
+                    readSameTime();
                 }
                 return sameTime.get(next++);
             }
 
-            private void gather() {
-                if (ahead == null) {
+            private void readSameTime() {
+                if (following == null) {
                     throw new NoSuchElementException();
                 }
                 sameTime.clear();
                 next = 0;
-                long time = ahead.time();
-                while (ahead != null && ahead.time() == time) {
-                    sameTime.add(ahead);
-                    ahead = byTime.hasNext() ? byTime.next() : null;
+                long time = following.time();
+                while (following != null && following.time() == time) {
+                    sameTime.add(following);
+                    following = byTime.hasNext() ? byTime.next() : null;
                 }
                 sameTime.sort(COMPARATOR);
             }
         };
     }
 
-    /** One ordered stream out of several. */
+    /** Merges ordered sequences into one. */
     public static Iterator<StoredEvent> merged(List<Iterator<StoredEvent>> ordered) {
         record Head(StoredEvent event, Iterator<StoredEvent> rest) {}
         PriorityQueue<Head> heads = new PriorityQueue<>(Comparator.comparing(Head::event, COMPARATOR));

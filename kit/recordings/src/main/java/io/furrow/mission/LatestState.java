@@ -13,22 +13,22 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 
 /**
- * The last known state of each entity, folded from its events in their order: the newest value of each attribute, nothing after a
- * deletion. Holds one event per entity.
+ * Folds the events of each entity, in their order, to its last state: the newest value of each attribute, nothing after
+ * a deletion. Holds one event per entity.
  */
 public final class LatestState {
     private final Map<String, StoredEvent> byEntity = new HashMap<>();
 
     private LatestState() {}
 
-    /** Of these events, which come in their order. */
+    /** Returns the states after these ordered events. */
     public static List<StoredEvent> of(Collection<StoredEvent> events) {
         LatestState state = new LatestState();
         events.forEach(state::add);
         return state.events();
     }
 
-    /** As {@link Recording#stateBefore}, read from the recording's beginning. */
+    /** Computes {@link Recording#stateBefore} by reading the recording from its beginning. */
     static List<StoredEvent> before(Recording recording, long time, Set<String> entities, PageLimits limits)
             throws RecordingException {
         LatestState state = new LatestState();
@@ -53,14 +53,14 @@ public final class LatestState {
             byEntity.merge(identity(event), event, LatestState::merged);
         } else if (type(event).isEmpty()) {
             byEntity.values()
-                    .removeIf(known -> known.entityId().equals(event.entityId())
-                            && scope(known).equals(scope(event)));
+                    .removeIf(older -> older.entityId().equals(event.entityId())
+                            && scope(older).equals(scope(event)));
         } else {
             byEntity.remove(identity(event));
         }
     }
 
-    /** Whether two events of one id may be of one entity; a deletion that names no type is of all. */
+    /** Returns whether two events of one id may be of one entity; a deletion without a type applies to all types. */
     public static boolean isOfOneEntity(StoredEvent one, StoredEvent other) {
         boolean oneType =
                 type(one).isEmpty() || type(other).isEmpty() || type(one).equals(type(other));
@@ -75,17 +75,17 @@ public final class LatestState {
         return FiwareScope.of(event.headers());
     }
 
-    /** Empty for a deletion that does not name it. */
+    /** Returns the entity's type; empty for a deletion without one. */
     private static String type(StoredEvent event) {
         return event.entity() == null
                 ? event.headers().getOrDefault(HeaderNames.ENTITY_TYPE, "")
                 : event.entity().path("type").asText();
     }
 
-    /** What is reported replaces what was known of the same attribute, the rest stays. */
-    private static StoredEvent merged(StoredEvent known, StoredEvent newer) {
-        ObjectNode entity = known.entity().objectNode();
-        entity.setAll(known.entity());
+    /** Replaces the attributes that the newer event has. */
+    private static StoredEvent merged(StoredEvent older, StoredEvent newer) {
+        ObjectNode entity = older.entity().objectNode();
+        entity.setAll(older.entity());
         entity.setAll(newer.entity());
         return new StoredEvent(newer.id(), newer.time(), newer.entityId(), newer.headers(), entity);
     }

@@ -6,38 +6,40 @@ import java.util.Set;
 import java.util.function.Predicate;
 
 /**
- * A stored mission: its events in the order of {@link EventOrder}. Read by one thread. After a {@link RecordingException} the
- * same page can be asked for again.
+ * A stored mission: its events in the order of {@link EventOrder}. Read by one thread. After a {@link
+ * RecordingException} the same page can be read again.
  */
 public interface Recording extends AutoCloseable {
     /**
-     * The first and the last event time; empty if there is none.
+     * Returns the first and the last event time; empty if there is no event.
      *
-     * @throws RecordingException if the recording cannot be read now
+     * @throws RecordingException if the recording is unavailable
      */
     Optional<RecordingExtent> span() throws RecordingException;
 
     /**
-     * The page that begins after the cursor. Holds at least one event unless the recording ends there or the page skips as many
-     * records as it may hold events.
+     * Reads the page after the cursor. It has at least one event unless the recording ends there or the page skips as
+     * many records as it may have events.
      *
-     * @throws RecordingDeletedException if the recording has been deleted since it was opened
+     * @throws RecordingDeletedException if the recording was deleted after it was opened
      * @throws RecordingInterruptedException if the thread is interrupted while it waits
-     * @throws RecordingException if the recording cannot be read now
+     * @throws RecordingException if the recording is unavailable
      */
     EventPage read(Cursor after, PageLimits limits) throws RecordingException;
 
     /**
-     * The cursor that lies {@code count} wanted events before another, just after a wanted event: exactly these lie between the two. Here
-     * by reading all pages between; a recording that can read backwards does so. The next page may begin again.
+     * Returns the position after the matching event that has exactly {@code count} matching events between itself and a
+     * cursor. This implementation reads all pages up to the cursor; recordings that can read backwards override it. The
+     * next page may start a new query.
      *
      * @param from events up to this cursor are counted
-     * @param first where the recording is taken to begin: {@link Cursor#START} or later, the answer where no more events are requested
+     * @param first beginning of the recording for this purpose, {@link Cursor#START} or later; returned if there are
+     * not enough events
      * @param count from 1 to {@value StepBack#MAX}
-     * @param desired asked for the events in any order, for some twice
+     * @param desired called for the events in any order, for some twice
      * @throws IllegalArgumentException for any other count
-     * @throws RecordingInterruptedException if the thread is interrupted meanwhile
-     * @throws RecordingException if the recording cannot be read now
+     * @throws RecordingInterruptedException if the thread is interrupted
+     * @throws RecordingException if the recording is unavailable
      */
     default Cursor back(Cursor from, Cursor first, long count, Predicate<StoredEvent> desired, PageLimits limits)
             throws RecordingException {
@@ -59,13 +61,14 @@ public interface Recording extends AutoCloseable {
     }
 
     /**
-     * The entities as they were known before a point, each with time, id and headers of its newest event, in the order of these. Here by
-     * reading the recording from its beginning; one that finds an entity's newest events otherwise does so. The next page may begin again.
+     * Returns the last state of each entity before a point, with time, id and headers of its newest event, in the order
+     * of these events. This implementation reads the recording from its beginning; recordings that can find the newest
+     * events of an entity override it. The next page may start a new query.
      *
-     * @param time epoch ms; events of this time are not among what was known
-     * @param entities ids of those that are requested; empty for all
-     * @throws RecordingInterruptedException if the thread is interrupted meanwhile
-     * @throws RecordingException if the recording cannot be read now
+     * @param time epoch ms, exclusive
+     * @param entities ids of the requested entities; empty for all
+     * @throws RecordingInterruptedException if the thread is interrupted
+     * @throws RecordingException if the recording is unavailable
      */
     default List<StoredEvent> stateBefore(long time, Set<String> entities, PageLimits limits)
             throws RecordingException {

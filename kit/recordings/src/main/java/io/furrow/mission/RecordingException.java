@@ -2,7 +2,7 @@ package io.furrow.mission;
 
 import java.io.IOException;
 
-/** A recording cannot be read. The message says what happened, where, and what to do. */
+/** Thrown if a recording cannot be read. The message says what happened, where, and what to do. */
 public class RecordingException extends IOException {
     private static final long serialVersionUID = 1L;
 

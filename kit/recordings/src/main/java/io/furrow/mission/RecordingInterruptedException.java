@@ -1,6 +1,6 @@
 package io.furrow.mission;
 
-/** The reading thread was interrupted: its result is not wanted any more. The thread stays interrupted. */
+/** Thrown if the reading thread is interrupted because its result is no longer needed. The thread stays interrupted. */
 public final class RecordingInterruptedException extends RecordingException {
     private static final long serialVersionUID = 1L;
 
@@ -10,13 +10,13 @@ public final class RecordingInterruptedException extends RecordingException {
         super(MESSAGE, cause);
     }
 
-    /** What a library made of the interrupt. */
+    /** Wraps a library's exception for the interrupt and interrupts the thread again. */
     public static RecordingInterruptedException of(Throwable cause) {
         Thread.currentThread().interrupt();
         return new RecordingInterruptedException(cause);
     }
 
-    /** Called between pages by what reads many of them. */
+    /** Throws if the thread is interrupted; called between pages. */
     public static void check() throws RecordingInterruptedException {
         if (Thread.currentThread().isInterrupted()) {
             throw new RecordingInterruptedException(null);

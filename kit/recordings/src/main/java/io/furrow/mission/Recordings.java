@@ -6,9 +6,9 @@ import java.util.Optional;
 /** Opens recordings by mission name. Serializable, so that a job can carry it. */
 public interface Recordings extends Serializable {
     /**
-     * Empty if the mission is unknown.
+     * Opens the recording of a mission; empty if it does not exist.
      *
-     * @throws RecordingException if it cannot be determined now
+     * @throws RecordingException if that cannot be determined now
      */
     Optional<Recording> open(String mission) throws RecordingException;
 }

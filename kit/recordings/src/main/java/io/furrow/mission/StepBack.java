@@ -3,9 +3,12 @@ package io.furrow.mission;
 import java.util.ArrayDeque;
 import java.util.Deque;
 
-/** Finds the wanted event before the last wanted ones of those that are added in their order. Holds one cursor for each of these. */
+/**
+ * Finds the event that lies {@code count} matching events before the last one, while events are added in order. Holds
+ * {@code count} cursors.
+ */
 public final class StepBack {
-    /** More events than anybody steps back, at 100 bytes each. */
+    /** Maximum events of a step back, at 100 bytes each. */
     static final int MAX = 100_000;
 
     private final Cursor first;
@@ -13,7 +16,7 @@ public final class StepBack {
     private final Deque<Cursor> beforeDesired = new ArrayDeque<>();
     private Cursor last;
 
-    /** @param first the answer where fewer events are requested */
+    /** @param first the result if there are fewer events */
     StepBack(Cursor first, long count) {
         this.first = first;
         this.count = count;
@@ -22,12 +25,10 @@ public final class StepBack {
 
     public static void check(long count) {
         if (count < 1 || count > MAX) {
-            throw new IllegalArgumentException(
-                    "Between 1 and %,d events can be gone back, not %,d".formatted(MAX, count));
+            throw new IllegalArgumentException("A step back covers 1 to %,d events, not %,d".formatted(MAX, count));
         }
     }
 
-    /** The next event. */
     void add(Cursor event, boolean desired) {
         if (desired) {
             if (beforeDesired.size() == count) {

@@ -18,12 +18,12 @@ class EventOrderTest {
     }
 
     @Test
-    void makesOneStreamOfSeveral() {
+    void mergesOrderedSequences() {
         assertThat(ids(EventOrder.merged(List.of(events("1a", "3a"), events(), events("1b", "2a", "4a")))))
                 .containsExactly("1a", "1b", "2a", "3a", "4a");
     }
 
-    /** Each is its time, one digit, and a letter. */
+    /** Creates events from ids of a digit, the time, and a letter. */
     private static Iterator<StoredEvent> events(String... ids) {
         List<StoredEvent> events = new ArrayList<>();
         for (String id : ids) {

@@ -44,7 +44,7 @@ class LatestStateTest {
     }
 
     @Test
-    void forgetsWhatWasKnownBeforeADeletion() throws Exception {
+    void dropsTheStateBeforeADeletion() throws Exception {
         assertThat(before(15)).extracting(StoredEvent::id).containsExactly("c", "r", "d");
         assertThat(before(16))
                 .extracting(LatestStateTest::text)
@@ -53,13 +53,13 @@ class LatestStateTest {
     }
 
     @Test
-    void leavesOutWhatIsOfThePointItself() throws Exception {
+    void excludesEventsAtThePoint() throws Exception {
         assertThat(before(10)).isEmpty();
         assertThat(before(11)).extracting(StoredEvent::id).containsExactly("a");
     }
 
     @Test
-    void isAbandonedBetweenPages() throws Exception {
+    void stopsBetweenPagesWhenItsThreadIsInterrupted() throws Exception {
         Path file = folder.resolve("hoeing.ndjson");
         Files.write(file, LINES);
         try (Recording recording =
@@ -77,10 +77,10 @@ class LatestStateTest {
         Files.write(file, LINES);
         try (Recording recording =
                 new FileRecordings(file.toString()).open("any").orElseThrow()) {
-            Collection<StoredEvent> atOnce = recording.stateBefore(time, Set.of(), PageLimits.DEFAULT);
+            Collection<StoredEvent> inOnePage = recording.stateBefore(time, Set.of(), PageLimits.DEFAULT);
             assertThat(recording.stateBefore(time, Set.of(), new PageLimits(2, 1_000)))
-                    .isEqualTo(atOnce);
-            return atOnce;
+                    .isEqualTo(inOnePage);
+            return inOnePage;
         }
     }
 

@@ -8,7 +8,7 @@ import java.util.Random;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-/** Events of few times, with ids of which Java's order is not that of UTF-8. */
+/** Generates events with few different times, and with ids that Java and UTF-8 order differently. */
 public final class RandomEvents {
     public static final long TIME = 1_700_000_000_000L;
 
@@ -29,7 +29,7 @@ public final class RandomEvents {
         return events;
     }
 
-    /** @param padding bytes of a value that says nothing */
+    /** @param padding bytes of a meaningless value */
     public static StoredEvent event(String id, long time, int padding) {
         JsonNodeFactory nodes = JsonNodeFactory.instance;
         ObjectNode entity = nodes.objectNode();

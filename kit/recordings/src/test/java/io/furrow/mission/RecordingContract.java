@@ -12,18 +12,18 @@ import static io.furrow.mission.RandomEvents.event;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
-/** What every kind of recording promises. */
+/** Tests the contract of all recordings. */
 public abstract class RecordingContract {
     private static final PageLimits LARGE = new PageLimits(1_000_000, Integer.MAX_VALUE);
 
-    /** A recording of these events, which come in any order. */
+    /** Returns a recording of these events, which are unordered. */
     public abstract Recording recorded(List<StoredEvent> events) throws Exception;
 
-    /** How many bytes of a page an event takes. */
+    /** Returns the bytes of an event in a page. */
     public abstract int bytes(StoredEvent event) throws Exception;
 
     @Test
-    void givesEveryEventOnceAndInOrderWhateverTheLimits() throws Exception {
+    void readsEveryEventOnceAndInOrderForAllLimits() throws Exception {
         long seed = System.nanoTime();
         Random random = new Random(seed);
         for (int round = 0; round < 60; round++) {
@@ -59,14 +59,14 @@ public abstract class RecordingContract {
             for (int round = 0; round < 60; round++) {
                 StoredEvent any = ordered.get(random.nextInt(ordered.size()));
                 Cursor after = random.nextBoolean() ? Cursor.after(any) : Cursor.before(any.time());
-                int most = 1 + random.nextInt(30);
+                int max = 1 + random.nextInt(30);
 
-                EventPage eventPage = recording.read(after, new PageLimits(most, Integer.MAX_VALUE));
+                EventPage eventPage = recording.read(after, new PageLimits(max, Integer.MAX_VALUE));
 
                 List<StoredEvent> rest = ordered.stream()
                         .filter(event -> Cursor.after(event).compareTo(after) > 0)
                         .toList();
-                List<StoredEvent> expected = rest.subList(0, Math.min(most, rest.size()));
+                List<StoredEvent> expected = rest.subList(0, Math.min(max, rest.size()));
                 assertThat(eventPage.events()).as("seed %d, %s", seed, after).isEqualTo(expected);
                 assertThat(eventPage.last()).isEqualTo(expected.size() == rest.size());
                 assertThat(eventPage.next())
@@ -76,7 +76,7 @@ public abstract class RecordingContract {
     }
 
     @Test
-    void goesBackByAsManyEventsAsAreAskedFor() throws Exception {
+    void stepsBackByTheRequestedNumberOfEvents() throws Exception {
         long seed = System.nanoTime();
         Random random = new Random(seed);
         for (int round = 0; round < 20; round++) {
@@ -121,19 +121,19 @@ public abstract class RecordingContract {
     }
 
     @Test
-    void goesBackByAtLeastOneEventAndNotByMillions() throws Exception {
+    void stepsBackByOneEventAtLeastAndNotByMillions() throws Exception {
         try (Recording recording = recorded(List.of(event("a", 7, 0)))) {
             for (long count : new long[] {-1, 0, 100_001}) {
                 assertThatThrownBy(() -> recording.back(
                                 Cursor.before(9), Cursor.START, count, event -> true, PageLimits.DEFAULT))
                         .isInstanceOf(IllegalArgumentException.class)
-                        .hasMessageStartingWith("Between 1 and 100,000 events can be gone back, not ");
+                        .hasMessageStartingWith("A step back covers 1 to 100,000 events, not ");
             }
         }
     }
 
     @Test
-    void stopsGoingBackWhenItsThreadIsInterrupted() throws Exception {
+    void stopsSteppingBackWhenItsThreadIsInterrupted() throws Exception {
         try (Recording recording = recorded(List.of(event("a", 7, 0)))) {
             Thread.currentThread().interrupt();
             assertThatThrownBy(
@@ -144,7 +144,7 @@ public abstract class RecordingContract {
     }
 
     @Test
-    void saysThatItsThreadWasInterruptedAndReadsOnAfterwards() throws Exception {
+    void reportsAnInterruptAndContinuesAfterwards() throws Exception {
         try (Recording recording = recorded(List.of(event("a", 7, 0)))) {
             Thread.currentThread().interrupt();
             assertThatThrownBy(() -> recording.read(Cursor.START, LARGE))
@@ -155,7 +155,7 @@ public abstract class RecordingContract {
     }
 
     @Test
-    void stopsBeforeTheEventThatPassesTheByteLimitAndGivesOneThatIsLargerAlone() throws Exception {
+    void endsAPageBeforeTheByteLimitAndReadsALargerEventAlone() throws Exception {
         List<StoredEvent> events =
                 List.of(event("a", 1, 10), event("b", 2, 10), event("c", 3, 5_000), event("d", 4, 10));
         int small = bytes(events.get(0));
@@ -177,7 +177,7 @@ public abstract class RecordingContract {
     }
 
     @Test
-    void tellsItsSpan() throws Exception {
+    void returnsItsSpan() throws Exception {
         try (Recording recording = recorded(List.of(event("a", 7, 0), event("b", -3, 0), event("c", 5, 0)))) {
             assertThat(recording.span()).contains(new RecordingExtent(-3, 7));
         }

@@ -3,25 +3,27 @@ package io.furrow.replay.playback;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayStatus;
 
-/** The schedule of a replay whose group has a clock; the passes of a loop are counted from that clock. */
+/** Computes the schedule of a replay that follows its group's clock, which also determines the pass of a loop. */
 final class GroupTimeline {
     private GroupTimeline() {}
 
     /**
+     * Returns the schedule as of now.
+     *
      * @param now ms of the clock of the schedule
-     * @param today epoch ms at that time
-     * @param ahead whether the replay is in the pass that the group's clock comes to next
+     * @param epochNow epoch ms at that time
+     * @param ahead whether the replay is in the pass that the group's clock enters next
      */
-    static Timeline of(DesiredReplay desired, long now, long today, boolean ahead) {
+    static Timeline of(DesiredReplay desired, long now, long epochNow, boolean ahead) {
         DesiredReplay.Clock clock = desired.clock();
-        boolean held = desired.desired() == ReplayStatus.State.PAUSED;
-        long shown = held ? clock.shows() : clock.position(today, desired.speed());
-        long passed = passed(desired, shown, ahead);
-        return new Timeline(now + clock.at() - today, clock.shows() - passed, desired.speed(), held);
+        boolean paused = desired.desired() == ReplayStatus.State.PAUSED;
+        long shown = paused ? clock.shows() : clock.position(epochNow, desired.speed());
+        long passedMillis = passedMillis(desired, shown, ahead);
+        return new Timeline(now + clock.at() - epochNow, clock.shows() - passedMillis, desired.speed(), paused);
     }
 
-    /** Event time of the passes of a loop that the clock has left behind, ms. */
-    private static long passed(DesiredReplay desired, long shown, boolean ahead) {
+    /** Returns the event time of the passes of a loop that the clock has completed, ms. */
+    private static long passedMillis(DesiredReplay desired, long shown, boolean ahead) {
         long from = desired.from(Long.MIN_VALUE);
         long length = desired.to() - from;
         if (desired.loops() && length > 0 && shown >= desired.to()) {
@@ -30,7 +32,10 @@ final class GroupTimeline {
         return ahead ? length : 0;
     }
 
-    /** A clock that was stopped or changed just before a pass of its loop ends does not know who has begun the next. */
+    /**
+     * Returns whether the replay has begun a pass that the clock of the new command has not. A clock that is paused or
+     * changed just before a pass ends does not account for the members that have begun the next one.
+     */
     static boolean isAPassAhead(Timeline timeline, DesiredReplay next, long now) {
         if (next.clock() == null || !next.loops()) {
             return false;

@@ -5,12 +5,12 @@ import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
-/** Which single steps a state of a replay still has to make of those that are requested. */
+/** Computes which of the requested single steps a replay still has to make. */
 record PendingSteps(PlaybackState at, DesiredReplay desired) {
-    /** Events that are stepped back over at once. */
+    /** Maximum number of events per step back. */
     static final int MAX_BACK = 100_000;
 
-    private boolean isHeld() {
+    private boolean isPaused() {
         return desired.desired() == ReplayStatus.State.PAUSED;
     }
 
@@ -18,26 +18,26 @@ record PendingSteps(PlaybackState at, DesiredReplay desired) {
         return desired.clock() != null;
     }
 
-    private boolean isForward() {
+    private boolean isForwardPending() {
         return desired.step() != null && desired.step().total() > at.steps;
     }
 
-    /** Those asked for before a jump, or while it runs, are not made up for. */
+    /** Drops steps that were requested before a seek or while the replay runs. */
     void dropObsolete() {
         DesiredReplay.Step step = desired.step();
         DesiredReplay.Seek seek = desired.seek();
-        if (step != null && (!isHeld() || seek != null && seek.sequence() > step.sequence())) {
+        if (step != null && (!isPaused() || seek != null && seek.sequence() > step.sequence())) {
             at.steps = step.total();
         }
     }
 
-    /** Whether a replay that is held plays the event. */
+    /** Returns whether a paused replay plays the event. */
     boolean plays(ReadyEvent next) {
         boolean repeats = at.goal != null && next.cursor().compareTo(at.goal) <= 0;
-        return isHeld() && !isOfGroup() && (repeats || isForward());
+        return isPaused() && !isOfGroup() && (repeats || isForwardPending());
     }
 
-    /** That event was played by a step. */
+    /** Records that a step has played the event. */
     void played(ReadyEvent next) {
         if (at.goal == null) {
             at.steps++;
@@ -47,25 +47,25 @@ record PendingSteps(PlaybackState at, DesiredReplay desired) {
     }
 
     /**
-     * Drops a goal that lies behind what is played next or at all, and steps forward at the end.
+     * Drops a goal that the replay has passed or cannot reach, and the steps forward at the end.
      *
-     * @param next null if it is not known, or at the end
+     * @param next null if it is not read yet, or at the end
      */
     void dropImpossible(ReadyEvent next, boolean isAtEnd) {
-        boolean passed = at.goal != null && next != null && next.cursor().compareTo(at.goal) > 0;
-        if (passed || isAtEnd) {
+        boolean isBehindGoal = at.goal != null && next != null && next.cursor().compareTo(at.goal) > 0;
+        if (isBehindGoal || isAtEnd) {
             at.goal = null;
         }
-        if (isAtEnd && isForward()) {
+        if (isAtEnd && isForwardPending()) {
             at.steps = desired.step().total();
         }
     }
 
-    /** Whether events before are to be found. Also from its end. */
-    boolean wantsBack() {
+    /** Returns whether the replay has to step back, also from its end. */
+    boolean isBackwardPending() {
         return (at.phase == Phase.PLAYING || at.phase == Phase.ENDED)
                 && at.goal == null
-                && isHeld()
+                && isPaused()
                 && !isOfGroup()
                 && desired.step() != null
                 && desired.step().total() < at.steps;
@@ -75,23 +75,23 @@ record PendingSteps(PlaybackState at, DesiredReplay desired) {
         return new ReadRequest.Back(at.epoch, at.cursor, beginning(), stepsBack());
     }
 
-    /** As many as are found at once. */
+    /** Number of events of the next step back. */
     private long stepsBack() {
         return Math.min(at.steps - desired.step().total(), MAX_BACK);
     }
 
-    /** Whether that is still requested. */
+    /** Returns whether this step back is still requested. */
     boolean awaits(ReadResult.SteppedBack steppedBack) {
-        return wantsBack() && steppedBack.count() <= stepsBack();
+        return isBackwardPending() && steppedBack.count() <= stepsBack();
     }
 
-    /** Whether there were as many events before. */
+    /** Returns whether the recording has that many earlier events. */
     boolean isWithin(ReadResult.SteppedBack steppedBack) {
         return !steppedBack.found().equals(beginning());
     }
 
-    /** Those steps back are made. */
-    void done(ReadResult.SteppedBack steppedBack) {
+    /** Counts these steps back as made. */
+    void complete(ReadResult.SteppedBack steppedBack) {
         at.steps = isWithin(steppedBack)
                 ? at.steps - steppedBack.count()
                 : desired.step().total();

@@ -13,14 +13,15 @@ import io.furrow.model.control.ReplayStatus;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
 /**
- * Plays one recording as it is requested. It is given the time, in ms of a clock that never steps back, and asks for what it has to know
- * by {@link #fetch}; every record that it returns is to be written at once. Each start, seek, step back and pass of a loop is an
- * epoch: states known before its point, then events, then an end.
+ * Plays one recording as the desired state requests. The caller passes the time, in ms of a clock that never steps
+ * back, reads the requests of {@link #fetch} and writes each returned record at once. Each start, seek, step back and
+ * pass of a loop is an epoch: the states before its point, then events, then an end.
  *
- * <p>A replay of a group follows the group's clock: it neither waits for a recording that is slow nor ends before the group does.
+ * <p>A replay of a group follows the group's clock: it neither waits for a slow recording nor ends before the group
+ * does.
  */
 public final class Playback {
-    /** A pass of a loop takes at least as long, ms: epochs are numbered, and not without end. */
+    /** Minimum duration of a pass of a loop, ms, because the number of epochs is limited. */
     static final long MIN_PASS = 1_000;
 
     private static final String NO_EPOCH_LEFT = "all " + (Epochs.LAST + 1) + " epochs are used; start another replay";
@@ -30,18 +31,18 @@ public final class Playback {
     private final PlaybackState at;
     private ReadAhead ahead;
 
-    /** Greatest epoch that its topic had records of when it went on after a restart. */
-    private long used;
-    /** Greatest timestamp that its topic had then. */
+    /** Greatest epoch on the topic after a restart. */
+    private long usedEpoch;
+    /** Greatest timestamp on the topic after a restart. */
     private long usedStamp;
-    /** Whether no checkpoint knew it. */
-    private final boolean withoutState;
+    /** Whether no checkpoint contained the replay. */
+    private final boolean isNew;
 
     private String waiting;
     private long passBegan;
 
     /**
-     * @param desired what was applied last; of a fresh state what is requested first
+     * @param desired the desired state that was applied last; of a new replay the first one
      * @param wall epoch ms at a time of the clock
      */
     public Playback(DesiredReplay desired, PlaybackState state, long now, LongUnaryOperator wall) {
@@ -49,7 +50,7 @@ public final class Playback {
         this.schedule = new Schedule(desired, wall);
         this.at = state.copy();
         boolean fresh = at.sequence < 0;
-        this.withoutState = fresh;
+        this.isNew = fresh;
         this.passBegan = fresh ? now : now - MIN_PASS;
         at.sequence = desired.sequence();
         if (fresh) {
@@ -73,19 +74,19 @@ public final class Playback {
     }
 
     /**
-     * After a restart the topic may have records that the state does not know: the numbers of their epochs are not used again, and the
-     * timestamps of other epochs do not step back behind theirs.
+     * Continues behind records that the topic has but the restored state does not: their epochs are not used again, and
+     * the timestamps of later epochs are not less than theirs.
      *
-     * @param epoch the greatest one that the topic has
-     * @param stamp the greatest timestamp that it has, epoch ms
+     * @param epoch greatest epoch on the topic
+     * @param stamp greatest timestamp on the topic, epoch ms
      */
-    public void goOnAfter(long epoch, long stamp) {
-        used = epoch;
+    public void resumeAfter(long epoch, long stamp) {
+        usedEpoch = epoch;
         usedStamp = stamp;
         waiting = null;
-        if (withoutState && at.phase == Phase.OPENING && at.epoch <= epoch) {
+        if (isNew && at.phase == Phase.OPENING && at.epoch <= epoch) {
             begin(at.start, passBegan);
-        } else if (withoutState && at.phase == Phase.OPENING) {
+        } else if (isNew && at.phase == Phase.OPENING) {
             at.stamp = Math.max(at.stamp, stamp);
         }
     }
@@ -98,25 +99,29 @@ public final class Playback {
         return desired.desired() == ReplayStatus.State.STOPPED;
     }
 
-    /** Takes what is requested now, unless it is older than what was applied; a record that this ends the epoch with is returned. */
+    /**
+     * Applies a desired state unless it is older than the last one.
+     *
+     * @return the end of the epoch, if this ends one
+     */
     public Optional<PlaybackRecord> apply(DesiredReplay next, long now) {
         if (next.sequence() <= at.sequence) {
             return Optional.empty();
         }
         boolean seeks = next.seek() != null && next.seek().sequence() > at.sequence;
-        boolean plainAgain = at.phase == Phase.BETWEEN && desired.range() != null && next.range() == null;
+        boolean leavesRange = at.phase == Phase.BETWEEN && desired.range() != null && next.range() == null;
         long position = position(now);
         long rangeEnd = desired.to();
         schedule.follow(next, at.phase == Phase.PLAYING, now);
         desired = next;
         at.sequence = next.sequence();
         steps().dropObsolete();
-        at.goal = schedule.isHeld() ? at.goal : null;
+        at.goal = schedule.isPaused() ? at.goal : null;
         schedule.anchor(now, position);
         if (isStopped()) {
-            return over(Phase.STOPPED, null, "stopped", now);
+            return finish(Phase.STOPPED, null, "stopped", now);
         }
-        if (!seeks && plainAgain) { // plays on behind the range
+        if (!seeks && leavesRange) { // plays on behind the range
             begin(schedule.isOfGroup() ? desired.clock().position(schedule.wall(now), desired.speed()) : rangeEnd, now);
         }
         if (!seeks) {
@@ -127,72 +132,80 @@ public final class Playback {
         return end;
     }
 
-    /** Ends it for good. */
+    /** Ends the replay with a failure. */
     public Optional<PlaybackRecord> fail(String reason, long now) {
-        return over(Phase.FAILED, reason, reason, now);
+        return finish(Phase.FAILED, reason, reason, now);
     }
 
-    /** Ends it because of a record that cannot be read. @param sequence of the record */
-    public Optional<PlaybackRecord> refuse(long sequence, String reason, long now) {
+    /**
+     * Fails the replay because of a desired state that cannot be read.
+     *
+     * @param sequence of the record
+     */
+    public Optional<PlaybackRecord> reject(long sequence, String reason, long now) {
         at.sequence = Math.max(at.sequence, sequence);
         return fail(reason, now);
     }
 
-    private Optional<PlaybackRecord> over(Phase how, String reason, String said, long now) {
-        Optional<PlaybackRecord> end = end(said, now);
-        at.enter(how, reason);
+    private Optional<PlaybackRecord> finish(Phase phase, String reason, String endReason, long now) {
+        Optional<PlaybackRecord> end = end(endReason, now);
+        at.enter(phase, reason);
         ahead.setPrimes(null);
         waiting = null;
         return end;
     }
 
-    /** @param reason why its topic cannot be written to, for which it waits; null if it is not known */
+    /** @param reason why the topic cannot be written to; null if that is unknown */
     public void awaitTopic(String reason) {
         waiting = reason;
     }
 
-    /** Also an epoch that could not begin: who was given the name of its topic waits for an end. */
-    private Optional<PlaybackRecord> closed(Phase how, String reason, long now) {
+    /** Writes an end even for an epoch that could not begin, because consumers of the topic wait for one. */
+    private Optional<PlaybackRecord> finishWithEnd(Phase phase, String reason, long now) {
         if (!hasBegun()) {
             at.unopened(desired);
-            at.enter(how, reason);
+            at.enter(phase, reason);
             return Optional.of(played(PlaybackRecord.Kind.END, null, reason, at.position, now));
         }
-        return over(how, reason, reason, now);
+        return finish(phase, reason, reason, now);
     }
 
-    /** Of an epoch that has begun. */
+    /** Returns the end of an epoch that has begun. */
     private Optional<PlaybackRecord> end(String reason, long now) {
         return hasBegun()
                 ? Optional.of(played(PlaybackRecord.Kind.END, null, reason, at.position, now))
                 : Optional.empty();
     }
 
-    /** Whether an epoch is under way, which ends with a record. */
+    /** Returns whether an epoch has begun and still needs an end. */
     public boolean hasBegun() {
         return at.phase == Phase.PLAYING || at.phase == Phase.PRIMING && (ahead.primes() != null || at.number > 0);
     }
 
     private void begin(Long start, long now) {
-        if (Math.max(at.epoch, used) >= Epochs.LAST) {
+        if (Math.max(at.epoch, usedEpoch) >= Epochs.LAST) {
             at.enter(Phase.FAILED, NO_EPOCH_LEFT);
             return;
         }
-        at.beginEpoch(start, used);
+        at.beginEpoch(start, usedEpoch);
         at.stamp = Math.max(at.stamp, usedStamp);
         schedule.beginEpoch();
         passBegan = now;
         startOver(now);
     }
 
-    /** What is to be read next; asked for once. */
+    /** Returns the next request, each one once. */
     public Optional<ReadRequest> fetch() {
         return ahead.fetch(at, desired);
     }
 
-    /** Takes what was read; a record that this ends the epoch with is returned. */
-    public Optional<PlaybackRecord> take(ReadResult readResult, long now) {
-        boolean awaited = !isOver() || goesBackFromEnd() && !(readResult instanceof ReadResult.NextPage);
+    /**
+     * Accepts the result of a request.
+     *
+     * @return the end of the epoch, if this ends one
+     */
+    public Optional<PlaybackRecord> accept(ReadResult readResult, long now) {
+        boolean awaited = !isOver() || isSteppingBackFromEnd() && !(readResult instanceof ReadResult.NextPage);
         if (readResult.epoch() != at.epoch || !awaited) {
             return Optional.empty();
         }
@@ -200,13 +213,13 @@ public final class Playback {
             waiting = away.reason();
             return Optional.empty();
         }
-        ahead.answered();
+        ahead.completeFetch();
         waiting = null;
         if (readResult instanceof ReadResult.Failed failed) {
-            return closed(Phase.FAILED, failed.reason(), now);
+            return finishWithEnd(Phase.FAILED, failed.reason(), now);
         } else if (readResult instanceof ReadResult.Opened opened) {
             if (opened.span().isEmpty()) {
-                return closed(Phase.ENDED, "mission '" + desired.mission() + "' has no event", now);
+                return finishWithEnd(Phase.ENDED, "mission '" + desired.mission() + "' has no event", now);
             }
             at.opened(opened.span().get(), desired);
             startOver(now);
@@ -215,10 +228,10 @@ public final class Playback {
             schedule.anchor(now, at.point);
             ahead.add(primed.first());
         } else if (readResult instanceof ReadResult.NextPage nextPage) {
-            boolean stood = ahead.peek() == null;
+            boolean stalled = ahead.peek() == null;
             ahead.add(nextPage.page());
             ReadyEvent next = next();
-            if (stood && next != null) {
+            if (stalled && next != null) {
                 schedule.resumeAfterStall(next, now);
             }
         } else if (readResult instanceof ReadResult.SteppedBack steppedBack) {
@@ -227,29 +240,29 @@ public final class Playback {
         return Optional.empty();
     }
 
-    /** Unless something else has been asked for meanwhile. */
+    /** Begins the epoch of a step back unless a newer command replaced it. */
     private Optional<PlaybackRecord> goBack(ReadResult.SteppedBack steppedBack, long now) {
         if (!steps().awaits(steppedBack)) {
             return Optional.empty();
         }
-        boolean within = steps().isWithin(steppedBack);
-        steps().done(steppedBack);
+        boolean isWithinRecording = steps().isWithin(steppedBack);
+        steps().complete(steppedBack);
         Optional<PlaybackRecord> end = end("step", now);
-        begin(within ? Long.valueOf(steppedBack.found().time()) : null, now);
-        if (within && !isOver()) {
+        begin(isWithinRecording ? Long.valueOf(steppedBack.found().time()) : null, now);
+        if (isWithinRecording && !isOver()) {
             at.goal = steppedBack.found();
         }
         return end;
     }
 
-    /** The next event; null if it is not known. */
+    /** Returns the next event; null if it is not read yet. */
     private ReadyEvent next() {
         ReadyEvent next = ahead.peek();
-        schedule.approach(next, at.position);
+        schedule.shortenGap(next, at.position);
         return next;
     }
 
-    /** The next record, if it is due. */
+    /** Returns the next record if it is due. */
     public Optional<PlaybackRecord> poll(long now) {
         if (at.phase == Phase.BETWEEN && now >= passBegan + MIN_PASS) {
             begin(null, now);
@@ -274,7 +287,7 @@ public final class Playback {
         if (next == null || !steps().plays(next) && now < schedule.due(next)) {
             return Optional.empty();
         }
-        if (schedule.isHeld()) {
+        if (schedule.isPaused()) {
             steps().played(next);
             schedule.step(next, now);
         } else {
@@ -288,15 +301,15 @@ public final class Playback {
         at.skipped += ahead.skippedOfRest();
         boolean again = desired.loops() && (schedule.isOfGroup() || hasSomethingToRepeat());
         PlaybackRecord end = played(PlaybackRecord.Kind.END, null, again ? "loop" : "ended", at.position, now);
-        String reason = desired.loops() && !again ? "there is no event to play over and over" : null;
+        String reason = desired.loops() && !again ? "the recording has no event to repeat" : null;
         at.enter(again ? Phase.BETWEEN : Phase.ENDED, reason);
         if (!again) {
-            startOver(now); // holds nothing that was read: what is asked for behind the end reads anew
+            startOver(now); // drops the buffer: a command behind the end reads again
         }
         return end;
     }
 
-    /** Whether this pass, if it was a whole one, had an event. */
+    /** Returns whether a whole pass has an event. */
     private boolean hasSomethingToRepeat() {
         return at.events > 0 || at.point > desired.from(at.first);
     }
@@ -307,7 +320,7 @@ public final class Playback {
 
     private PlaybackRecord played(PlaybackRecord.Kind kind, ReadyEvent event, String reason, long time, long now) {
         boolean rebased = desired.plan().stamps() == ReplayPlan.Stamps.NOW;
-        long offset = rebased // none is negative
+        long offset = rebased // never negative
                 ? Math.max(at.stamp, Math.max(time, schedule.wall(now))) - time
                 : at.offset;
         PlaybackRecord playbackRecord = new PlaybackRecord(kind, event, reason, at.epoch, at.number, time, offset);
@@ -315,7 +328,10 @@ public final class Playback {
         return playbackRecord;
     }
 
-    /** When {@link #poll} should be called again, ms of the clock; {@link Long#MAX_VALUE} where something else must happen first. */
+    /**
+     * Returns when {@link #poll} should be called again, ms of the clock; {@link Long#MAX_VALUE} while it waits for a
+     * result or a command.
+     */
     public long due() {
         return switch (at.phase) {
             case BETWEEN -> passBegan + MIN_PASS;
@@ -331,23 +347,22 @@ public final class Playback {
         };
     }
 
-    /** Event time that is reached, epoch ms. */
+    /** Returns the reached event time, epoch ms. */
     private long position(long now) {
         if (at.phase != Phase.PLAYING) {
             return at.position;
         }
         ReadyEvent next = next();
-        long most = next == null ? at.position : next.time(); // of what is not read yet nobody knows when it was
-        return schedule.position(now, at.position, most);
+        long max = next == null ? at.position : next.time(); // the time of an event is unknown until it is read
+        return schedule.position(now, at.position, max);
     }
 
-    /** With which it continues after a restart. */
+    /** Returns the state from which a restart continues. */
     public PlaybackState snapshot(long now) {
         ReadyEvent next = at.phase == Phase.PLAYING ? next() : null;
         PlaybackState state = at.copy();
         state.position = position(now);
-        if (next != null
-                && at.cursor.compareTo(Cursor.before(next.time())) < 0) { // nothing that is played lies between
+        if (next != null && at.cursor.compareTo(Cursor.before(next.time())) < 0) { // skips the filtered events between
             state.cursor = Cursor.before(next.time());
         }
         return state;
@@ -357,7 +372,7 @@ public final class Playback {
         return desired;
     }
 
-    /** Of the desired replay that was applied last. */
+    /** Returns the sequence of the desired state that was applied last. */
     public long sequence() {
         return at.sequence;
     }
@@ -370,29 +385,29 @@ public final class Playback {
         return at.phase.isOver();
     }
 
-    /** Whether it is over and waits for nothing to be read. */
-    public boolean rests() {
-        return isOver() && !goesBackFromEnd();
+    /** Returns whether the replay is over and has no open request. */
+    public boolean isIdle() {
+        return isOver() && !isSteppingBackFromEnd();
     }
 
-    private boolean goesBackFromEnd() {
+    private boolean isSteppingBackFromEnd() {
         return at.phase == Phase.ENDED && ahead.isFetching();
     }
 
-    /** By how much the newest event was behind its schedule, ms. */
+    /** Returns the delay of the newest event behind its schedule, ms. */
     public long lateness() {
         return schedule.lateness();
     }
 
     public ReplayStatus.State state() {
-        return at.phase.told(schedule.isHeld());
+        return at.phase.toState(schedule.isPaused());
     }
 
     /**
-     * Not settled.
+     * Returns the status, never as settled.
      *
-     * @param worst lateness since the last, ms
-     * @param rate events per second since the last
+     * @param worst maximum lateness since the last status, ms
+     * @param rate events per second since the last status
      */
     public ReplayStatus status(long now, long worst, double rate) {
         return new ReplayStatus(
@@ -403,17 +418,17 @@ public final class Playback {
                 at.progress(position(now), worst, schedule.slip(), rate, awaited(now)));
     }
 
-    /** Whether it reads what it has to know before an epoch can begin. */
+    /** Returns whether it reads the data that an epoch needs to begin. */
     public boolean isSeeking() {
         return ahead.isFetching() && !isOver() && !hasBegun() && at.phase != Phase.BETWEEN;
     }
 
-    /** What it waits for; null if it waits for nothing. */
+    /** Returns what it waits for; null if it does not wait. */
     public String awaited(long now) {
         if (waiting == null && isSeeking() && now - passBegan >= Schedule.STALL) {
             return at.phase == Phase.OPENING
-                    ? "seeking: the recording is being opened"
-                    : "seeking: what was known before %s is being read".formatted(Instant.ofEpochMilli(at.point));
+                    ? "seeking: opening the recording"
+                    : "seeking: reading the states before %s".formatted(Instant.ofEpochMilli(at.point));
         }
         return waiting == null && !isOver() ? schedule.beginsAt(now) : waiting;
     }

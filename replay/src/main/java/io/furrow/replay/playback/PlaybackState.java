@@ -11,17 +11,17 @@ import io.furrow.mission.RecordingExtent;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayStatus;
 
-/** Where a replay is; with a copy of it a playback continues at the next record. Times are event times, epoch ms. */
+/** The state of a replay, from which a playback continues at the next record. Times are event times, epoch ms. */
 public final class PlaybackState implements Cloneable {
     private static final int NO_TEXT = -1;
 
-    /** Of the desired replay that was applied last. */
+    /** Sequence of the desired state that was applied last. */
     long sequence = -1;
-    /** What is to be done next. */
+    /** The next action. */
     Phase phase = Phase.OPENING;
-    /** Why it is over; null if that needs no reason. */
+    /** Why the replay is over; null if there is no reason to report. */
     String reason;
-    /** Of the next record. */
+    /** Epoch of the next record. */
     long epoch;
     /** Sequence of the next record in its epoch. */
     long number;
@@ -29,34 +29,34 @@ public final class PlaybackState implements Cloneable {
     long offset;
     /** Timestamp of the newest record, epoch ms; 0 if there is none. */
     long stamp;
-    /** At which the epoch shall begin; null for the replay's beginning. */
+    /** Requested beginning of the epoch; null for the replay's beginning. */
     Long start;
-    /** At which the epoch begins, and from which on its event time counts. */
+    /** Actual beginning of the epoch. */
     long point;
-    /** After the last event that was played or left out. */
+    /** Position after the last event that was played or filtered out. */
     Cursor cursor = Cursor.START;
-    /** That is reached. */
+    /** Reached event time. */
     long position;
-    /** Of the recording's first event. */
+    /** Time of the recording's first event. */
     long first;
-    /** Of the recording's last event. */
+    /** Time of the recording's last event. */
     long last;
-    /** Single steps that are done or obsolete. */
+    /** Single steps that are made or obsolete. */
     long steps;
-    /** Played in this epoch. */
+    /** Events played in this epoch. */
     long events;
-    /** Played in this epoch. */
+    /** Primes played in this epoch. */
     long primes;
-    /** Stored documents of this epoch that hold no event. */
+    /** Stored documents of this epoch without a valid event. */
     long skipped;
-    /** After the event up to which a step back has to play, though the replay is held; null if none has. */
+    /** Position after the event up to which a paused replay plays to complete a step back; else null. */
     Cursor goal;
 
-    /** What a playback is about. */
+    /** The phases of a playback. */
     public enum Phase {
-        /** Learns what the recording spans. */
+        /** Reads the extent of the recording. */
         OPENING(0),
-        /** Plays what is known before the point. */
+        /** Plays the states before the point. */
         PRIMING(1),
         PLAYING(2),
         /** Waits until the next pass of a loop may begin. */
@@ -71,7 +71,7 @@ public final class PlaybackState implements Cloneable {
             this.code = code;
         }
 
-        /** By which savepoints name it; never given to another phase. */
+        /** Returns the code of the phase in savepoints, which is never reused. */
         public int code() {
             return code;
         }
@@ -90,25 +90,25 @@ public final class PlaybackState implements Cloneable {
             return this == ENDED || this == STOPPED || this == FAILED;
         }
 
-        /** How a status calls it. */
-        ReplayStatus.State told(boolean held) {
+        /** Returns the state that a status reports. */
+        ReplayStatus.State toState(boolean paused) {
             return switch (this) {
                 case ENDED -> ReplayStatus.State.ENDED;
                 case STOPPED -> ReplayStatus.State.STOPPED;
                 case FAILED -> ReplayStatus.State.FAILED;
-                default -> held ? ReplayStatus.State.PAUSED : ReplayStatus.State.RUNNING;
+                default -> paused ? ReplayStatus.State.PAUSED : ReplayStatus.State.RUNNING;
             };
         }
     }
 
-    /** Of a replay that was never played. */
+    /** Creates the state of a replay that was never played. */
     public PlaybackState() {}
 
     /**
-     * Of a replay of which nothing is known but what is on its topic.
+     * Creates the state of a replay that no checkpoint contains but that has played before.
      *
-     * @param epoch to begin with
-     * @param stamp epoch ms below which its records' timestamps must not be
+     * @param epoch first epoch to use
+     * @param stamp minimum timestamp of its records, epoch ms
      */
     public PlaybackState(long epoch, long stamp) {
         this.epoch = epoch;
@@ -144,7 +144,7 @@ public final class PlaybackState implements Cloneable {
                 epoch, reached, first, last, offset, lateness, slip, rate, events, primes, skipped, waiting);
     }
 
-    /** On to another phase, in which nothing is asked of the next epoch. */
+    /** Enters another phase and clears the requested beginning of the epoch. */
     void enter(Phase next, String why) {
         phase = next;
         reason = why;
@@ -153,7 +153,7 @@ public final class PlaybackState implements Cloneable {
 
     /**
      * @param from epoch ms; null for the replay's beginning
-     * @param used greatest epoch that is known to be used
+     * @param used greatest epoch that the topic has
      */
     void beginEpoch(Long from, long used) {
         enter(Phase.OPENING, null);
@@ -167,7 +167,7 @@ public final class PlaybackState implements Cloneable {
         goal = null;
     }
 
-    /** The offset grows where timestamps would step back. */
+    /** Begins the epoch within the recording. The offset grows if timestamps would step back. */
     void opened(RecordingExtent recordingExtent, DesiredReplay desired) {
         point = point(recordingExtent, desired);
         enter(Phase.PRIMING, null);
@@ -178,22 +178,22 @@ public final class PlaybackState implements Cloneable {
         last = recordingExtent.last();
     }
 
-    /** The epoch would have begun there, as far as that is known. */
+    /** Sets the position at which an epoch would have begun whose recording could not be opened. */
     void unopened(DesiredReplay desired) {
-        position = within(0, start == null ? desired.from(first) : start, Epochs.SPAN - 1);
+        position = clamp(0, start == null ? desired.from(first) : start, Epochs.SPAN - 1);
         offset = Math.max(offset, stamp - position);
     }
 
-    /** Where the epoch begins: as asked for, but within the recording and what is requested of it. */
+    /** Returns the beginning of the epoch: as requested, but within the recording and the replay's range. */
     private long point(RecordingExtent recordingExtent, DesiredReplay desired) {
         long from = desired.from(recordingExtent.first());
         long to = Math.min(recordingExtent.last() + 1, desired.to());
-        long least = within(0, from, Epochs.SPAN - 1);
-        return start == null ? least : within(least, start, Math.max(least, Math.min(to, Epochs.SPAN - 1)));
+        long min = clamp(0, from, Epochs.SPAN - 1);
+        return start == null ? min : clamp(min, start, Math.max(min, Math.min(to, Epochs.SPAN - 1)));
     }
 
-    private static long within(long least, long number, long most) {
-        return Math.max(least, Math.min(number, most));
+    private static long clamp(long min, long number, long max) {
+        return Math.max(min, Math.min(number, max));
     }
 
     void played(PlaybackRecord playbackRecord) {
@@ -209,7 +209,7 @@ public final class PlaybackState implements Cloneable {
         }
     }
 
-    /** As savepoints hold it: its members in their order, the phase by its code. */
+    /** Writes the format of savepoints: the members in their order, the phase as its code. */
     public void write(DataOutput out) throws IOException {
         out.writeLong(sequence);
         out.writeByte(phase.code());

@@ -10,29 +10,29 @@ import io.furrow.model.control.DesiredReplay;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
 /**
- * What has been read and is to be played: states known before the epoch, and the events that come next, at most what is left of one page
- * and the page after it. Begins anew with each epoch.
+ * Buffers the states and events of one epoch that are read but not played: at most the rest of one page and the page
+ * after it.
  */
 final class ReadAhead {
-    /** Events of a page at least: each is a question. */
+    /** Minimum events of a page, so that slow replays send few requests. */
     static final int MIN_EVENTS = 32;
 
-    /** A page is what is played in this time, ms. */
+    /** Playing time of a page, ms. */
     private static final double PAGE = 2_000;
 
     private final Deque<ReadyEvent> events = new ArrayDeque<>();
-    /** Of each event what was skipped of the pages that it ends: a restart reads again what was not played. */
+    /** For each event the skipped documents up to it; a restart reads documents behind the last played event again. */
     private final Deque<Long> skipped = new ArrayDeque<>();
-    /** Of pages behind the last event. */
+    /** Skipped documents behind the last event. */
     private long skippedSince;
 
     private Cursor loaded;
     private int newest;
-    /** Events of the recording in a millisecond of event time, of the newest page; 0 while that is not known. */
+    /** Events per millisecond of event time in the newest page; 0 until a page has two events. */
     private double density;
     /** Whether the newest page was the last one of the recording when it was read. */
     private boolean complete;
-    /** Whether there was still no more when all had been played: a mission may be recorded while it is replayed. */
+    /** Whether a second read at the end found no more events: a mission may be recorded while it is replayed. */
     private boolean confirmed;
     /** Null until they are known, and when they have been played. */
     private List<ReadyEvent> primes;
@@ -44,22 +44,22 @@ final class ReadAhead {
         this.loaded = from;
     }
 
-    /** What is to be read next; asked for once. */
+    /** Returns the next request, each one once. */
     Optional<ReadRequest> fetch(PlaybackState at, DesiredReplay desired) {
         if (fetching) {
             return Optional.empty();
         }
         ReadRequest next = null;
         PendingSteps pendingSteps = new PendingSteps(at, desired);
-        int page = expected(PAGE * desired.speed());
+        int page = expectedEvents(PAGE * desired.speed());
         if (at.phase == Phase.OPENING) {
             next = new ReadRequest.Open(at.epoch);
         } else if (at.phase == Phase.PRIMING && primes == null) {
             Cursor from = at.point <= at.first ? Cursor.START : Cursor.before(at.point);
             next = new ReadRequest.Begin(at.epoch, at.point, from, at.point > at.first, desired.loops(), page);
-        } else if (pendingSteps.wantsBack()) {
+        } else if (pendingSteps.isBackwardPending()) {
             next = pendingSteps.back();
-        } else if (at.phase == Phase.PLAYING && wantsMore(desired.to())) {
+        } else if (at.phase == Phase.PLAYING && needsMore(desired.to())) {
             next = new ReadRequest.Next(at.epoch, loaded, page);
         }
         fetching = next != null;
@@ -70,12 +70,12 @@ final class ReadAhead {
         return fetching;
     }
 
-    void answered() {
+    void completeFetch() {
         fetching = false;
     }
 
-    void setPrimes(List<ReadyEvent> known) {
-        primes = known;
+    void setPrimes(List<ReadyEvent> states) {
+        primes = states;
     }
 
     /** Null until they are known, and when they have been played. */
@@ -107,38 +107,38 @@ final class ReadAhead {
      *
      * @param to epoch ms, after the last event that is requested
      */
-    private boolean wantsMore(long to) {
+    private boolean needsMore(long to) {
         if (complete) {
             return !confirmed && events.isEmpty() && loaded.time() < to;
         }
         return loaded.time() < to && events.size() <= newest;
     }
 
-    /** How many events a page of so much event time, ms, has if the recording goes on as it was. */
-    private int expected(double millis) {
+    /** Estimates the events in an interval of event time, ms, from the density of the newest page. */
+    private int expectedEvents(double millis) {
         if (Double.isInfinite(millis)) {
             return Integer.MAX_VALUE;
         }
         return (int) Math.max(MIN_EVENTS, Math.min(Integer.MAX_VALUE, Math.ceil(density * millis)));
     }
 
-    /** The next event; null if it is not known. */
+    /** Returns the next event; null if it is not read yet. */
     ReadyEvent peek() {
         return events.peek();
     }
 
-    /** Removes the next event; returns how much was skipped until then. */
+    /** Removes the next event and returns the number of skipped documents up to it. */
     long remove() {
         events.remove();
         return skipped.remove();
     }
 
-    /** How much was skipped of what is not to be played. */
+    /** Returns the number of skipped documents among the rest, which is not played. */
     long skippedOfRest() {
         return skippedSince + skipped.stream().mapToLong(Long::longValue).sum();
     }
 
-    /** Whether nothing comes any more before this event time, epoch ms. */
+    /** Returns whether no event before this event time, epoch ms, is left. */
     boolean isOver(long to) {
         return events.isEmpty()
                 ? confirmed || loaded.time() >= to

@@ -2,38 +2,38 @@ package io.furrow.replay.playback;
 
 import io.furrow.mission.Cursor;
 
-/** What a playback has to know of its recording before it can continue. */
+/** A request of a playback to read its recording. */
 public sealed interface ReadRequest {
-    /** The epoch for which it is; an answer for another epoch comes too late. */
+    /** Returns the epoch of the request; results of other epochs are ignored. */
     long epoch();
 
-    /** The recording's span. */
+    /** Requests the recording's extent. */
     record Open(long epoch) implements ReadRequest {}
 
     /**
-     * The entities' last known states before the point, and the first page from there.
+     * Requests the last states of the entities before the point, and the first page from there.
      *
      * @param point epoch ms
-     * @param first where the page begins
-     * @param primed whether states are requested: nothing is known before the recording's first event
-     * @param repeats whether the next epoch is likely to begin at this point, too
-     * @param events of the page, at most
+     * @param first beginning of the page
+     * @param primed whether states are requested; there are none before the recording's first event
+     * @param repeats whether the next epoch probably begins at this point, too
+     * @param events maximum of the page
      */
     record Begin(long epoch, long point, Cursor first, boolean primed, boolean repeats, int events)
             implements ReadRequest {}
 
     /**
-     * The page after the cursor.
+     * Requests the page after the cursor.
      *
-     * @param events at most
+     * @param events maximum of the page
      */
     record Next(long epoch, Cursor after, int events) implements ReadRequest {}
 
     /**
-     * The event so many before the cursor.
+     * Requests the position of the event {@code count} events before the cursor.
      *
-     * @param first where the replay begins, which is the answer where there are fewer
-     * @param count of the events that are requested of the recording
+     * @param first beginning of the replay, returned if there are fewer events
+     * @param count number of events of the replay's devices
      */
     record Back(long epoch, Cursor from, Cursor first, long count) implements ReadRequest {}
 }

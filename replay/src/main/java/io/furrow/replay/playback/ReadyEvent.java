@@ -4,18 +4,18 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.Cursor;
 
 /**
- * An event, or a state known before the epoch, that is ready to be played.
+ * An event, or a state from before the epoch, that is ready to be played.
  *
- * @param cursor just after the event
- * @param record all that can be known of it before it is played
+ * @param cursor position after the event
+ * @param record the record without the members that depend on the time of playing
  */
 public record ReadyEvent(Cursor cursor, TopicRecord record) {
-    /** Event time, epoch ms. */
+    /** Returns the event time, epoch ms. */
     public long time() {
         return cursor.time();
     }
 
-    /** Of the event that was stored. */
+    /** Returns the id of the stored event. */
     public String id() {
         return cursor.id();
     }

@@ -6,21 +6,21 @@ import java.util.function.LongUnaryOperator;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayStatus;
 
-/** When the events of a replay are due, and by how much they were late. Times are those of the playback's clock, ms. */
+/** Computes when the events of a replay are due and how late they were. Times are those of the playback's clock, ms. */
 final class Schedule {
-    /** What stood still for longer continues where it stood, instead of catching up, ms. */
+    /** A replay that was stalled for longer continues at its position instead of catching up, ms. */
     static final long STALL = 1_000;
 
     private final LongUnaryOperator wall;
     private DesiredReplay desired;
     private Timeline timeline;
-    /** The next event that has been looked at for what lies before it. */
-    private ReadyEvent approached;
-    /** Whether the replay is in the pass of a loop that the group's clock comes to next. */
+    /** The next event, if the gap before it was compared with the maximum. */
+    private ReadyEvent shortenedBefore;
+    /** Whether the replay is in the pass of a loop that the group's clock enters next. */
     private boolean aheadOfClock;
 
     private long lateness;
-    /** Of the epoch, since the last restart. */
+    /** Delay of the epoch's schedule since the last restart. */
     private long slip;
 
     /** @param wall epoch ms at a time of the clock */
@@ -33,17 +33,17 @@ final class Schedule {
         return desired.clock() != null;
     }
 
-    boolean isHeld() {
+    boolean isPaused() {
         return desired.desired() == ReplayStatus.State.PAUSED;
     }
 
-    /** Epoch ms. */
+    /** Returns the epoch ms at a time of the clock. */
     long wall(long now) {
         return wall.applyAsLong(now);
     }
 
     /**
-     * From the next {@link #anchor} on by what is requested now.
+     * Follows this desired state from the next {@link #anchor} on.
      *
      * @param plays whether an epoch is being played
      */
@@ -57,16 +57,16 @@ final class Schedule {
         slip = 0;
     }
 
-    /** From now on the position is played at this moment, or when the replay shall start; in a group when its clock says so. */
+    /** Schedules the position for now, or for the requested start; in a group for the time that its clock defines. */
     void anchor(long now, long position) {
-        approached = null;
-        long today = wall(now);
+        shortenedBefore = null;
+        long epochNow = wall(now);
         if (isOfGroup()) {
-            timeline = GroupTimeline.of(desired, now, today, aheadOfClock);
+            timeline = GroupTimeline.of(desired, now, epochNow, aheadOfClock);
         } else {
             Long startAt = desired.plan().startAt();
-            long wait = startAt == null ? 0 : Math.max(0, startAt - today);
-            timeline = new Timeline(now + wait, position, desired.speed(), isHeld());
+            long wait = startAt == null ? 0 : Math.max(0, startAt - epochNow);
+            timeline = new Timeline(now + wait, position, desired.speed(), isPaused());
         }
     }
 
@@ -75,18 +75,18 @@ final class Schedule {
     }
 
     /**
-     * What lies before the next event is shortened to the longest gap.
+     * Shortens the gap before the next event to the maximum.
      *
-     * @param next null if it is not known
-     * @param position that is reached, epoch ms
+     * @param next null if it is not read yet
+     * @param position reached event time, epoch ms
      */
-    void approach(ReadyEvent next, long position) {
-        Long longest = desired.plan().maxGap();
-        if (next != null && next != approached && longest != null && !isHeld() && !isOfGroup()) {
-            approached = next;
+    void shortenGap(ReadyEvent next, long position) {
+        Long maxGap = desired.plan().maxGap();
+        if (next != null && next != shortenedBefore && maxGap != null && !isPaused() && !isOfGroup()) {
+            shortenedBefore = next;
             long gap = next.time() - Math.max(position, timeline.origin());
-            if (gap > longest) {
-                timeline = timeline.skipping(gap - longest);
+            if (gap > maxGap) {
+                timeline = timeline.skipping(gap - maxGap);
             }
         }
     }
@@ -95,17 +95,20 @@ final class Schedule {
         return timeline.due(next.time());
     }
 
-    /** When an epoch ends that has no more events: at once, or with the group; not while it is held, so that one can go back. */
+    /**
+     * Returns when an epoch without further events ends: at once, or with the group; never while it is paused, so that
+     * it can step back.
+     */
     long endDue() {
-        if (isHeld()) {
+        if (isPaused()) {
             return Timeline.NEVER;
         }
         return isOfGroup() ? timeline.due(desired.to()) : Long.MIN_VALUE;
     }
 
-    /** Of an event that was not there in time. */
+    /** Moves the schedule if the event was read too late. */
     void resumeAfterStall(ReadyEvent next, long now) {
-        if (!isOfGroup() && !isHeld() && now - due(next) > STALL) {
+        if (!isOfGroup() && !isPaused() && now - due(next) > STALL) {
             slip += now - due(next);
             anchor(now, next.time());
         }
@@ -115,29 +118,29 @@ final class Schedule {
         lateness = Double.isInfinite(desired.speed()) ? 0 : now - due(next);
     }
 
-    /** Plays an event that is due by itself. */
+    /** Plays an event as a single step. */
     void step(ReadyEvent next, long now) {
         anchor(now, next.time());
         lateness = 0;
     }
 
-    /** Event time that is reached between these two, epoch ms. */
-    long position(long now, long least, long most) {
-        return timeline.at(now, least, Math.max(least, most));
+    /** Returns the reached event time within these bounds, epoch ms. */
+    long position(long now, long min, long max) {
+        return timeline.at(now, min, Math.max(min, max));
     }
 
-    /** By how much the newest event was late, ms. */
+    /** Returns the delay of the newest event, ms. */
     long lateness() {
         return lateness;
     }
 
-    /** By how much the epoch's events come later because the recording was away, ms. */
+    /** Returns the delay of the epoch's schedule because the recording was unavailable, ms. */
     long slip() {
         return slip;
     }
 
-    /** What a replay waits for that shall not begin yet; null if that is over. */
+    /** Returns the start for which a replay waits; null if it has begun or is paused. */
     String beginsAt(long now) {
-        return isHeld() || now >= anchor() ? null : "begins at " + Instant.ofEpochMilli(wall(now) + anchor() - now);
+        return isPaused() || now >= anchor() ? null : "begins at " + Instant.ofEpochMilli(wall(now) + anchor() - now);
     }
 }

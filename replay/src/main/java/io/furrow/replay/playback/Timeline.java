@@ -3,36 +3,37 @@ package io.furrow.replay.playback;
 import io.furrow.model.control.ReplayCommand;
 
 /**
- * Absolute schedule between two changes of speed: an event of time t is due at anchor + (t − origin) / speed, rounded up to
- * milliseconds, so that nothing drifts. Stands still while it is held.
+ * An absolute schedule between two changes of speed: an event of time t is due at anchor + (t − origin) / speed,
+ * rounded up to milliseconds, so that rounding errors do not add up.
  *
  * @param anchor time of the clock at which the origin is played, ms
  * @param origin event time, epoch ms
- * @param speed {@link ReplayCommand#MAX} makes everything due at the anchor
+ * @param speed {@link ReplayCommand#MAX} makes every event due at the anchor
+ * @param paused whether the position stays at the origin
  */
-record Timeline(long anchor, long origin, double speed, boolean held) {
+record Timeline(long anchor, long origin, double speed, boolean paused) {
     static final long NEVER = Long.MAX_VALUE;
 
     long due(long time) {
-        return held ? NEVER : anchor + (long) Math.ceil((time - origin) / speed);
+        return paused ? NEVER : anchor + (long) Math.ceil((time - origin) / speed);
     }
 
-    /** The event time that is played at a time of the clock, between these two. */
-    long at(long now, long least, long most) {
+    /** Returns the event time at a time of the clock, within these bounds. */
+    long at(long now, long min, long max) {
         double reached = origin;
-        if (!held && now > anchor) {
-            reached = speed == ReplayCommand.MAX ? most : origin + Math.floor((now - anchor) * speed);
+        if (!paused && now > anchor) {
+            reached = speed == ReplayCommand.MAX ? max : origin + Math.floor((now - anchor) * speed);
         }
-        return (long) Math.max(least, Math.min(most, reached));
+        return (long) Math.max(min, Math.min(max, reached));
     }
 
-    /** The event time that is played at a time of the clock, wherever that is. */
+    /** Returns the event time at a time of the clock, without bounds. */
     long unbounded(long now) {
-        return held || now <= anchor ? origin : origin + (long) Math.floor((now - anchor) * speed);
+        return paused || now <= anchor ? origin : origin + (long) Math.floor((now - anchor) * speed);
     }
 
-    /** The same, ahead by a stretch of event time, ms. */
-    Timeline skipping(long stretch) {
-        return new Timeline(anchor, origin + stretch, speed, held);
+    /** Returns the same schedule, ahead by an interval of event time, ms. */
+    Timeline skipping(long millis) {
+        return new Timeline(anchor, origin + millis, speed, paused);
     }
 }

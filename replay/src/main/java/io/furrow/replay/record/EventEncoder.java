@@ -31,14 +31,15 @@ import io.furrow.replay.playback.ReadyEvent;
 import io.furrow.replay.playback.ReadyPage;
 
 /**
- * Makes the events of an epoch ready to be played: an event is the record that it was, with the headers of a replay. Done where events
- * are read, so that playing one costs little; headers that are the same in all records are shared. Used by one thread.
+ * Encodes the events of an epoch as records of the replay's topic: the stored event with the headers of a replay. It
+ * runs in the thread that reads, so that playing an event costs little. Equal headers of consecutive records are
+ * shared. Used by one thread.
  */
 public final class EventEncoder {
     private static final Comparator<StoredEvent> BY_ENTITY =
             Comparator.comparing(StoredEvent::entityId).thenComparing(StoredEvent::id);
-    /** Of each record by itself, whatever was stored. */
-    private static final Set<String> OWN = Set.of(
+    /** Headers that each record gets anew instead of the stored ones. */
+    private static final Set<String> REPLACED = Set.of(
             HeaderNames.CE_ID,
             HeaderNames.CE_TIME,
             HeaderNames.CE_SPECVERSION,
@@ -64,14 +65,14 @@ public final class EventEncoder {
     private final List<Header> constant;
     private final Map<String, Shared> newest = new HashMap<>();
 
-    /** The record, or what is written in its place because its topic does not take it. */
+    /** Returns the record, or a dead letter if the record is too large for its topic. */
     public interface Limit {
         TopicRecord writable(TopicRecord record) throws IOException, InterruptedException;
     }
 
     private record Shared(String text, Header header) {}
 
-    /** @param replay of which the topic, the name and the devices count */
+    /** @param replay determines the topic, the name and the devices */
     public EventEncoder(DesiredReplay replay, long epoch, Limit limit) {
         this.replay = replay;
         this.epoch = epoch;
@@ -84,14 +85,14 @@ public final class EventEncoder {
                 header(HeaderNames.REPLAY_EPOCH, Long.toString(epoch)));
     }
 
-    /** Those of the page's events that are chosen and can be played. */
+    /** Encodes the events of the replay's devices; events with an invalid time are skipped. */
     public ReadyPage page(EventPage eventPage) throws IOException, InterruptedException {
         long skipped =
                 eventPage.skipped().stream().mapToLong(SkippedRecords::count).sum();
         List<StoredEvent> read = eventPage.events();
         List<ReadyEvent> events = new ArrayList<>(read.size());
         for (StoredEvent event : read) {
-            if (event.time() < 0 || event.time() >= Epochs.SPAN) { // no timestamp of a record could say it
+            if (event.time() < 0 || event.time() >= Epochs.SPAN) { // outside of the range of replay timestamps
                 skipped++;
             } else if (isChosen(event)) {
                 events.add(event(event));
@@ -112,13 +113,14 @@ public final class EventEncoder {
     }
 
     /**
-     * The chosen ones, by entity.
+     * Encodes the states of the replay's devices, sorted by entity.
      *
      * @param point epoch ms at which the epoch begins
      */
-    public List<ReadyEvent> primes(Collection<StoredEvent> known, long point) throws IOException, InterruptedException {
+    public List<ReadyEvent> primes(Collection<StoredEvent> states, long point)
+            throws IOException, InterruptedException {
         List<StoredEvent> sorted =
-                known.stream().filter(this::isChosen).sorted(BY_ENTITY).toList();
+                states.stream().filter(this::isChosen).sorted(BY_ENTITY).toList();
         List<ReadyEvent> primes = new ArrayList<>(sorted.size());
         for (StoredEvent event : sorted) {
             primes.add(ready(event, ReplayRecords.PRIME, point));
@@ -128,11 +130,11 @@ public final class EventEncoder {
 
     private ReadyEvent ready(StoredEvent event, String kind, long time) throws IOException, InterruptedException {
         Map<String, String> stored = event.headers();
-        List<Header> headers = new ArrayList<>(stored.size() + OWN.size() + DEFAULTS.size());
+        List<Header> headers = new ArrayList<>(stored.size() + REPLACED.size() + DEFAULTS.size());
         headers.addAll(constant);
         headers.add(shared(HeaderNames.REPLAY_KIND, kind));
         for (Map.Entry<String, String> one : stored.entrySet()) {
-            if (!OWN.contains(one.getKey())) {
+            if (!REPLACED.contains(one.getKey())) {
                 headers.add(shared(one.getKey(), one.getValue()));
             }
         }
@@ -156,17 +158,17 @@ public final class EventEncoder {
         byte[] value = deleted ? null : NgsiJson.write(event.entity());
         TextHeaders texts = TextHeaders.NONE.plus(headers.toArray(Header[]::new));
         TopicRecord record = TopicRecord.of(replay.topic(), time, event.entityId(), value, texts);
-        return new ReadyEvent(Cursor.after(event), fitting(record));
+        return new ReadyEvent(Cursor.after(event), limitSize(record));
     }
 
-    /** With the longest numbers that it may get when it is played. */
-    private TopicRecord fitting(TopicRecord record) throws IOException, InterruptedException {
+    /** Checks the size of the record with the longest numbers that it may get when it is played. */
+    private TopicRecord limitSize(TopicRecord record) throws IOException, InterruptedException {
         TopicRecord longest = ReplayRecords.numbered(record, record.timestamp(), Long.MAX_VALUE, Long.MAX_VALUE);
-        TopicRecord taken = limit.writable(longest);
-        return taken == longest ? record : taken;
+        TopicRecord writable = limit.writable(longest);
+        return writable == longest ? record : writable;
     }
 
-    /** Many records have the text of the one before. */
+    /** Reuses the header of the record before if its text is the same. */
     private Header shared(String name, String text) {
         Shared before = newest.get(name);
         if (before != null && before.text().equals(text)) {

@@ -15,8 +15,9 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.replay.playback.PlaybackRecord;
 
 /**
- * What is played, as records of the replay's topic: an event as an {@link EventEncoder} has made it ready, with what is known only
- * now; an end is an entity {@code urn:ngsi-ld:Replay:<replay>} with the attribute {@code reason}, for every partition.
+ * Composes the records of a replay's topic: an event as {@link EventEncoder} prepared it, plus the headers that depend
+ * on the time of playing; an end is an entity {@code urn:ngsi-ld:Replay:<replay>} with the attribute {@code reason},
+ * for every partition.
  */
 public final class ReplayRecords {
     static final String SOURCE = "/replay";
@@ -28,7 +29,6 @@ public final class ReplayRecords {
 
     private ReplayRecords() {}
 
-    /** The record of what was played. */
     public static TopicRecord of(PlaybackRecord playbackRecord, DesiredReplay replay) {
         if (playbackRecord.event() == null) {
             return end(playbackRecord, replay);
@@ -48,12 +48,13 @@ public final class ReplayRecords {
                 ready.topic(), ready.partition(), ready.offset(), stamp, ready.key(), ready.value(), headers);
     }
 
-    /** Was made of a record with numbers that are as long as can be, unless it had no room for them. */
-    private static TopicRecord deadLetter(TopicRecord letter, PlaybackRecord playbackRecord) {
-        if (!letter.headers().containsKey(HeaderNames.REPLAY_SEQUENCE)) {
-            return letter.at(playbackRecord.stamp());
+    /** Replaces the placeholder numbers of a dead letter, unless the headers were too large to contain them. */
+    private static TopicRecord deadLetter(TopicRecord deadRecord, PlaybackRecord playbackRecord) {
+        if (!deadRecord.headers().containsKey(HeaderNames.REPLAY_SEQUENCE)) {
+            return deadRecord.at(playbackRecord.stamp());
         }
-        return letter.at(playbackRecord.stamp())
+        return deadRecord
+                .at(playbackRecord.stamp())
                 .with(Map.of(
                         HeaderNames.REPLAY_SEQUENCE,
                         Long.toString(playbackRecord.sequence()),

@@ -11,7 +11,7 @@ import org.apache.flink.core.fs.Path;
 
 import io.furrow.mission.file.RecordingFiles;
 
-/** Recordings on any file system that Flink knows. */
+/** Reads recordings from any file system of Flink. */
 record FlinkFiles() implements RecordingFiles {
     @Override
     public boolean isFolder(String path) throws IOException {

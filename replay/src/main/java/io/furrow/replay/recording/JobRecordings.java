@@ -13,10 +13,10 @@ import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.file.FileProblem;
 
 /**
- * Missions that are kept, and what else a replay may name as its source: a file of the job's folder, a topic.
+ * Opens stored missions and the other sources of a replay: a file of the job's folder, a topic.
  *
- * @param folder of exported missions, of any file system of Flink's; null if files may not be played
- * @param topics makes a recording of a topic with its own history
+ * @param folder folder of exported missions on any file system of Flink; null if files may not be played
+ * @param topics opens a topic as a recording
  */
 public record JobRecordings(Recordings missions, String folder, TopicHistories topics) implements RecordingSources {
     private static final FlinkFiles FILES = new FlinkFiles();

@@ -5,21 +5,21 @@ import io.furrow.replay.playback.ReadyEvent;
 import io.furrow.replay.playback.ReadyPage;
 
 /**
- * Bounds the heap that pages of events take of all replays of a reader together: {@value #BYTES} bytes, and {@value #MIN_PAGE_BYTES} for each
- * page beyond, or one event if that is larger. The more is held, the smaller the next page. Safe from all threads.
+ * Bounds the heap of the pages of all replays of a reader: {@value #BYTES} bytes, plus {@value #MIN_PAGE_BYTES} or one
+ * larger event for each further page. The more heap is in use, the smaller is the next page. Thread-safe.
  */
 public final class PageBudget {
     static final long BYTES = 64 * 1024 * 1024;
     static final long MIN_PAGE_BYTES = 128 * 1024;
-    /** Of what is free a page takes this part: others come at the same time. */
+    /** A page takes this fraction of the free bytes, because others are read at the same time. */
     private static final int SHARE = 4;
-    /** Bytes that an event takes beside its value: its key, its headers and its objects. */
+    /** Bytes of an event in addition to its value: key, headers and objects. */
     private static final int OVERHEAD = 1024;
 
     private final PageLimits max;
     private long held;
 
-    /** @param max of any page */
+    /** @param max limits of each page */
     public PageBudget(PageLimits max) {
         this.max = max;
     }
@@ -42,21 +42,22 @@ public final class PageBudget {
         return held;
     }
 
-    /** Those of one replay: of the two newest something may be left to be played. Used by one thread. */
+    /** The pages of one replay; the two newest may be partly unplayed. Used by one thread. */
     public final class Pages {
         private long reserved;
         private long newest;
         private long before;
 
         /**
-         * How large the next page may be, until {@link #settle}.
+         * Reserves the next page until {@link #settle} and returns its limits.
          *
-         * @param events that are requested, at least 1
+         * @param events requested number, at least 1
          */
         public PageLimits next(int events) {
             reserved = reserve();
-            long most = Math.min(reserved / 2, max.bytes()); // as stored; as much again is overhead
-            return new PageLimits((int) Math.min(Math.min(events, max.events()), reserved / 2 / OVERHEAD), (int) most);
+            long maxBytes = Math.min(reserved / 2, max.bytes()); // bytes of stored values; the other half is overhead
+            return new PageLimits(
+                    (int) Math.min(Math.min(events, max.events()), reserved / 2 / OVERHEAD), (int) maxBytes);
         }
 
         public void add(ReadyPage page) {
@@ -71,13 +72,13 @@ public final class PageBudget {
             return OVERHEAD + (value == null ? 0 : value.length);
         }
 
-        /** The page is read, or is not. */
+        /** Releases the reservation after a page was read or could not be read. */
         public void settle() {
             change(-reserved);
             reserved = 0;
         }
 
-        /** All have been played, or will not be. */
+        /** Releases all pages. */
         public void clear() {
             change(-newest - before);
             newest = 0;

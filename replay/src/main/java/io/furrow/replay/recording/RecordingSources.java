@@ -8,16 +8,16 @@ import io.furrow.mission.RecordingException;
 import io.furrow.mission.Recordings;
 import io.furrow.model.control.DesiredReplay;
 
-/** Finds the recording of a replay, wherever it is. Serializable, so that a job can carry it. */
+/** Opens the recordings of replays. Serializable, so that a job can carry it. */
 public interface RecordingSources extends Serializable {
     /**
-     * Empty if there is none.
+     * Opens the recording of a replay; empty if it does not exist.
      *
-     * @throws RecordingException if it cannot be determined now
+     * @throws RecordingException if that cannot be determined now
      */
     Optional<Recording> open(DesiredReplay replay) throws RecordingException;
 
-    /** Recordings by the name of the mission alone. */
+    /** Returns a source that opens recordings by the mission's name only. */
     static RecordingSources of(Recordings missions) {
         return replay -> missions.open(replay.mission());
     }

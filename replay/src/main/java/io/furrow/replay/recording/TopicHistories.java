@@ -10,10 +10,10 @@ import io.furrow.mission.RecordingException;
 import io.furrow.mission.topic.TopicRecordings;
 import io.furrow.model.control.DesiredReplay;
 
-/** Recordings that are topics with their own history. Serializable, so that a job can carry it. */
+/** Opens topics as recordings. Serializable, so that a job can carry it. */
 @FunctionalInterface
 public interface TopicHistories extends Serializable {
-    /** Topics of this Kafka; what came after the replay was asked for is not a part of it. */
+    /** Returns the topics of this Kafka cluster up to the creation of the replay. */
     static TopicHistories of(Properties kafka) {
         TreeMap<String, String> settings = new TreeMap<>();
         kafka.stringPropertyNames().forEach(name -> settings.put(name, kafka.getProperty(name)));
@@ -21,9 +21,9 @@ public interface TopicHistories extends Serializable {
     }
 
     /**
-     * Empty if there is no such topic.
+     * Opens a topic; empty if it does not exist.
      *
-     * @throws RecordingException if it cannot be determined now
+     * @throws RecordingException if that cannot be determined now
      */
     Optional<Recording> open(String topic, DesiredReplay replay) throws RecordingException;
 }

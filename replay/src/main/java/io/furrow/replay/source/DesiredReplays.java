@@ -10,43 +10,41 @@ import io.furrow.model.control.ReplayStatus;
 
 /** Source of the desired replays. Serializable, so that a job can carry it. */
 public interface DesiredReplays extends Serializable {
-    /** Whether all that will ever be wanted is known at once. */
+    /** Returns whether the desired replays are fixed from the start. */
     boolean isBounded();
 
-    /** Begins to read, from the beginning. */
+    /** Begins to read from the beginning. */
     Reading open();
 
     /**
-     * What is requested of a replay.
+     * A change of a replay's desired state.
      *
      * @param desired value of its record; null if it was removed
      */
     record ReplayUpdate(String replay, byte[] desired) {}
 
-    /**
-     * What was reported of a replay before.
-     *
-     * @param replay its name
-     */
+    /** The newest status of a replay before the job started. */
     record ReportedStatus(String replay, ReplayStatus status) {}
 
-    /** Used by one thread at a time. What throws an {@link IOException} cannot be read now and is called again. */
+    /**
+     * Reads desired replays; used by one thread at a time. A method that throws an {@link IOException} is called again.
+     */
     interface Reading extends AutoCloseable {
-        /** What has been notified of replays until now; called until it was read. */
+        /** Returns the reported statuses; called until it succeeds. */
         List<ReportedStatus> reportedStatuses() throws IOException;
 
-        /** What came since the last call; waits a moment where nothing did. */
+        /** Returns the changes since the last call; waits a moment if there are none. */
         List<ReplayUpdate> poll() throws IOException;
 
-        /** Whether everything was returned that was there at the beginning. */
+        /** Returns whether all records that existed at the beginning were returned. */
         boolean isCaughtUp() throws IOException;
 
-        /** From any thread; ends a call that is under way. */
+        /** Ends a call in progress. Thread-safe. */
         @Override
         void close();
     }
 
-    /** One replay and no other. */
+    /** A single desired replay. */
     record One(String replay, byte[] desired) implements DesiredReplays {
         private static final Duration IDLE = Duration.ofMillis(500);
 
@@ -82,7 +80,7 @@ public interface DesiredReplays extends Serializable {
 
                 @Override
                 public void close() {
-                    // holds nothing
+                    // no resources
                 }
             };
         }

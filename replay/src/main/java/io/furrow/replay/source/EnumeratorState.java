@@ -2,5 +2,5 @@ package io.furrow.replay.source;
 
 import java.util.List;
 
-/** What the enumerator has to keep: replays that no reader has. What is requested it reads again. */
+/** The checkpointed state of the enumerator: replays without a reader. Desired states are read again. */
 record EnumeratorState(List<ReplaySplit> splits) {}

@@ -8,11 +8,11 @@ import org.apache.flink.core.io.SimpleVersionedSerializer;
 import org.apache.flink.core.memory.DataInputDeserializer;
 import org.apache.flink.core.memory.DataOutputSerializer;
 
-/** Writes {@link EnumeratorState}: version of the splits, their number, each behind its length. */
+/** Serializes {@link EnumeratorState}: version of the splits, their number, then length and bytes of each. */
 final class EnumeratorStateSerializer implements SimpleVersionedSerializer<EnumeratorState> {
     private static final int VERSION = 1;
 
-    private final ReplaySplitSerializer each = new ReplaySplitSerializer();
+    private final ReplaySplitSerializer splitSerializer = new ReplaySplitSerializer();
 
     @Override
     public int getVersion() {
@@ -22,10 +22,10 @@ final class EnumeratorStateSerializer implements SimpleVersionedSerializer<Enume
     @Override
     public byte[] serialize(EnumeratorState replays) throws IOException {
         DataOutputSerializer out = new DataOutputSerializer(64);
-        out.writeInt(each.getVersion());
+        out.writeInt(splitSerializer.getVersion());
         out.writeInt(replays.splits().size());
         for (ReplaySplit split : replays.splits()) {
-            byte[] bytes = each.serialize(split);
+            byte[] bytes = splitSerializer.serialize(split);
             out.writeInt(bytes.length);
             out.write(bytes);
         }
@@ -35,8 +35,8 @@ final class EnumeratorStateSerializer implements SimpleVersionedSerializer<Enume
     @Override
     public EnumeratorState deserialize(int version, byte[] bytes) throws IOException {
         if (version != VERSION) {
-            throw new IOException("replays without a reader, of version " + version + ", are unknown, known is "
-                    + VERSION + "; start the release that wrote them, or without the savepoint");
+            throw new IOException("unknown version " + version + " of the replays without a reader, expected " + VERSION
+                    + "; start the release that wrote them, or start without the savepoint");
         }
         DataInputDeserializer in = new DataInputDeserializer(bytes);
         int splitVersion = in.readInt();
@@ -45,7 +45,7 @@ final class EnumeratorStateSerializer implements SimpleVersionedSerializer<Enume
         for (int i = 0; i < count; i++) {
             byte[] split = new byte[in.readInt()];
             in.readFully(split);
-            splits.add(each.deserialize(splitVersion, split));
+            splits.add(splitSerializer.deserialize(splitVersion, split));
         }
         if (in.available() > 0) {
             throw new IOException(in.available() + " bytes follow the replays without a reader");

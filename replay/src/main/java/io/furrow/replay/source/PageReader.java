@@ -34,8 +34,8 @@ import io.furrow.replay.record.EventEncoder;
 import io.furrow.replay.recording.PageBudget;
 
 /**
- * Reads the recording of one replay, in a thread that it has as long as there is something to read: a recording that is slow or away
- * holds up no other. What cannot be read now is tried again, at first after a second, then after ever longer, half a minute at most.
+ * Reads the recording of one replay in its own thread, so that a slow or unavailable recording delays no other replay.
+ * Failed reads are retried after 1 s, then at growing intervals of up to 30 s.
  */
 final class PageReader implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(PageReader.class);
@@ -43,7 +43,7 @@ final class PageReader implements AutoCloseable {
     private static final long MAX_RETRY_MILLIS = 30_000;
     private static final long IDLE_SECONDS = 10;
     private static final int MAX_LOGGED = 10;
-    /** A page of what is read but not played. */
+    /** Limits of pages that are scanned but not played. */
     private static final PageLimits SCANNED = new PageLimits(100, 128 * 1024);
 
     private final DesiredReplay replay;
@@ -53,27 +53,27 @@ final class PageReader implements AutoCloseable {
     private final PageBudget.Pages pages;
     private final ScheduledThreadPoolExecutor thread;
     private volatile ReadRequest newest;
-    /** Under way, or to be tried again. */
+    /** The read in progress or its retry. */
     private Future<?> reading;
 
     private boolean prepared;
-    /** Of the last beginning, which the next pass of a loop may share; null if there was none. */
+    /** States of the last beginning, which the next pass of a loop reuses; null if there are none. */
     private List<StoredEvent> primes;
 
     private long primesPoint;
-    /** What of the recording was logged as left out. */
-    private final Set<String> leftOut = new HashSet<>();
+    /** Skipped documents that were logged. */
+    private final Set<String> loggedSkips = new HashSet<>();
 
     private Recording recording;
     private EventEncoder encoder;
     private long encodedEpoch;
 
-    /** What has to be done before the first page is read. */
+    /** Prepares the replay before its first page is read. */
     interface Preparation {
         void run() throws IOException, InterruptedException;
     }
 
-    /** @param out takes the answers, in the reading thread */
+    /** @param out accepts the results, called by the reading thread */
     PageReader(DesiredReplay replay, Preparation preparation, RunningReplay.Reading shared, Consumer<ReadResult> out) {
         this.replay = replay;
         this.preparation = preparation;
@@ -85,7 +85,7 @@ final class PageReader implements AutoCloseable {
         thread.allowCoreThreadTimeOut(true);
     }
 
-    /** Reads in place of what it was still asked for, which is interrupted. */
+    /** Interrupts a request in progress and reads for this one. */
     synchronized void read(ReadRequest readRequest) {
         newest = readRequest;
         interrupt();
@@ -98,19 +98,19 @@ final class PageReader implements AutoCloseable {
         }
     }
 
-    /** Does what has to be done before the first page, also where none is read. */
+    /** Runs the preparation without a request. */
     void prepareSoon() {
-        thread.execute(() -> prepareOr(FIRST_RETRY_MILLIS));
+        thread.execute(() -> prepareWithRetry(FIRST_RETRY_MILLIS));
     }
 
-    private void prepareOr(long retryMillis) {
+    private void prepareWithRetry(long retryMillis) {
         try {
             prepare();
         } catch (IOException e) {
-            LOG.info("Replay {} waits", replay.replay(), e);
+            LOG.info("Replay {} waits for its topic", replay.replay(), e);
             if (!thread.isShutdown()) {
-                long longer = Math.min(2 * retryMillis, MAX_RETRY_MILLIS);
-                thread.schedule(() -> prepareOr(longer), retryMillis, TimeUnit.MILLISECONDS);
+                long nextRetryMillis = Math.min(2 * retryMillis, MAX_RETRY_MILLIS);
+                thread.schedule(() -> prepareWithRetry(nextRetryMillis), retryMillis, TimeUnit.MILLISECONDS);
             }
         } catch (InterruptedException e) {
             LOG.debug("Replay {} is closed", replay.replay(), e);
@@ -124,18 +124,18 @@ final class PageReader implements AutoCloseable {
         try {
             prepare();
             out.accept(answer(readRequest));
-        } catch (InterruptedException | RecordingInterruptedException e) { // the recording can still be read
-            LOG.debug("Nobody waits for {} of replay {} any more", readRequest, replay.replay(), e);
+        } catch (InterruptedException | RecordingInterruptedException e) { // the recording stays open
+            LOG.debug("Reading {} of replay {} was cancelled", readRequest, replay.replay(), e);
         } catch (RecordingDeletedException e) {
             release();
             out.accept(new ReadResult.Failed(readRequest.epoch(), e.getMessage()));
         } catch (IOException e) { // of the recording or the topic
             release();
-            LOG.info("Replay {} waits", replay.replay(), e);
+            LOG.info("Replay {} waits for its recording or topic", replay.replay(), e);
             out.accept(new ReadResult.Unavailable(readRequest.epoch(), e.getMessage()));
-            long longer = Math.min(2 * retryMillis, MAX_RETRY_MILLIS);
-            retry(readRequest, longer, retryMillis);
-        } catch (RuntimeException | Error e) { // a fault of the reader is this replay's end, and nobody else's
+            long nextRetryMillis = Math.min(2 * retryMillis, MAX_RETRY_MILLIS);
+            retry(readRequest, nextRetryMillis, retryMillis);
+        } catch (RuntimeException | Error e) { // a defect of the reader fails this replay only
             release();
             LOG.error("Recording of replay {} cannot be read", replay.replay(), e);
             out.accept(
@@ -143,9 +143,9 @@ final class PageReader implements AutoCloseable {
         }
     }
 
-    private synchronized void retry(ReadRequest readRequest, long longer, long afterMillis) {
+    private synchronized void retry(ReadRequest readRequest, long nextRetryMillis, long afterMillis) {
         if (readRequest == newest) {
-            reading = thread.schedule(() -> attempt(readRequest, longer), afterMillis, TimeUnit.MILLISECONDS);
+            reading = thread.schedule(() -> attempt(readRequest, nextRetryMillis), afterMillis, TimeUnit.MILLISECONDS);
         }
     }
 
@@ -160,7 +160,7 @@ final class PageReader implements AutoCloseable {
         if (recording == null) {
             Optional<Recording> opened = shared.recordings().open(replay);
             if (opened.isEmpty()) {
-                return new ReadResult.Failed(readRequest.epoch(), missing());
+                return new ReadResult.Failed(readRequest.epoch(), missingMessage());
             }
             recording = opened.get();
         }
@@ -195,7 +195,8 @@ final class PageReader implements AutoCloseable {
 
     private void logSkipped(EventPage eventPage) {
         for (SkippedRecords skippedRecords : eventPage.skipped()) {
-            if (leftOut.size() < MAX_LOGGED && leftOut.add(skippedRecords.what() + ": " + skippedRecords.reason())) {
+            if (loggedSkips.size() < MAX_LOGGED
+                    && loggedSkips.add(skippedRecords.what() + ": " + skippedRecords.reason())) {
                 LOG.info(
                         "Replay {} skips {} ({}): {}",
                         replay.replay(),
@@ -214,7 +215,7 @@ final class PageReader implements AutoCloseable {
         return encoder;
     }
 
-    private String missing() {
+    private String missingMessage() {
         ReplayPlan.Source source = replay.plan().source();
         if (source == null) {
             return "there is no mission '" + replay.mission() + "'";
@@ -252,12 +253,12 @@ final class PageReader implements AutoCloseable {
         }
     }
 
-    /** Asks no more for what it was asked for, and holds no connection until it is asked again. */
-    synchronized void rest() {
+    /** Cancels the request in progress and closes the recording until the next request. */
+    synchronized void suspend() {
         newest = null;
         interrupt();
         thread.execute(() -> {
-            prepared = false; // somebody may delete the topic meanwhile
+            prepared = false; // the topic may be deleted until then
             release();
             pages.clear();
         });

@@ -6,32 +6,35 @@ import io.furrow.replay.playback.PlaybackState;
 import io.furrow.replay.topic.TopicEnd;
 import io.furrow.replay.topic.TopicWatch;
 
-/** What is known of the topic of a replay. Learned by the threads that read pages and watch topics, asked by the task's. */
+/** Tracks the topic of a replay. Written by the threads that read pages and watch topics, read by the task's thread. */
 final class PlayedTopic implements TopicWatch.Watched {
     private final RunningReplay.Reading reading;
-    private final Runnable changed;
-    /** Whether it goes on after a restart, and first has to know what its topic has. */
+    private final Runnable onChange;
+    /** Whether the replay continues after a restart, for which it needs the end of its topic. */
     private final boolean restored;
-    /** Valid as soon as the partitions are known. */
+    /** Valid once the partitions are known. */
     private volatile TopicEnd end = TopicEnd.EMPTY;
     /** 0 until they are known. */
     private volatile int partitions;
 
-    private volatile String refusal;
+    private volatile String problem;
     private volatile boolean deleted;
-    private volatile boolean rests;
+    private volatile boolean idle;
 
     /**
      * @param state of the replay when it was assigned
-     * @param changed called by any thread when something else is known
+     * @param onChange called by any thread after a change
      */
-    PlayedTopic(PlaybackState state, RunningReplay.Reading reading, Runnable changed) {
+    PlayedTopic(PlaybackState state, RunningReplay.Reading reading, Runnable onChange) {
         this.reading = reading;
-        this.changed = changed;
+        this.onChange = onChange;
         this.restored = state.sequence() >= 0 || state.epoch() > 0;
     }
 
-    /** Makes the topic where it is not there, also after a restart: a savepoint goes on at a cluster that is new. */
+    /**
+     * Creates the topic if it does not exist, also after a restart, because a savepoint may be restored on a new
+     * cluster.
+     */
     void prepare(String topic) throws IOException, InterruptedException {
         try {
             boolean isFirst = partitions == 0;
@@ -40,13 +43,13 @@ final class PlayedTopic implements TopicWatch.Watched {
                 end = reading.topics().end(topic);
             }
             partitions = found;
-            refusal = null;
+            problem = null;
             reading.watch().add(topic, this);
         } catch (IOException e) {
-            refusal = e.getMessage();
+            problem = e.getMessage();
             throw e;
         } finally {
-            changed.run();
+            onChange.run();
         }
     }
 
@@ -54,7 +57,7 @@ final class PlayedTopic implements TopicWatch.Watched {
         return restored;
     }
 
-    /** Whether it may have records already: of this replay before a restart, or of another that was played on it. */
+    /** Returns whether the topic may have records: of this replay before a restart, or of an earlier replay. */
     boolean hasRecords() {
         return restored || end.epoch() >= 0;
     }
@@ -67,32 +70,32 @@ final class PlayedTopic implements TopicWatch.Watched {
         return partitions;
     }
 
-    /** Why it cannot be made or read now; null if it can, or nobody has tried. */
-    String refusal() {
-        return refusal;
+    /** Returns why the topic cannot be created or read now; null if it can or nothing was tried yet. */
+    String problem() {
+        return problem;
     }
 
-    /** Whether it was deleted since this was asked last. */
+    /** Returns whether the topic was deleted since the last call. */
     boolean wasDeleted() {
         boolean was = deleted;
         deleted = false;
         return was;
     }
 
-    /** @param nobody whether nobody plays on it */
-    void setResting(boolean nobody) {
-        rests = nobody;
+    /** @param isIdle whether nothing is played on the topic */
+    void setIdle(boolean isIdle) {
+        idle = isIdle;
     }
 
     @Override
     public boolean isPlaying() {
-        return !rests;
+        return !idle;
     }
 
     @Override
     public void deleted(int left) {
         partitions = left;
         deleted = true;
-        changed.run();
+        onChange.run();
     }
 }

@@ -6,22 +6,22 @@ import java.util.function.LongSupplier;
 /**
  * The clock of schedules, which never steps back.
  *
- * @param nanos from any beginning
+ * @param nanos from an arbitrary origin
  */
 record ReplayClock(LongSupplier nanos) {
     static final ReplayClock SYSTEM = new ReplayClock(System::nanoTime);
 
-    /** Now, ms. */
+    /** Returns the time, ms. */
     long now() {
         return TimeUnit.NANOSECONDS.toMillis(nanos.getAsLong());
     }
 
-    /** Nanoseconds from now until a time of this clock, ms. */
+    /** Returns the nanoseconds until a time of this clock, ms. */
     long nanosUntil(long time) {
         return TimeUnit.MILLISECONDS.toNanos(time) - nanos.getAsLong();
     }
 
-    /** Epoch ms at a time of this clock. */
+    /** Returns the epoch ms at a time of this clock. */
     long wall(long time) {
         return System.currentTimeMillis() - (now() - time);
     }

@@ -24,9 +24,9 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.replay.playback.PlaybackState;
 
 /**
- * Assigns each desired replay to the reader that has the fewest, and sends that reader its changes. Begins when all
- * readers are there and all desiredStates are known: readers report the replays that a checkpoint gave them, and whatever
- * nobody wants any more is removed.
+ * Assigns each desired replay to the reader with the fewest replays and sends that reader its changes. It begins when
+ * all readers are registered and all desired states are read: readers report the replays of their checkpoint, and
+ * replays that are no longer desired are removed.
  */
 final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, EnumeratorState> {
     private static final Logger LOG = LoggerFactory.getLogger(ReplayEnumerator.class);
@@ -36,19 +36,19 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, EnumeratorS
     private final SplitEnumeratorContext<ReplaySplit> context;
     private final DesiredReplays source;
     private final Map<String, byte[]> desired = new LinkedHashMap<>();
-    private final Map<String, ReplayStatus> told = new HashMap<>();
+    private final Map<String, ReplayStatus> reported = new HashMap<>();
     private final Map<String, ReplaySplit> unassigned = new LinkedHashMap<>();
     private final Map<String, Integer> readers = new HashMap<>();
     private final Counter rejected;
-    private volatile DesiredReplays.Reading desiredStates;
+    private volatile DesiredReplays.Reading reading;
     private boolean caughtUp;
-    /** Of the reading thread. */
+    /** Used by the reading thread. */
     private boolean isReportedRead;
 
-    /** What one call of the reading thread found. */
+    /** The result of one call of the reading thread. */
     private record Found(
-            List<DesiredReplays.ReportedStatus> told,
-            List<DesiredReplays.ReplayUpdate> desiredStates,
+            List<DesiredReplays.ReportedStatus> reported,
+            List<DesiredReplays.ReplayUpdate> updates,
             boolean caughtUp) {}
 
     ReplayEnumerator(SplitEnumeratorContext<ReplaySplit> context, DesiredReplays source, EnumeratorState state) {
@@ -62,17 +62,17 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, EnumeratorS
 
     @Override
     public void start() {
-        desiredStates = source.open();
+        reading = source.open();
         context.callAsync(this::read, this::found, 0, PAUSE_MILLIS);
     }
 
-    /** First what was reported before, then what is wanted. */
+    /** Reads the reported statuses first, then the desired states. */
     private Found read() throws IOException {
         try {
             if (isReportedRead) {
-                return new Found(List.of(), desiredStates.poll(), desiredStates.isCaughtUp());
+                return new Found(List.of(), reading.poll(), reading.isCaughtUp());
             }
-            List<DesiredReplays.ReportedStatus> before = desiredStates.reportedStatuses();
+            List<DesiredReplays.ReportedStatus> before = reading.reportedStatuses();
             isReportedRead = true;
             return new Found(before, List.of(), false);
         } catch (IOException e) {
@@ -83,59 +83,59 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, EnumeratorS
 
     private void found(Found found, Throwable failure) {
         if (failure instanceof IOException) {
-            LOG.warn("The desired replays cannot be read now; retrying", failure);
+            LOG.warn("Cannot read service.replays, retrying", failure);
             return;
         }
-        require(failure);
-        found.told().forEach(one -> told.put(one.replay(), one.status()));
-        for (DesiredReplays.ReplayUpdate replayUpdate : found.desiredStates()) {
-            note(replayUpdate);
+        requireReadable(failure);
+        found.reported().forEach(one -> reported.put(one.replay(), one.status()));
+        for (DesiredReplays.ReplayUpdate replayUpdate : found.updates()) {
+            applyUpdate(replayUpdate);
         }
         boolean first = found.caughtUp() && !caughtUp;
         caughtUp |= found.caughtUp();
         if (first) {
-            told.keySet().retainAll(desired.keySet());
+            reported.keySet().retainAll(desired.keySet());
         }
-        if (first || !found.desiredStates().isEmpty()) {
+        if (first || !found.updates().isEmpty()) {
             assign();
         }
     }
 
-    private static void require(Throwable failure) {
+    private static void requireReadable(Throwable failure) {
         if (failure != null) {
-            throw new FlinkRuntimeException("It cannot be read which replays are wanted", failure);
+            throw new FlinkRuntimeException("cannot read service.replays", failure);
         }
     }
 
-    private void note(DesiredReplays.ReplayUpdate replayUpdate) {
+    private void applyUpdate(DesiredReplays.ReplayUpdate replayUpdate) {
         if (replayUpdate.replay() == null
                 || !ReplayCommand.REPLAY.matcher(replayUpdate.replay()).matches()) {
             LOG.warn(
-                    "A record of service.replays is skipped: its key {} is not the name of a replay",
+                    "Skipping a record of service.replays: its key {} is not the name of a replay",
                     replayUpdate.replay());
             rejected.inc();
             return;
         }
         if (replayUpdate.desired() == null) {
             desired.remove(replayUpdate.replay());
-            told.remove(replayUpdate.replay());
+            reported.remove(replayUpdate.replay());
         } else {
             desired.put(replayUpdate.replay(), replayUpdate.desired());
         }
         Integer reader = readers.get(replayUpdate.replay());
         if (reader != null) {
-            tell(reader, replayUpdate.replay());
+            sendUpdate(reader, replayUpdate.replay());
         }
     }
 
-    /** What is requested of it by now. */
-    private void tell(int reader, String replay) {
+    /** Sends the current desired state of a replay to its reader. */
+    private void sendUpdate(int reader, String replay) {
         if (context.registeredReaders().containsKey(reader)) {
             context.sendEventToSourceReader(reader, new ReplayChangeEvent(replay, desired.get(replay)));
         }
         if (!desired.containsKey(replay)) {
             readers.remove(replay);
-            told.remove(replay);
+            reported.remove(replay);
         }
     }
 
@@ -144,8 +144,8 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, EnumeratorS
             return;
         }
         desired.forEach((replay, value) -> {
-            if (!readers.containsKey(replay) && !unassigned.containsKey(replay) && !wasOver(replay, value)) {
-                fresh(replay, value);
+            if (!readers.containsKey(replay) && !unassigned.containsKey(replay) && !isSettled(replay, value)) {
+                addNew(replay, value);
             }
         });
         List<ReplaySplit> splits = new ArrayList<>(unassigned.values());
@@ -154,29 +154,32 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, EnumeratorS
             int reader = leastBusy();
             readers.put(split.replay(), reader);
             context.assignSplit(split, reader);
-            tell(reader, split.replay());
+            sendUpdate(reader, split.replay());
         }
-        if (source.isBounded()) { // also to readers that are there again after a failure
+        if (source.isBounded()) { // also to readers that registered again after a failure
             context.registeredReaders().keySet().forEach(context::signalNoMoreSplits);
         }
     }
 
-    /** Whether it was reported for good that the desired state is reached: the control plane is about to forget it. */
-    private boolean wasOver(String replay, byte[] value) {
-        ReplayStatus status = told.get(replay);
+    /**
+     * Returns whether a settled status reports that this desired state is over; the control plane is about to delete
+     * the replay.
+     */
+    private boolean isSettled(String replay, byte[] value) {
+        ReplayStatus status = reported.get(replay);
         if (status == null || !status.state().isOver() || !status.settled()) {
             return false;
         }
         try {
             return status.sequence() >= DesiredReplay.read(replay, value).sequence();
-        } catch (UnreadableException e) { // its reader will say so
+        } catch (UnreadableException e) { // its reader reports it
             return false;
         }
     }
 
-    /** One that no checkpoint knows; of what was reported of it before, epochs and timestamps continue. */
-    private void fresh(String replay, byte[] value) {
-        ReplayStatus status = told.remove(replay);
+    /** Adds a replay that no checkpoint contains; its epochs and timestamps continue from its last status. */
+    private void addNew(String replay, byte[] value) {
+        ReplayStatus status = reported.remove(replay);
         PlaybackState state = new PlaybackState();
         if (status != null && status.progress() != null) {
             ReplayStatus.Progress progress = status.progress();
@@ -196,17 +199,17 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, EnumeratorS
     }
 
     /**
-     * The replays that it had are those that it reports, or come back by {@link #addSplitsBack}. Of those of a checkpoint another
-     * reader may have some since, which continues with them.
+     * Takes over the replays that the reader reports; its others return by {@link #addSplitsBack}. Replays of its
+     * checkpoint that another reader has meanwhile stay there.
      */
     @Override
     public void addReader(int reader) {
         readers.values().removeIf(other -> other == reader);
-        List<ReplaySplit> reported =
+        List<ReplaySplit> restored =
                 context.registeredReaders().get(reader).<ReplaySplit>getReportedSplitsOnRegistration().stream()
                         .filter(split -> !readers.containsKey(split.replay()))
                         .toList();
-        addSplitsBack(reported, reader);
+        addSplitsBack(restored, reader);
     }
 
     @Override
@@ -220,7 +223,7 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, EnumeratorS
 
     @Override
     public void handleSplitRequest(int reader, String host) {
-        // readers do not ask
+        // readers send no requests
     }
 
     @Override
@@ -230,8 +233,8 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, EnumeratorS
 
     @Override
     public void close() {
-        if (desiredStates != null) {
-            desiredStates.close();
+        if (reading != null) {
+            reading.close();
         }
     }
 }

@@ -10,9 +10,9 @@ import org.apache.flink.runtime.metrics.groups.AbstractMetricGroup;
 import io.furrow.model.control.ReplayStatus;
 
 /**
- * Gauges of a reader: {@code replaysRunning}, and of each replay, as its newest status says, {@code state} (0 running, 1 paused, 2
- * ended, 3 stopped, 4 failed; −1 before the first), {@code position} in epoch ms of event time, {@code lateness} and {@code slip} in ms, and {@code
- * eventsPerSecond}.
+ * Registers the gauges of a reader: {@code replaysRunning}, and for each replay, from its newest status, {@code state}
+ * (0 running, 1 paused, 2 ended, 3 stopped, 4 failed; −1 before the first), {@code position} in epoch ms of event time,
+ * {@code lateness} and {@code slip} in ms, and {@code eventsPerSecond}.
  */
 final class ReplayMetrics {
     private final MetricGroup reader;
@@ -41,7 +41,7 @@ final class ReplayMetrics {
         groups.put(replay, group);
     }
 
-    /** Flink keeps the metrics of a group for as long as the task lives, unless it is closed. */
+    /** Closes the replay's group; otherwise Flink keeps its metrics as long as the task lives. */
     void remove(RunningReplay replay) {
         if (groups.remove(replay) instanceof AbstractMetricGroup<?> group) {
             group.close();

@@ -31,9 +31,9 @@ import io.furrow.replay.topic.ReplayTopics;
 import io.furrow.replay.topic.TopicWatch;
 
 /**
- * Plays its replays, each when it is due, and rests in between: a timer or the answer of a {@link PageReader} wakes it up. Nothing in
- * the task's thread waits for a recording. What is due takes turns, the longest due first, for about a millisecond; then a barrier may
- * pass.
+ * Plays its replays when they are due and sleeps in between, until a timer or a result of a {@link PageReader} wakes it
+ * up. The task's thread never waits for a recording. Due replays take turns of about a millisecond, the longest due
+ * first, so that barriers can pass.
  */
 final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
     private static final long PASS_NANOS = TimeUnit.MILLISECONDS.toNanos(1);
@@ -46,8 +46,8 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
     private final Map<String, RunningReplay> replays = new LinkedHashMap<>();
     private final PriorityQueue<RunningReplay> byDue =
             new PriorityQueue<>(Comparator.comparingLong(RunningReplay::due));
-    /** Have received something, and are due therefore. */
-    private final Queue<RunningReplay> called = new ConcurrentLinkedQueue<>();
+    /** Replays that received a result or a change. */
+    private final Queue<RunningReplay> toRunSoon = new ConcurrentLinkedQueue<>();
 
     private volatile boolean wokenUp;
     private volatile CompletableFuture<Void> available = CompletableFuture.completedFuture(null);
@@ -70,7 +70,7 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
                 new TopicWatch(topics, TOPIC_CHECKS),
                 dead,
                 clock,
-                this::call);
+                this::runSoon);
         this.metrics = new ReplayMetrics(context.metricGroup());
     }
 
@@ -96,7 +96,7 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
         if (event instanceof ReplayChangeEvent desired && replays.containsKey(desired.replay())) {
             RunningReplay replay = replays.get(desired.replay());
             replay.update(desired.desired());
-            call(replay);
+            runSoon(replay);
         }
     }
 
@@ -109,21 +109,21 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
     @Override
     public InputStatus pollNext(ReaderOutput<TopicRecord> output) {
         wokenUp = false;
-        for (RunningReplay replay = called.poll(); replay != null; replay = called.poll()) {
+        for (RunningReplay replay = toRunSoon.poll(); replay != null; replay = toRunSoon.poll()) {
             if (byDue.remove(replay)) { // else it was removed meanwhile
                 replay.dueNow();
                 byDue.add(replay);
             }
         }
-        long until = clock.nanos().getAsLong() + PASS_NANOS;
+        long endNanos = clock.nanos().getAsLong() + PASS_NANOS;
         do {
             runNext(output);
-        } while (isDue() && clock.nanos().getAsLong() - until < 0);
+        } while (isDue() && clock.nanos().getAsLong() - endNanos < 0);
         if (noMoreSplits && replays.values().stream().allMatch(RunningReplay::isOver)) {
             replays.values().forEach(ReplayReader::requireSuccess);
             return InputStatus.END_OF_INPUT;
         }
-        return isDue() ? goOn() : rest();
+        return isDue() ? moreAvailable() : sleepUntilDue();
     }
 
     private boolean isDue() {
@@ -145,7 +145,7 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
         }
     }
 
-    /** Nobody reads a status of a job that ends: it fails in its replay's stead. */
+    /** Fails the job with its replay, because a bounded job reports no status. */
     private static void requireSuccess(RunningReplay replay) {
         replay.failure().ifPresent(reason -> {
             throw new SuppressRestartsException(
@@ -153,19 +153,19 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
         });
     }
 
-    private InputStatus goOn() {
+    private InputStatus moreAvailable() {
         available.complete(null);
         return InputStatus.MORE_AVAILABLE;
     }
 
-    private InputStatus rest() {
+    private InputStatus sleepUntilDue() {
         available = new CompletableFuture<>();
         if (alarm != null) {
             alarm.cancel(false);
             alarm = null;
         }
-        if (wokenUp) { // after the future was made: who wakes from now on completes it
-            return goOn();
+        if (wokenUp) { // after the future was set: later calls of wakeUp complete it
+            return moreAvailable();
         }
         if (!byDue.isEmpty() && byDue.peek().due() != Long.MAX_VALUE) {
             alarm = timer.schedule(this::wakeUp, clock.nanosUntil(byDue.peek().due()), TimeUnit.NANOSECONDS);
@@ -173,9 +173,9 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
         return InputStatus.NOTHING_AVAILABLE;
     }
 
-    /** From any thread. */
-    private void call(RunningReplay replay) {
-        called.add(replay);
+    /** Schedules a run of the replay. Thread-safe. */
+    private void runSoon(RunningReplay replay) {
+        toRunSoon.add(replay);
         wakeUp();
     }
 
@@ -200,7 +200,7 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
     public void notifyCheckpointComplete(long checkpoint) {
         for (RunningReplay replay : replays.values()) {
             if (replay.completed(checkpoint)) {
-                call(replay);
+                runSoon(replay);
             }
         }
     }

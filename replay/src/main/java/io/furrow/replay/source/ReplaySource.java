@@ -17,8 +17,8 @@ import io.furrow.replay.recording.RecordingSources;
 import io.furrow.replay.topic.ReplayTopics;
 
 /**
- * Plays all replays that are requested; its records name their topics, {@code service.replays.status} among them. Replays are divided
- * among the readers again after each restart.
+ * Plays all desired replays; the records name their topics, including {@code service.replays.status}. After each
+ * restart the replays are distributed among the readers again.
  */
 public final class ReplaySource
         implements Source<TopicRecord, ReplaySplit, EnumeratorState>, SupportsSplitReassignmentOnRecovery {
@@ -29,7 +29,6 @@ public final class ReplaySource
     private final PageLimits limits;
     private final ReplayTopics topics;
 
-    /** @param desired where it is said which replays shall be played */
     public ReplaySource(DesiredReplays desired, RecordingSources recordings, PageLimits limits, ReplayTopics topics) {
         this.desired = desired;
         this.recordings = recordings;

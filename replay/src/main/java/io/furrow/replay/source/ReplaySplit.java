@@ -5,7 +5,7 @@ import org.apache.flink.api.connector.source.SourceSplit;
 import io.furrow.replay.playback.PlaybackState;
 
 /**
- * A replay, and where it is.
+ * A replay and its state.
  *
  * @param replay its name
  * @param desired value of the record of {@code service.replays} that was applied last; not to be changed

@@ -10,7 +10,7 @@ import org.apache.flink.core.memory.DataOutputSerializer;
 
 import io.furrow.replay.playback.PlaybackState;
 
-/** Writes a {@link ReplaySplit}. */
+/** Serializes a {@link ReplaySplit}. */
 final class ReplaySplitSerializer implements SimpleVersionedSerializer<ReplaySplit> {
     /** Name, desired record, {@link PlaybackState}. */
     private static final int VERSION = 2;
@@ -35,8 +35,8 @@ final class ReplaySplitSerializer implements SimpleVersionedSerializer<ReplaySpl
     @Override
     public ReplaySplit deserialize(int version, byte[] bytes) throws IOException {
         if (version != VERSION) {
-            throw new IOException("a replay's state of version " + version + " is unknown, known is " + VERSION
-                    + "; start the release that wrote it, or without the savepoint");
+            throw new IOException("unknown version " + version + " of a replay's state, expected " + VERSION
+                    + "; start the release that wrote it, or start without the savepoint");
         }
         DataInputDeserializer in = new DataInputDeserializer(bytes);
         String replay = new String(readBytes(in), StandardCharsets.UTF_8);

@@ -26,7 +26,10 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
-/** What {@code service.replays} says, and {@code service.replays.status} of the time before. A topic that is not there is awaited. */
+/**
+ * Reads the desired replays from {@code service.replays}, and earlier statuses from {@code service.replays.status}.
+ * Waits for a topic that does not exist.
+ */
 public final class ReplaysTopic implements DesiredReplays {
     private static final long serialVersionUID = 1L;
     private static final Logger LOG = LoggerFactory.getLogger(ReplaysTopic.class);
@@ -55,7 +58,7 @@ public final class ReplaysTopic implements DesiredReplays {
         return key == null ? null : new String(key, StandardCharsets.UTF_8);
     }
 
-    /** The newest status of each replay; holds no more than these, however many there were. */
+    /** Returns the newest status of each replay; never holds more than one per replay in memory. */
     static List<ReportedStatus> newest(TopicSnapshot statuses) throws IOException {
         Map<String, TopicRecord> newest = new HashMap<>();
         statuses.forEach(record -> {
@@ -65,15 +68,15 @@ public final class ReplaysTopic implements DesiredReplays {
                 newest.put(text(record.key()), record);
             }
         });
-        List<ReportedStatus> told = new ArrayList<>();
+        List<ReportedStatus> reported = new ArrayList<>();
         newest.forEach((replay, record) -> {
             try {
-                told.add(new ReportedStatus(replay, ReplayStatus.read(record.value())));
+                reported.add(new ReportedStatus(replay, ReplayStatus.read(record.value())));
             } catch (UnreadableException e) {
-                LOG.warn("The status {} is skipped", record.position(), e);
+                LOG.warn("Skipping the status {}", record.position(), e);
             }
         });
-        return told;
+        return reported;
     }
 
     private static final class FromKafka implements Reading {
@@ -94,18 +97,17 @@ public final class ReplaysTopic implements DesiredReplays {
 
         @Override
         public synchronized List<ReplayUpdate> poll() throws IOException {
-            List<ReplayUpdate> desiredStates = new ArrayList<>();
+            List<ReplayUpdate> updates = new ArrayList<>();
             try {
                 if (!closed && (assigned || assign())) {
-                    reader.poll(POLL)
-                            .forEach(record -> desiredStates.add(new ReplayUpdate(record.key(), record.value())));
+                    reader.poll(POLL).forEach(record -> updates.add(new ReplayUpdate(record.key(), record.value())));
                 }
             } catch (WakeupException e) { // it is being closed
                 return List.of();
             } catch (RetriableException e) {
-                throw away(e);
+                throw unavailable(e);
             }
-            return desiredStates;
+            return updates;
         }
 
         private boolean assign() {
@@ -123,11 +125,11 @@ public final class ReplaysTopic implements DesiredReplays {
             } catch (WakeupException e) { // it is being closed
                 return false;
             } catch (RetriableException e) {
-                throw away(e);
+                throw unavailable(e);
             }
         }
 
-        private static IOException away(RetriableException failure) {
+        private static IOException unavailable(RetriableException failure) {
             return new IOException(Topics.REPLAYS + " cannot be read: " + FailureText.of(failure), failure);
         }
 

@@ -24,46 +24,46 @@ import io.furrow.replay.topic.ReplayTopics;
 import io.furrow.replay.topic.TopicWatch;
 
 /**
- * A replay assigned to a reader, and its playback while its desired state is readable. Used by the task's thread; only
- * answers of its {@link PageReader} come in from another.
+ * A replay assigned to a reader, with its playback once its desired state is readable. Used by the task's thread; only
+ * results of its {@link PageReader} arrive from another.
  */
 final class RunningReplay {
-    /** Records before another replay's turn, statuses and ends excepted. */
+    /** Maximum events and primes per turn. */
     private static final int TURN = 16;
 
-    /** Stands for the end of it among the desiredStates. */
+    /** Marks the removal of the replay among its updates. */
     private static final byte[] REMOVED = {};
 
     private static final String DELETED = "its topic was deleted while it was played";
 
     private final String name;
-    private final Deque<byte[]> desiredStates = new ArrayDeque<>();
+    private final Deque<byte[]> updates = new ArrayDeque<>();
     private final Queue<ReadResult> answers = new ConcurrentLinkedQueue<>();
     private final StatusReports reports;
     private final Reading reading;
     private byte[] desired;
-    private PlaybackState refusedAt;
-    private String refusal;
-    /** Sequence of the record that cannot be read. */
-    private long refused;
+    private PlaybackState initialState;
+    private String rejection;
+    /** Sequence of the desired state that cannot be read. */
+    private long rejectedSequence;
 
     private Playback playback;
     private PageReader pages;
     private long due;
     private boolean removed;
-    /** Whether it is over and nothing is read for it. */
-    private boolean rests;
+    /** Whether it is over and has no open request. */
+    private boolean idle;
 
     private final PlayedTopic topic;
-    /** Whether its topic is asked for that it needs to go on after a restart. */
-    private boolean asked;
-    /** Whether it goes on after what its topic has. */
-    private boolean goesOn;
+    /** Whether the topic's end was requested, which the replay needs after a restart. */
+    private boolean preparing;
+    /** Whether it continued behind the end of its topic. */
+    private boolean resumed;
 
     /**
-     * What replays share.
+     * The resources that the replays of a reader share.
      *
-     * @param call lets the reader run a replay soon, from any thread
+     * @param runSoon schedules a run of a replay, from any thread
      */
     record Reading(
             RecordingSources recordings,
@@ -72,17 +72,17 @@ final class RunningReplay {
             TopicWatch watch,
             DeadLetterCounters dead,
             ReplayClock clock,
-            Consumer<RunningReplay> call) {}
+            Consumer<RunningReplay> runSoon) {}
 
     RunningReplay(ReplaySplit split, Reading reading) {
         this.name = split.replay();
         this.reading = reading;
         this.reports = new StatusReports(name, split.state().phase().isOver());
-        this.refusedAt = split.state();
+        this.initialState = split.state();
         this.topic =
-                new PlayedTopic(split.state(), reading, () -> reading.call().accept(this));
+                new PlayedTopic(split.state(), reading, () -> reading.runSoon().accept(this));
         this.desired = split.desired();
-        take(split.desired());
+        apply(split.desired());
         dueNow();
     }
 
@@ -92,53 +92,57 @@ final class RunningReplay {
 
     /** @param next value of the newest record of {@code service.replays}; null if it was removed */
     void update(byte[] next) {
-        desiredStates.add(next == null ? REMOVED : next);
+        updates.add(next == null ? REMOVED : next);
     }
 
-    /** Begins the playback, or the next part of it; a record that this ends the epoch with is returned. */
-    private Optional<PlaybackRecord> take(byte[] next) {
+    /**
+     * Applies a desired state and creates the playback with the first one.
+     *
+     * @return the end of the epoch, if this ends one
+     */
+    private Optional<PlaybackRecord> apply(byte[] next) {
         long now = reading.clock().now();
         try {
             DesiredReplay replay = DesiredReplay.read(name, next);
             desired = next;
-            refusal = null;
+            rejection = null;
             if (playback != null) {
                 return playback.apply(replay, now);
             }
-            playback = new Playback(replay, refusedAt, now, reading.clock()::wall);
+            playback = new Playback(replay, initialState, now, reading.clock()::wall);
             pages = new PageReader(replay, () -> topic.prepare(replay.topic()), reading, answer -> {
                 answers.add(answer);
-                reading.call().accept(this);
+                reading.runSoon().accept(this);
             });
             return Optional.empty();
         } catch (UnreadableException e) {
-            refusal = "the record of service.replays cannot be read: " + e.getMessage();
-            refused = DesiredReplay.sequence(next);
-            return playback == null ? Optional.empty() : playback.refuse(refused, refusal, now);
+            rejection = "the record of service.replays cannot be read: " + e.getMessage();
+            rejectedSequence = DesiredReplay.sequence(next);
+            return playback == null ? Optional.empty() : playback.reject(rejectedSequence, rejection, now);
         }
     }
 
     /**
-     * After a restart a replay goes on only when its topic is known: what ends an epoch goes to every partition, and the next one's number
-     * must be new. One that is over needs that not before it is requested again.
+     * Returns whether the replay waits for the end of its topic, which it needs after a restart: an end record goes to
+     * every partition, and the next epoch needs a new number. A replay that is over needs it only when desired again.
      */
     private boolean awaitsTopic() {
         if (!topic.isRestored()
                 || playback == null
                 || topic.partitions() > 0
-                || playback.isOver() && !isWished()
-                || topic.refusal() != null && isToEnd()) { // without a record: there is nothing that takes it
+                || playback.isOver() && !isDesiredAgain()
+                || topic.problem() != null && isToStop()) { // stops without an end record, which it cannot write
             return false;
         }
-        if (!asked) {
-            asked = true;
+        if (!preparing) {
+            preparing = true;
             pages.prepareSoon();
         }
         return true;
     }
 
-    private boolean isToEnd() {
-        byte[] last = desiredStates.peekLast();
+    private boolean isToStop() {
+        byte[] last = updates.peekLast();
         try {
             return last == REMOVED
                     || last != null && DesiredReplay.read(name, last).desired() == ReplayStatus.State.STOPPED;
@@ -147,11 +151,11 @@ final class RunningReplay {
         }
     }
 
-    private boolean isWished() {
-        return desiredStates.stream().anyMatch(update -> update != REMOVED);
+    private boolean isDesiredAgain() {
+        return updates.stream().anyMatch(update -> update != REMOVED);
     }
 
-    /** When it wants to be run, ms of the clock; {@link Long#MAX_VALUE} where something else must happen first. */
+    /** Returns when it is due, ms of the clock; {@link Long#MAX_VALUE} while it waits for a result or a change. */
     long due() {
         return due;
     }
@@ -160,44 +164,44 @@ final class RunningReplay {
         due = Math.min(due, reading.clock().now());
     }
 
-    /** Does what is to be done by now, or a turn of it; who has more to do comes after all that are due. */
+    /** Runs one turn; a replay with more due records runs again after all others that are due. */
     void run(Consumer<TopicRecord> out) {
         long next = runOnce(out);
         due = Math.max(next, reading.clock().now());
     }
 
-    private void goOnAfterItsTopic() {
-        if (topic.hasRecords() && !goesOn && playback != null && topic.partitions() > 0) {
-            goesOn = true;
-            playback.goOnAfter(topic.end().epoch(), topic.end().timestamp());
+    private void resumeAfterTopicEnd() {
+        if (topic.hasRecords() && !resumed && playback != null && topic.partitions() > 0) {
+            resumed = true;
+            playback.resumeAfter(topic.end().epoch(), topic.end().timestamp());
         }
     }
 
     private long runOnce(Consumer<TopicRecord> out) {
         if (awaitsTopic()) {
-            playback.awaitTopic(topic.refusal());
+            playback.awaitTopic(topic.problem());
             reports.report(playback, reading.clock().now(), out);
             return reports.due(playback);
         }
-        goOnAfterItsTopic();
-        while (!desiredStates.isEmpty()) {
-            byte[] update = desiredStates.remove();
+        resumeAfterTopicEnd();
+        while (!updates.isEmpty()) {
+            byte[] update = updates.remove();
             if (update == REMOVED) {
                 remove(out);
                 return Long.MAX_VALUE;
             }
-            take(update).ifPresent(playbackRecord -> write(playbackRecord, out));
+            apply(update).ifPresent(playbackRecord -> write(playbackRecord, out));
         }
         if (playback == null) {
-            reports.reportRefused(Math.max(refused, refusedAt.sequence()), refusal, out);
+            reports.reportRejected(Math.max(rejectedSequence, initialState.sequence()), rejection, out);
             return Long.MAX_VALUE;
         }
         if (topic.wasDeleted() && !playback.isOver()) {
             playback.fail(DELETED, reading.clock().now()).ifPresent(playbackRecord -> write(playbackRecord, out));
         }
         for (ReadResult answer = answers.poll(); answer != null; answer = answers.poll()) {
-            goOnAfterItsTopic(); // known before the answer came
-            playback.take(answer, reading.clock().now()).ifPresent(playbackRecord -> write(playbackRecord, out));
+            resumeAfterTopicEnd(); // the end was read before this result
+            playback.accept(answer, reading.clock().now()).ifPresent(playbackRecord -> write(playbackRecord, out));
         }
         boolean more = true;
         for (int i = 0; more && i < TURN; i++) {
@@ -207,17 +211,17 @@ final class RunningReplay {
             more = played.isPresent();
         }
         reports.report(playback, reading.clock().now(), out);
-        if (playback.rests() != rests) {
-            rests = playback.rests();
-            topic.setResting(rests);
-            if (rests) {
-                pages.rest();
+        if (playback.isIdle() != idle) {
+            idle = playback.isIdle();
+            topic.setIdle(idle);
+            if (idle) {
+                pages.suspend();
             }
         }
         return Math.min(playback.due(), reports.due(playback));
     }
 
-    /** An end goes to every partition: event time of a reader follows the slowest, so each one has to hear of it. */
+    /** Writes a record; an end to every partition, because a consumer's event time follows the slowest one. */
     private void write(PlaybackRecord playbackRecord, Consumer<TopicRecord> out) {
         reports.count(playbackRecord, playback.lateness());
         DesiredReplay replay = playback.desired();
@@ -236,13 +240,13 @@ final class RunningReplay {
 
     private void remove(Consumer<TopicRecord> out) {
         if (playback != null) {
-            playback.fail("nobody wants it any more", reading.clock().now())
+            playback.fail("the replay was removed", reading.clock().now())
                     .ifPresent(playbackRecord -> write(playbackRecord, out));
         }
         removed = true;
     }
 
-    /** Whether it is to be forgotten. */
+    /** Returns whether the replay was removed. */
     boolean isRemoved() {
         return removed;
     }
@@ -251,10 +255,10 @@ final class RunningReplay {
         return playback == null || playback.isOver();
     }
 
-    /** Why it failed; empty if it did not. */
+    /** Returns why it failed; empty if it did not. */
     Optional<String> failure() {
         if (playback == null) {
-            return Optional.of(refusal);
+            return Optional.of(rejection);
         }
         ReplayStatus status = playback.status(0, 0, 0);
         return status.state() == ReplayStatus.State.FAILED ? Optional.of(status.reason()) : Optional.empty();
@@ -271,12 +275,15 @@ final class RunningReplay {
         return new ReplaySplit(
                 name,
                 desired,
-                playback == null ? refusedAt : playback.snapshot(reading.clock().now()));
+                playback == null
+                        ? initialState
+                        : playback.snapshot(reading.clock().now()));
     }
 
     /**
-     * @param checkpoint that is complete
-     * @return whether there is something to be reported therefore
+     * Handles a completed checkpoint.
+     *
+     * @return whether the status has changed
      */
     boolean completed(long checkpoint) {
         return reports.completed(checkpoint);

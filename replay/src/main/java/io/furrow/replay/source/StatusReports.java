@@ -11,8 +11,9 @@ import io.furrow.replay.playback.Playback;
 import io.furrow.replay.playback.PlaybackRecord;
 
 /**
- * Reports the status of a replay: twice a second while it runs, not all replays at once, and on each change. A replay that is over is reported
- * again, as settled, when a checkpoint holds that it is over: whoever forgets it then will not see it come back.
+ * Reports the status of a replay on each change, and every 500 ms while it runs, at a different phase for each replay.
+ * When a checkpoint contains the end of a replay, its status is reported again as settled: the replay then cannot
+ * return after a restart.
  */
 final class StatusReports {
     private static final int INTERVAL_MILLIS = 500;
@@ -20,10 +21,10 @@ final class StatusReports {
     private static final double MILLIS = 1_000;
 
     private final String replay;
-    /** Of its ticks, ms. */
+    /** Phase of its reports, ms. */
     private final int phase;
-    /** Read by metrics, too. */
-    private volatile ReplayStatus told;
+    /** The last status; metrics read it, too. */
+    private volatile ReplayStatus reported;
 
     private long reportedAt;
     private long tick;
@@ -34,7 +35,7 @@ final class StatusReports {
     private long storedIn = NONE;
     private boolean settled;
 
-    /** @param settled whether the state from which it continues is that of a replay that is over */
+    /** @param settled whether the restored state is that of a replay that is over */
     StatusReports(String replay, boolean settled) {
         this.replay = replay;
         this.phase = Math.floorMod(replay.hashCode(), INTERVAL_MILLIS);
@@ -48,42 +49,42 @@ final class StatusReports {
         }
     }
 
-    /** Number of the state that was reported last; −1 where none was. */
+    /** Returns the ordinal of the last reported state; −1 before the first report. */
     int state() {
-        ReplayStatus last = told;
+        ReplayStatus last = reported;
         return last == null ? -1 : last.state().ordinal();
     }
 
-    /** Event time that was reported last, epoch ms; 0 where none was. */
+    /** Returns the last reported event time, epoch ms; 0 before the first report. */
     long position() {
-        ReplayStatus last = told;
+        ReplayStatus last = reported;
         return last == null || last.progress() == null ? 0 : last.progress().position();
     }
 
-    /** By how much the latest event since the last report was behind its schedule, ms. */
+    /** Returns the maximum lateness since the report before the last, ms. */
     long lateness() {
         return Math.max(lateness, worst);
     }
 
-    /** By how much the epoch's schedule was moved when it was last reported, ms; 0 where none was. */
+    /** Returns the last reported delay of the epoch's schedule, ms; 0 before the first report. */
     long slip() {
-        ReplayStatus last = told;
+        ReplayStatus last = reported;
         return last == null || last.progress() == null ? 0 : last.progress().slipMillis();
     }
 
-    /** Events per second, until the last report. */
+    /** Returns the events per second before the last report. */
     double rate() {
         return rate;
     }
 
-    /** @param checkpoint that will hold that the replay is over */
+    /** @param checkpoint that will contain the end of the replay */
     void stored(long checkpoint) {
         if (storedIn == NONE) {
             storedIn = checkpoint;
         }
     }
 
-    /** @return whether that settles it */
+    /** @return whether the end of the replay is now settled */
     boolean completed(long checkpoint) {
         boolean settles = !settled && storedIn != NONE && checkpoint >= storedIn;
         settled |= settles;
@@ -95,8 +96,8 @@ final class StatusReports {
             storedIn = NONE;
             settled = false;
         }
-        if (told == null || now >= due(playback) || hasChanged(playback, now)) {
-            long millis = Math.max(1, told == null ? INTERVAL_MILLIS : now - reportedAt);
+        if (reported == null || now >= due(playback) || hasChanged(playback, now)) {
+            long millis = Math.max(1, reported == null ? INTERVAL_MILLIS : now - reportedAt);
             rate = Math.round(events * MILLIS / millis * 10) / 10.0;
             lateness = worst;
             write(playback.status(now, worst, rate), out);
@@ -107,39 +108,43 @@ final class StatusReports {
         }
     }
 
-    /** At least half an interval later, so that rates are of a time that counts. */
+    /** Returns the next report, at least half an interval later, so that rates cover enough time. */
     private long tickAfter(long now) {
         long half = now + INTERVAL_MILLIS / 2;
         return half + INTERVAL_MILLIS - Math.floorMod(half - phase, INTERVAL_MILLIS);
     }
 
     private boolean hasChanged(Playback playback, long now) {
-        return told.sequence() != playback.sequence()
-                || told.state() != playback.state()
-                || told.settled() != (settled && playback.isOver())
-                || told.progress() == null
-                || told.progress().epoch() != playback.epoch()
-                || !Objects.equals(told.progress().waiting(), playback.awaited(now));
+        return reported.sequence() != playback.sequence()
+                || reported.state() != playback.state()
+                || reported.settled() != (settled && playback.isOver())
+                || reported.progress() == null
+                || reported.progress().epoch() != playback.epoch()
+                || !Objects.equals(reported.progress().waiting(), playback.awaited(now));
     }
 
-    /** Of a replay of which it cannot be read what is requested. */
-    void reportRefused(long sequence, String reason, Consumer<TopicRecord> out) {
-        if (told == null || told.settled() != settled || told.sequence() != sequence || !reason.equals(told.reason())) {
+    /** Reports a replay whose desired state cannot be read. */
+    void reportRejected(long sequence, String reason, Consumer<TopicRecord> out) {
+        if (reported == null
+                || reported.settled() != settled
+                || reported.sequence() != sequence
+                || !reason.equals(reported.reason())) {
             write(new ReplayStatus(sequence, ReplayStatus.State.FAILED, reason, false, null), out);
         }
     }
 
     private void write(ReplayStatus status, Consumer<TopicRecord> out) {
-        told = new ReplayStatus(
+        reported = new ReplayStatus(
                 status.sequence(),
                 status.state(),
                 status.reason(),
                 settled && status.state().isOver(),
                 status.progress());
-        out.accept(TopicRecord.of(Topics.REPLAYS_STATUS, System.currentTimeMillis(), replay, told.toBytes(), Map.of()));
+        out.accept(TopicRecord.of(
+                Topics.REPLAYS_STATUS, System.currentTimeMillis(), replay, reported.toBytes(), Map.of()));
     }
 
-    /** When the next report is due, unless something changes before. */
+    /** Returns when the next report is due without a change. */
     long due(Playback playback) {
         boolean moves = playback.state() == ReplayStatus.State.RUNNING || playback.isSeeking() || events > 0;
         return moves ? tick : Long.MAX_VALUE;

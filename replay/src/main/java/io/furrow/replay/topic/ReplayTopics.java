@@ -14,50 +14,50 @@ import io.furrow.flink.kafka.LimitRecordSize;
 import io.furrow.flink.kafka.TopicOptions;
 import io.furrow.flink.record.TopicRecord;
 
-/** Where replays are played. Serializable, so that a job can carry it. */
+/** Gives access to the topics of replays. Serializable, so that a job can carry it. */
 public interface ReplayTopics extends Serializable {
-    /** For the lifetime of a reader. */
+    /** Opens the topics for the lifetime of a reader. */
     Writing open();
 
-    /** What a reader writes to. */
+    /** The topics as a reader uses them. Thread-safe except for {@link #writable} and {@link #close}. */
     interface Writing extends AutoCloseable {
         /**
-         * Makes the topic where it is not there, and waits for the broker; from any thread.
+         * Creates the topic if it does not exist, and waits for the broker.
          *
-         * @return its partitions
-         * @throws IOException if that cannot be done now; the message says what to do
+         * @return its number of partitions
+         * @throws IOException if that is not possible now; the message says what to do
          */
         int prepare(String topic) throws IOException, InterruptedException;
 
         /**
-         * The newest of what the topic has, committed or not; from any thread.
+         * Reads the greatest epoch and timestamp of the topic, committed or not.
          *
-         * @throws IOException if that cannot be read now
+         * @throws IOException if the topic cannot be read now
          */
         TopicEnd end(String topic) throws IOException, InterruptedException;
 
         /**
-         * The broker's ids of those topics that it has heard of: a topic that is made again has another; from any thread.
+         * Returns the ids of those topics that exist; a topic that is created again has another id.
          *
-         * @throws IOException if that cannot be asked now
+         * @throws IOException if the broker cannot be asked now
          */
         Map<String, String> ids(Collection<String> topics) throws IOException, InterruptedException;
 
-        /** The record, or what is written in its place because the topic does not take it. */
+        /** Returns the record, or a dead letter if the record is too large for its topic. */
         TopicRecord writable(TopicRecord record) throws IOException, InterruptedException;
 
         @Override
         void close();
     }
 
-    /** The topics of a job on Kafka. */
+    /** Returns the topics of a job on Kafka. */
     static ReplayTopics of(JobOptions options, TopicOptions.Settings settings) {
         Properties client = options.kafkaProperties();
         client.setProperty(ConsumerConfig.BOOTSTRAP_SERVERS_CONFIG, options.bootstrapServers());
         return new OnKafka(new EnsureTopics(options, settings), new TopicEndReader(client));
     }
 
-    /** Topics are made as the job's options say. */
+    /** Creates topics as the job's options say. */
     record OnKafka(EnsureTopics topics, TopicEndReader ends) implements ReplayTopics {
         @Override
         public Writing open() {

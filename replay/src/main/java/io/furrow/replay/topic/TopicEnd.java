@@ -1,10 +1,10 @@
 package io.furrow.replay.topic;
 
 /**
- * The newest of what a replay's topic has.
+ * The end of a replay's topic.
  *
- * @param epoch the greatest one; −1 if it has none
- * @param timestamp the greatest one, epoch ms; 0 if there is none
+ * @param epoch greatest epoch; −1 if there is none
+ * @param timestamp greatest timestamp, epoch ms; 0 if there is none
  */
 public record TopicEnd(long epoch, long timestamp) {
     public static final TopicEnd EMPTY = new TopicEnd(-1, 0);

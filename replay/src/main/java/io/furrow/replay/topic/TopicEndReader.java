@@ -21,17 +21,18 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.text.FailureText;
 
 /**
- * Reads the greatest epoch and timestamp at the end of a replay's topic, whether its transaction was committed or not. A checkpoint may be
- * older than what was written since: an epoch's number must not be used for two contents, and timestamps must not step back.
+ * Reads the greatest epoch and timestamp at the end of a replay's topic, including records of uncommitted transactions.
+ * The topic may have records that are newer than the checkpoint; the number of an epoch must not be used twice, and
+ * timestamps must not step back.
  *
- * @param client settings of Kafka clients, {@code bootstrap.servers} among them
+ * @param client settings of Kafka clients, including {@code bootstrap.servers}
  */
 record TopicEndReader(Properties client) implements Serializable {
     private static final Duration POLL = Duration.ofMillis(200);
-    /** The last offsets of a partition may be those of transaction markers, which are no records. */
+    /** The last offsets of a partition may be those of transaction markers, which are not records. */
     private static final long TAIL_OFFSETS = 100;
 
-    /** @throws IOException if Kafka cannot be asked now */
+    /** @throws IOException if Kafka is unavailable */
     TopicEnd of(String topic) throws IOException, InterruptedException {
         Properties settings = CommittedReader.settings(client);
         settings.setProperty(ConsumerConfig.ISOLATION_LEVEL_CONFIG, "read_uncommitted");

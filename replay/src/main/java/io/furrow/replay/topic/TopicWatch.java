@@ -17,9 +17,10 @@ import org.slf4j.LoggerFactory;
 import io.furrow.kafka.DaemonThreads;
 
 /**
- * Asks every second whether the topics that replays are played on are still there. One that was deleted is made again before its replay is
- * told: a record that is under way to a missing topic would hold up those of all other replays. What is missing twice was deleted; a broker
- * may hear of a topic late. What has another id was deleted, too, and made again by a broker that does so for any producer.
+ * Checks at an interval whether the topics of running replays exist. A deleted topic is created again before its replay
+ * is notified, because a record for a missing topic delays the records of all other replays. A topic counts as deleted
+ * if two checks miss it, because a broker may learn of a topic late, or if its id has changed, because a broker may
+ * create a missing topic for any producer.
  */
 public final class TopicWatch implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(TopicWatch.class);
@@ -30,11 +31,11 @@ public final class TopicWatch implements AutoCloseable {
     private final Map<String, String> ids = new ConcurrentHashMap<>();
     private Set<String> missedBefore = Set.of();
 
-    /** Who plays on a topic. Called by the watching thread. */
+    /** The replay of a topic. Called by the watching thread. */
     public interface Watched {
         boolean isPlaying();
 
-        /** @param partitions of the topic in its place; 0 if none could be made */
+        /** @param partitions of the new topic; 0 if it could not be created */
         void deleted(int partitions);
     }
 
@@ -77,7 +78,7 @@ public final class TopicWatch implements AutoCloseable {
             }
             missedBefore = missing;
         } catch (IOException e) {
-            LOG.debug("It cannot be asked now whether topics are there", e);
+            LOG.debug("Cannot check the topics of replays, retrying", e);
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }

@@ -10,7 +10,7 @@ import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.control.ReplayStatus.State;
 
-/** What is requested of a replay, as the control plane would write it. */
+/** Generates desired states of a replay as the control plane writes them. */
 final class DesiredStates {
     private static final double[] SPEEDS = {0.1, 0.7, 1, 2.5, 10, 333, 1000, ReplayCommand.MAX};
 
@@ -18,7 +18,7 @@ final class DesiredStates {
 
     private DesiredStates() {}
 
-    /** Epoch ms at a time of the clock. */
+    /** Returns the epoch ms at a time of the clock. */
     static long wall(long now) {
         return WALL + now;
     }
@@ -30,14 +30,14 @@ final class DesiredStates {
         return DesiredReplay.started("m", "data.m.replay.0a1b2c3d", ReplayPlan.PLAIN, speed, 0, 1);
     }
 
-    static DesiredReplay with(DesiredReplay w, State desired, double speed, Long seek, int steps) {
-        long sequence = w.sequence() + 1;
-        DesiredReplay next = w.desired(desired, sequence).at(speed, sequence);
+    static DesiredReplay with(DesiredReplay current, State desired, double speed, Long seek, int steps) {
+        long sequence = current.sequence() + 1;
+        DesiredReplay next = current.desired(desired, sequence).at(speed, sequence);
         next = seek == null ? next : next.seeking(seek, sequence);
         return steps == 0 ? next : next.stepping(steps, sequence);
     }
 
-    /** Any start and any commands, the last of which ends it. */
+    /** Returns a random start and random commands, the last of which stops the replay. */
     static List<DesiredState> random(Random random, List<StoredEvent> recording) {
         long first = recording.get(0).time();
         long length = recording.get(recording.size() - 1).time() - first + 1;
@@ -67,7 +67,7 @@ final class DesiredStates {
         return desiredStates;
     }
 
-    /** The same of a member of a group, whose clock goes by the times of the commands. */
+    /** Returns the same for a member of a group, with a clock that matches the times of the commands. */
     static List<DesiredState> ofGroup(Random random, List<StoredEvent> recording) {
         long first = recording.get(0).time();
         long length = recording.get(recording.size() - 1).time() - first + 1;
@@ -94,48 +94,61 @@ final class DesiredStates {
         return desiredStates;
     }
 
-    private static DesiredReplay nextOfGroup(DesiredReplay w, Random random, long at) {
-        long position = w.position(wall(at));
-        var going = new DesiredReplay.Clock(Math.max(wall(at), w.clock().at()), position);
+    private static DesiredReplay nextOfGroup(DesiredReplay current, Random random, long at) {
+        long position = current.position(wall(at));
+        var running = new DesiredReplay.Clock(Math.max(wall(at), current.clock().at()), position);
         return switch (random.nextInt(4)) {
             case 0 ->
-                w.desired() == State.PAUSED
+                current.desired() == State.PAUSED
                         ? follow(
-                                with(w, State.RUNNING, w.speed(), null, 0),
+                                with(current, State.RUNNING, current.speed(), null, 0),
                                 wall(at) + 1_000,
-                                w.clock().shows())
-                        : follow(with(w, State.PAUSED, w.speed(), null, 0), wall(at), position);
-            case 1 -> follow(with(w, w.desired(), groupSpeed(random), null, 0), going.at(), going.shows());
+                                current.clock().shows())
+                        : follow(with(current, State.PAUSED, current.speed(), null, 0), wall(at), position);
+            case 1 ->
+                follow(with(current, current.desired(), groupSpeed(random), null, 0), running.at(), running.shows());
             default -> {
-                long to = w.plan().from()
-                        + random.nextLong(w.plan().to() - w.plan().from());
-                yield follow(with(w, w.desired(), w.speed(), to, 0), wall(at) + 1_000, to);
+                long to = current.plan().from()
+                        + random.nextLong(current.plan().to() - current.plan().from());
+                yield follow(with(current, current.desired(), current.speed(), to, 0), wall(at) + 1_000, to);
             }
         };
     }
 
-    private static DesiredReplay follow(DesiredReplay w, long at, long shows) {
-        return w.following(w.group(), new DesiredReplay.Clock(at, shows));
+    private static DesiredReplay follow(DesiredReplay current, long at, long shows) {
+        return current.following(current.group(), new DesiredReplay.Clock(at, shows));
     }
 
     private static double groupSpeed(Random random) {
         return SPEEDS[random.nextInt(SPEEDS.length - 1)];
     }
 
-    private static DesiredReplay next(DesiredReplay w, Random random, long first, long length) {
+    private static DesiredReplay next(DesiredReplay current, Random random, long first, long length) {
         return switch (random.nextInt(6)) {
-            case 0 -> with(w, w.desired() == State.PAUSED ? State.RUNNING : State.PAUSED, w.speed(), null, 0);
-            case 1, 2 -> with(w, w.desired(), w.speed(), first - 5_000 + random.nextLong(length + 10_000), 0);
-            case 3 -> with(w, w.desired(), speed(random), null, 0);
-            case 4 -> w.within(range(random, first, length), w.sequence() + 1);
+            case 0 ->
+                with(
+                        current,
+                        current.desired() == State.PAUSED ? State.RUNNING : State.PAUSED,
+                        current.speed(),
+                        null,
+                        0);
+            case 1, 2 ->
+                with(current, current.desired(), current.speed(), first - 5_000 + random.nextLong(length + 10_000), 0);
+            case 3 -> with(current, current.desired(), speed(random), null, 0);
+            case 4 -> current.within(range(random, first, length), current.sequence() + 1);
             default ->
-                w.desired() == State.PAUSED
-                        ? with(w, w.desired(), w.speed(), null, random.nextInt(20) + (random.nextBoolean() ? 1 : -20))
-                        : with(w, State.PAUSED, w.speed(), null, 0);
+                current.desired() == State.PAUSED
+                        ? with(
+                                current,
+                                current.desired(),
+                                current.speed(),
+                                null,
+                                random.nextInt(20) + (random.nextBoolean() ? 1 : -20))
+                        : with(current, State.PAUSED, current.speed(), null, 0);
         };
     }
 
-    /** Null now and then. */
+    /** Returns a random range, or null. */
     private static DesiredReplay.Range range(Random random, long first, long length) {
         long from = first - 1_000 + random.nextLong(length + 1_000);
         return random.nextInt(3) == 0

@@ -19,7 +19,7 @@ import io.furrow.model.control.DesiredReplay;
 import io.furrow.replay.record.EventEncoder;
 import io.furrow.unchecked.Unchecked;
 
-/** Made-up recordings in memory. */
+/** Generates recordings in memory. */
 final class Missions {
     static final long TIME = 1_700_000_000_000L;
 
@@ -35,7 +35,10 @@ final class Missions {
         return new StoredEvent(id, time, entity, Map.of("ce_type", "ngsi.entity.deleted"), null);
     }
 
-    /** 1 to 200 devices that report out of order, at equal times, after gaps, and are deleted now and then; in the stored order. */
+    /**
+     * Returns events of 1 to 200 devices, some out of order, at equal times, after gaps, or deletions; in the stored
+     * order.
+     */
     static List<StoredEvent> random(Random random) {
         int devices = 1 + random.nextInt(random.nextBoolean() ? 5 : 200);
         int count = 1 + random.nextInt(300);
@@ -56,11 +59,11 @@ final class Missions {
         return events;
     }
 
-    /** What is asked, from the recording, in a page of any size. */
+    /** Returns the result of a request, with a page of random size. */
     static ReadResult answer(
             ReadRequest readRequest, List<StoredEvent> recording, DesiredReplay desired, Random random) {
         if (readRequest instanceof ReadRequest.Begin begin) {
-            List<StoredEvent> primes = begin.primed() ? known(recording, begin.point()) : List.of();
+            List<StoredEvent> primes = begin.primed() ? stateBefore(recording, begin.point()) : List.of();
             return new ReadResult.Primed(
                     begin.epoch(),
                     primes(primes, begin, desired),
@@ -76,12 +79,17 @@ final class Missions {
         return Unchecked.get(() -> new EventEncoder(desired, epoch, record -> record).page(eventPage));
     }
 
-    private static List<ReadyEvent> primes(List<StoredEvent> known, ReadRequest.Begin begin, DesiredReplay desired) {
+    private static List<ReadyEvent> primes(
+            List<StoredEvent> stateBefore, ReadRequest.Begin begin, DesiredReplay desired) {
         return Unchecked.get(
-                () -> new EventEncoder(desired, begin.epoch(), record -> record).primes(known, begin.point()));
+                () -> new EventEncoder(desired, begin.epoch(), record -> record).primes(stateBefore, begin.point()));
     }
 
-    /** What is asked, of these devices or of all. */
+    /**
+     * Returns the result of a step back.
+     *
+     * @param devices empty for all
+     */
     static ReadResult back(ReadRequest.Back back, List<StoredEvent> recording, List<String> devices) {
         List<Cursor> before = recording.stream()
                 .filter(event -> devices.isEmpty() || devices.contains(event.entityId()))
@@ -110,8 +118,8 @@ final class Missions {
         return new EventPage(events, List.of(), next, size == rest.size());
     }
 
-    /** The newest event of each entity that was there before the point. */
-    static List<StoredEvent> known(List<StoredEvent> recording, long point) {
+    /** Returns the newest event of each entity that existed before the point. */
+    static List<StoredEvent> stateBefore(List<StoredEvent> recording, long point) {
         Map<String, StoredEvent> newest = new TreeMap<>();
         for (StoredEvent event : recording) {
             if (event.time() < point && event.entity() == null) {

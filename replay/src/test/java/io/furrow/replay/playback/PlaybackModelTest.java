@@ -21,7 +21,7 @@ import io.furrow.replay.record.ReplayRecords;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** A playback beside {@link SimpleReplay}. */
+/** Compares playbacks with {@link SimpleReplay}. */
 class PlaybackModelTest {
     private static final int MISSIONS = 100;
     private static final int RUNS_EACH = 5;
@@ -32,7 +32,7 @@ class PlaybackModelTest {
 
     @ParameterizedTest(name = "seed {0}")
     @MethodSource("seeds")
-    void writesWhatTheRulesSayWhenTheySay(long seed) {
+    void writesTheRecordsOfTheModelAtItsTimes(long seed) {
         Random random = new Random(seed);
         List<StoredEvent> mission = Missions.random(random);
         for (int run = 0; run < RUNS_EACH; run++) {
@@ -42,9 +42,9 @@ class PlaybackModelTest {
         }
     }
 
-    /** That there is something to compare. */
+    /** Checks that the comparison is not empty. */
     @Test
-    void coversWhatReplaysDo() {
+    void coversAllKindsOfRecords() {
         List<String> all = new ArrayList<>();
         for (long seed : seeds()) {
             Random random = new Random(seed);
@@ -60,7 +60,7 @@ class PlaybackModelTest {
 
     @ParameterizedTest(name = "seed {0}")
     @MethodSource("seeds")
-    void goesOnWithTheNextRecordAfterARestart(long seed) {
+    void continuesWithTheNextRecordAfterARestart(long seed) {
         Random random = new Random(seed);
         List<StoredEvent> mission = Missions.random(random);
         DesiredReplay desired = DesiredStates.with(
@@ -122,7 +122,11 @@ class PlaybackModelTest {
         return lines;
     }
 
-    /** Whether there was something to be read. */
+    /**
+     * Answers the playback's requests.
+     *
+     * @return whether there was one
+     */
     private static boolean read(
             Playback playback, List<StoredEvent> mission, Random random, long now, List<String> lines) {
         boolean any = false;
@@ -130,7 +134,7 @@ class PlaybackModelTest {
             ReadResult answer = fetch.get() instanceof ReadRequest.Back back
                     ? Missions.back(back, mission, playback.desired().plan().devices())
                     : Missions.answer(fetch.get(), mission, playback.desired(), random);
-            playback.take(answer, now).ifPresent(end -> lines.add(line(now, end, playback.desired())));
+            playback.accept(answer, now).ifPresent(end -> lines.add(line(now, end, playback.desired())));
             any = true;
         }
         return any;

@@ -14,14 +14,14 @@ import io.furrow.model.control.ReplayStatus.State;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Replays that follow one clock. */
+/** Tests replays that follow a group's clock. */
 class PlaybackOfGroupTest {
     private static final long T = Missions.TIME;
     private static final List<StoredEvent> LONG =
             List.of(Missions.event("a", T, "urn:d0"), Missions.event("b", T + 1_000, "urn:d0"));
     private static final List<StoredEvent> SHORT = List.of(Missions.event("c", T + 500, "urn:d1"));
 
-    /** From T to T + 2000; at 2,000 ms of the clock T is played. */
+    /** Returns a replay of T to T + 2000 that plays T at 2,000 ms of the clock. */
     private static DesiredReplay desired(double speed, boolean loop) {
         ReplayPlan plan =
                 new ReplayPlan(null, T, T + 2_000, loop, List.of(), null, ReplayPlan.Stamps.ORIGINAL, null, List.of());
@@ -33,7 +33,7 @@ class PlaybackOfGroupTest {
         return new Playback(desired, new PlaybackState(), now, DesiredStates::wall);
     }
 
-    /** What is written until the time, each with when: {@code 2500 b}, {@code 3000 ended}. */
+    /** Returns the written records with their times: {@code 2500 b}, {@code 3000 ended}. */
     private static List<String> play(Playback playback, List<StoredEvent> recording, long from, long until) {
         List<String> lines = new ArrayList<>();
         for (long now = from; now <= until && !playback.isOver(); now++) {
@@ -46,7 +46,7 @@ class PlaybackOfGroupTest {
         Optional<PlaybackRecord> played;
         do {
             for (Optional<ReadRequest> fetch = playback.fetch(); fetch.isPresent(); fetch = playback.fetch()) {
-                playback.take(Missions.answer(fetch.get(), recording, playback.desired(), new Random(1)), now);
+                playback.accept(Missions.answer(fetch.get(), recording, playback.desired(), new Random(1)), now);
             }
             played = playback.poll(now);
             played.ifPresent(one -> lines.add(now + " "
@@ -59,14 +59,14 @@ class PlaybackOfGroupTest {
     }
 
     @Test
-    void keepsWhatLayBetweenMissions() {
+    void keepsTheGapsBetweenMissions() {
         assertThat(play(playback(desired(2, false), 0), LONG, 0, 9_999))
                 .containsExactly("2000 a", "2500 b", "3000 ended");
         assertThat(play(playback(desired(2, false), 0), SHORT, 0, 9_999)).containsExactly("2250 c", "3000 ended");
     }
 
     @Test
-    void doesNotWaitForWhoeverIsLate() {
+    void doesNotWaitForALateMember() {
         assertThat(play(playback(desired(1, false), 2_900), LONG, 2_900, 9_999))
                 .containsExactly("2900 a", "3000 b", "4000 ended");
         assertThat(play(playback(desired(1, false), 3_800), LONG, 3_800, 9_999))
@@ -74,18 +74,18 @@ class PlaybackOfGroupTest {
     }
 
     @Test
-    void beginsEachPassOfALoopTogether() {
+    void beginsEachPassOfALoopWithTheGroup() {
         List<String> twice = play(playback(desired(1, true), 0), SHORT, 0, 6_000);
         List<String> late = play(playback(desired(1, true), 4_600), SHORT, 4_600, 8_000);
 
         assertThat(twice).containsExactly("2500 c", "4000 loop", "4500 c", "6000 loop");
         assertThat(late)
-                .as("a second pass that is under way")
+                .as("the rest of the second pass")
                 .containsExactly("4600 c", "6000 loop", "6500 c", "8000 loop");
     }
 
     @Test
-    void standsAndGoesOnTogether() {
+    void pausesAndResumesWithTheGroup() {
         DesiredReplay desired = desired(1, false);
         Playback playback = playback(desired, 0);
         List<String> lines = play(playback, LONG, 0, 2_300);
@@ -106,7 +106,7 @@ class PlaybackOfGroupTest {
     }
 
     @Test
-    void seeksToWhereAMissionHasNotBegunOrIsOver() {
+    void seeksBeforeTheBeginningAndBehindTheEndOfAMission() {
         DesiredReplay desired = desired(1, false);
         Playback playback = playback(desired, 0);
         List<String> lines = play(playback, SHORT, 0, 2_600);
@@ -124,9 +124,9 @@ class PlaybackOfGroupTest {
         assertThat(lines).containsExactly("2500 c", "3500 c", "4000 prime c", "4500 ended");
     }
 
-    /** The command is on its way while the member begins the next pass. */
+    /** The member begins the next pass before it receives the command. */
     @Test
-    void staysInThePassThatItHasBegunWhereTheClockStoodJustBefore() {
+    void staysInItsPassWhenTheClockWasPausedJustBefore() {
         DesiredReplay desired = desired(1, true);
         Playback playback = playback(desired, 0);
         List<String> lines = play(playback, SHORT, 0, 4_050);

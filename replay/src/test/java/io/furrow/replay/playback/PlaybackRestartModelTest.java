@@ -20,9 +20,9 @@ import io.furrow.model.control.DesiredReplay;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /**
- * Random programs of commands, of which pages know nothing: an answer comes after any number of commands, and a command twice. Now and
- * then the replay is restored from an older snapshot, or from none, to which only the newest command comes, on a machine whose clock is
- * another. Some are members of a group.
+ * Runs random commands, some twice, with results of reads that arrive after any number of commands. The replay is
+ * restored at random times from an older snapshot, or from none, on a machine with another clock; a replay without a
+ * snapshot gets only the newest command. Some replays are members of a group.
  */
 class PlaybackRestartModelTest {
     private static final int SHORT = 20;
@@ -53,14 +53,14 @@ class PlaybackRestartModelTest {
 
     @ParameterizedTest(name = "seed {0}")
     @MethodSource("some")
-    void givesNoEpochTwoContentsAndStepsNotBackInTime(long seed) {
+    void givesNoEpochTwoContentsAndNeverStepsBackInTime(long seed) {
         play(seed);
     }
 
     @Tag("full")
     @ParameterizedTest(name = "seed {0}")
     @MethodSource("many")
-    void givesNoEpochTwoContentsWhateverComes(long seed) {
+    void givesNoEpochTwoContentsInManyRuns(long seed) {
         play(seed);
     }
 
@@ -75,7 +75,7 @@ class PlaybackRestartModelTest {
                 turn(desiredStates.get(next - 1).desired());
             }
             now = Math.max(now, desiredStates.get(next).at());
-            note(playback.apply(desiredStates.get(next).desired(), now));
+            check(playback.apply(desiredStates.get(next).desired(), now));
             assertThat(playback.apply(
                             desiredStates.get(random.nextInt(next + 1)).desired(), now))
                     .as("an older command")
@@ -96,11 +96,11 @@ class PlaybackRestartModelTest {
             case 0 -> now += random.nextInt(5_000);
             case 1, 2, 3 -> {
                 if (!answers.isEmpty()) {
-                    note(playback.take(answers.remove(), now));
+                    check(playback.accept(answers.remove(), now));
                 }
             }
             case 4 -> restartNowAndThen(newest);
-            default -> note(playback.poll(now));
+            default -> check(playback.poll(now));
         }
     }
 
@@ -117,21 +117,24 @@ class PlaybackRestartModelTest {
         } else if (random.nextInt(5) == 0) {
             answers.clear();
             now += random.nextInt(60_000);
-            boolean known = random.nextInt(4) > 0;
+            boolean restored = random.nextInt(4) > 0;
             skew = newest.clock() == null ? random.nextInt(1_000_000) - 500_000 : 0;
-            run = known ? snapshot.stamp() : 0;
-            playback =
-                    new Playback(known ? desiredThen : newest, known ? snapshot : new PlaybackState(), now, this::wall);
+            run = restored ? snapshot.stamp() : 0;
+            playback = new Playback(
+                    restored ? desiredThen : newest, restored ? snapshot : new PlaybackState(), now, this::wall);
             if (!stamps.isEmpty()) {
                 long newestStamp = stamps.values().stream().max(Long::compare).orElseThrow();
-                playback.goOnAfter(stamps.lastKey(), newestStamp);
+                playback.resumeAfter(stamps.lastKey(), newestStamp);
             }
-            note(playback.apply(newest, now));
+            check(playback.apply(newest, now));
         }
     }
 
-    /** An end may be said twice of an epoch, of which events came again. */
-    private void note(Optional<PlaybackRecord> record) {
+    /**
+     * Checks a record against those before it. The end of an epoch may be written twice, because a restart may repeat
+     * events.
+     */
+    private void check(Optional<PlaybackRecord> record) {
         record.ifPresent(playbackRecord -> {
             Long before = stamps.lowerEntry(playbackRecord.epoch()) == null
                     ? null
@@ -148,7 +151,7 @@ class PlaybackRestartModelTest {
                 String content =
                         playbackRecord.kind() + " " + playbackRecord.event().id() + " at " + playbackRecord.time();
                 String place = playbackRecord.epoch() + " " + playbackRecord.sequence();
-                assertThat(contents.merge(place, content, (known, same) -> known))
+                assertThat(contents.merge(place, content, (first, second) -> first))
                         .as("record %s", place)
                         .isEqualTo(content);
                 long point = playback.snapshot(now).point;
@@ -160,7 +163,7 @@ class PlaybackRestartModelTest {
         });
     }
 
-    /** Whatever the clock of a group has not shown yet. */
+    /** Checks that an event is not played before the group's clock reaches it. */
     private void assertNotEarly(PlaybackRecord playbackRecord) {
         DesiredReplay desired = playback.desired();
         if (desired.clock() != null && !desired.loops() && playbackRecord.kind() == PlaybackRecord.Kind.EVENT) {
@@ -170,14 +173,14 @@ class PlaybackRestartModelTest {
         }
     }
 
-    /** Records of an epoch by their sequence, ends excepted. */
+    /** The records of an epoch by their sequence, without ends. */
     private record Epoch(long point, TreeMap<Long, PlaybackRecord> records) {}
 
-    /** What was known before its point, then the events from there, without a gap, as far as it was played. */
+    /** Checks that an epoch has the states before its point, then the events from there without a gap. */
     private void check(long number, Epoch epoch) {
         List<String> devices = desiredStates.get(0).desired().plan().devices();
         List<StoredEvent> whole = new ArrayList<>(
-                epoch.point() > mission.get(0).time() ? Missions.known(mission, epoch.point()) : List.of());
+                epoch.point() > mission.get(0).time() ? Missions.stateBefore(mission, epoch.point()) : List.of());
         mission.stream().filter(event -> event.time() >= epoch.point()).forEach(whole::add);
         whole.removeIf(event -> !devices.isEmpty() && !devices.contains(event.entityId()));
         assertThat(epoch.records().keySet()).last().isEqualTo(epoch.records().size() - 1L);

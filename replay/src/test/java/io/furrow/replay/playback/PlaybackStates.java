@@ -2,7 +2,7 @@ package io.furrow.replay.playback;
 
 import io.furrow.mission.Cursor;
 
-/** States whose members all differ. */
+/** Creates states with different values in all members. */
 public final class PlaybackStates {
     private PlaybackStates() {}
 

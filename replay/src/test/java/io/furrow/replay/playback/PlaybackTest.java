@@ -18,19 +18,19 @@ import io.furrow.model.control.ReplayStatus.State;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** What a recording that is slow to answer does to a replay. */
+/** Tests a playback with slow and failing reads. */
 class PlaybackTest {
     private static final StoredEvent FIRST = Missions.event("a", Missions.TIME, "urn:d0");
     private static final StoredEvent NEXT = Missions.event("b", Missions.TIME + 1_000, "urn:d0");
 
     @Test
-    void standsWhereItIsWhileItDoesNotKnowWhatComesNext() {
+    void keepsItsPositionUntilTheNextPageIsRead() {
         DesiredReplay desired = DesiredStates.start(ReplayCommand.MAX);
         Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
         playback.fetch();
-        playback.take(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 0);
+        playback.accept(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 0);
         playback.fetch();
-        playback.take(new ReadResult.Primed(0, List.of(), page(FIRST, desired, false)), 0);
+        playback.accept(new ReadResult.Primed(0, List.of(), page(FIRST, desired, false)), 0);
         assertThat(playback.poll(0)).map(one -> one.event().id()).contains("a");
         playback.fetch();
 
@@ -38,27 +38,27 @@ class PlaybackTest {
         DesiredReplay paused = DesiredStates.with(desired, State.PAUSED, 1, null, 0);
         playback.apply(paused, 100);
         playback.apply(DesiredStates.with(paused, State.RUNNING, 1, null, 0), 200);
-        playback.take(new ReadResult.NextPage(0, page(NEXT, desired, true)), 300);
+        playback.accept(new ReadResult.NextPage(0, page(NEXT, desired, true)), 300);
 
-        assertThat(playback.poll(1_199)).as("a second after it went on").isEmpty();
+        assertThat(playback.poll(1_199)).as("a second after it was resumed").isEmpty();
         assertThat(playback.poll(1_200)).map(one -> one.event().id()).contains("b");
     }
 
-    /** Else a replay of a device that seldom reports would read hours again after a restart. */
+    /** Otherwise a replay of a device that seldom reports would read hours again after a restart. */
     @Test
-    void goesOnBehindWhatIsLeftOutAndShowsWhereItIsWhileTheRecordingIsAway() {
+    void continuesBehindFilteredEventsAndReportsItsPositionWithoutTheRecording() {
         DesiredReplay desired = DesiredStates.start(1);
         Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
         playback.fetch();
-        playback.take(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 0);
+        playback.accept(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 0);
         playback.fetch();
-        playback.take(new ReadResult.Primed(0, List.of(), page(FIRST, desired, false)), 0);
+        playback.accept(new ReadResult.Primed(0, List.of(), page(FIRST, desired, false)), 0);
         playback.poll(0);
         playback.fetch();
         assertThat(playback.snapshot(0).cursor).isEqualTo(Cursor.after(FIRST));
-        playback.take(new ReadResult.NextPage(0, page(NEXT, desired, false)), 0);
+        playback.accept(new ReadResult.NextPage(0, page(NEXT, desired, false)), 0);
         playback.fetch();
-        playback.take(new ReadResult.Unavailable(0, "away"), 400);
+        playback.accept(new ReadResult.Unavailable(0, "away"), 400);
 
         assertThat(playback.snapshot(500).cursor).isEqualTo(Cursor.before(NEXT.time()));
         assertThat(playback.status(500, 0, 0).progress().position()).isEqualTo(FIRST.time() + 500);
@@ -67,20 +67,20 @@ class PlaybackTest {
     }
 
     @Test
-    void countsNothingTwiceThatItSkippedOfWhatARestartReadsAgain() {
+    void countsSkippedDocumentsOnceThoughARestartReadsThemAgain() {
         DesiredReplay desired = DesiredStates.start(1);
         Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
         playback.fetch();
-        playback.take(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 0);
+        playback.accept(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 0);
         playback.fetch();
-        playback.take(new ReadResult.Primed(0, List.of(), skipping(page(FIRST, desired, false), 2)), 0);
+        playback.accept(new ReadResult.Primed(0, List.of(), skipping(page(FIRST, desired, false), 2)), 0);
         playback.poll(0);
         playback.fetch();
-        playback.take(new ReadResult.NextPage(0, skipping(page(NEXT, desired, true), 3)), 0);
+        playback.accept(new ReadResult.NextPage(0, skipping(page(NEXT, desired, true), 3)), 0);
 
         Playback restarted = new Playback(desired, playback.snapshot(500), 500, DesiredStates::wall);
         restarted.fetch();
-        restarted.take(new ReadResult.NextPage(0, skipping(page(NEXT, desired, true), 3)), 500);
+        restarted.accept(new ReadResult.NextPage(0, skipping(page(NEXT, desired, true), 3)), 500);
         assertThat(restarted.poll(2_000)).isPresent();
         assertThat(restarted.status(2_000, 0, 0).progress().skipped()).isEqualTo(5);
     }
@@ -96,9 +96,10 @@ class PlaybackTest {
         DesiredReplay desired = DesiredReplay.started("m", "data.m.replay.0a1b2c3d", plan, ReplayCommand.MAX, 0, 1);
         Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
         playback.fetch();
-        playback.take(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time() + 9_000))), 0);
+        playback.accept(
+                new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time() + 9_000))), 0);
         playback.fetch();
-        playback.take(
+        playback.accept(
                 new ReadResult.Primed(0, List.of(), page(Missions.event("c", NEXT.time(), "urn:d1"), desired, false)),
                 0);
 
@@ -107,20 +108,20 @@ class PlaybackTest {
     }
 
     @Test
-    void saysWhatASeekReadsThatTakesLong() {
+    void reportsWhatASlowSeekReads() {
         DesiredReplay desired = DesiredStates.with(DesiredStates.start(1), State.PAUSED, 1, NEXT.time(), 0);
         Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
         playback.fetch();
         assertThat(waiting(playback, 999)).isNull();
-        assertThat(waiting(playback, 1_000)).isEqualTo("seeking: the recording is being opened");
+        assertThat(waiting(playback, 1_000)).isEqualTo("seeking: opening the recording");
 
-        playback.take(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 1_100);
+        playback.accept(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 1_100);
         playback.fetch();
-        assertThat(waiting(playback, 1_200))
-                .isEqualTo("seeking: what was known before 2023-11-14T22:13:21Z is being read");
+        assertThat(waiting(playback, 1_200)).isEqualTo("seeking: reading the states before 2023-11-14T22:13:21Z");
         assertThat(playback.isSeeking()).isTrue();
 
-        playback.take(new ReadResult.Primed(0, page(FIRST, desired, false).events(), page(NEXT, desired, true)), 1_300);
+        playback.accept(
+                new ReadResult.Primed(0, page(FIRST, desired, false).events(), page(NEXT, desired, true)), 1_300);
         assertThat(waiting(playback, 1_300)).isNull();
         assertThat(playback.isSeeking()).isFalse();
     }
@@ -132,11 +133,11 @@ class PlaybackTest {
         Playback playback = new Playback(desired, played, 0, DesiredStates::wall);
         playback.fetch();
 
-        Optional<PlaybackRecord> end = playback.take(new ReadResult.Failed(3, "gone"), 0);
+        Optional<PlaybackRecord> end = playback.accept(new ReadResult.Failed(3, "gone"), 0);
 
         assertThat(end).contains(new PlaybackRecord(PlaybackRecord.Kind.END, null, "gone", 3, 0, NEXT.time(), 5_000));
         assertThat(playback.state()).isEqualTo(State.FAILED);
-        assertThat(playback.take(new ReadResult.Failed(3, "gone"), 0)).isEmpty();
+        assertThat(playback.accept(new ReadResult.Failed(3, "gone"), 0)).isEmpty();
     }
 
     private static String waiting(Playback playback, long now) {
@@ -144,7 +145,7 @@ class PlaybackTest {
     }
 
     @Test
-    void beginsNoEpochThatHasNoNumber() {
+    void failsWhenAllEpochsAreUsed() {
         PlaybackState spent = new PlaybackState(Epochs.LAST + 1, 5);
 
         assertThat(new Playback(DesiredStates.start(1), spent, 0, DesiredStates::wall).status(0, 0, 0))

@@ -12,8 +12,8 @@ import io.furrow.model.control.ReplayStatus.State;
 import io.furrow.model.event.EventId;
 
 /**
- * The rules of a replay once more, as a program that has the whole mission in memory and goes from one update to the next; says a line
- * for each record: when it is written, its timestamp, key and headers.
+ * Implements the rules of a replay independently, with the whole mission in memory, from one update to the next. Each
+ * record is a line: time of writing, timestamp, key and headers.
  */
 final class SimpleReplay {
     private final List<StoredEvent> recording;
@@ -23,7 +23,7 @@ final class SimpleReplay {
     private List<StoredEvent> pass;
     private boolean open;
     private boolean between;
-    /** Whether it has come to its end, from which one can go back. */
+    /** Whether it is at its end, from which it can still step back. */
     private boolean ended;
 
     private long epoch = -1;
@@ -31,7 +31,7 @@ final class SimpleReplay {
     private long offset;
     private long newestStamp;
     private long stepsDone;
-    /** The event up to which a step back repeats. */
+    /** Position after the event up to which a step back plays. */
     private Cursor repeated;
 
     private boolean played;
@@ -42,7 +42,7 @@ final class SimpleReplay {
     private long origin;
     private long reached;
     /** Whether the gap before the next event has been shortened. */
-    private boolean approached;
+    private boolean shortened;
 
     private SimpleReplay(List<StoredEvent> recording) {
         this.recording = recording;
@@ -52,7 +52,7 @@ final class SimpleReplay {
         SimpleReplay replay = new SimpleReplay(recording);
         for (int i = 0; i < desiredStates.size(); i++) {
             replay.change(desiredStates.get(i).desired(), desiredStates.get(i).at());
-            replay.goOn(
+            replay.advance(
                     desiredStates.get(i).at(),
                     i + 1 < desiredStates.size() ? desiredStates.get(i + 1).at() : Long.MAX_VALUE);
         }
@@ -93,7 +93,7 @@ final class SimpleReplay {
         Long startAt = desired.plan().startAt();
         clock = startAt == null ? now : Math.max(now, startAt - DesiredStates.wall(0));
         origin = position;
-        approached = false;
+        shortened = false;
     }
 
     private long position(long now) {
@@ -103,27 +103,27 @@ final class SimpleReplay {
         if (isPaused() || pass.isEmpty()) {
             return origin;
         }
-        approach();
+        shortenGap();
         double at = now <= clock ? origin : origin + Math.floor((now - clock) * desired.speed());
         return (long) Math.max(reached, Math.min(at, pass.get(0).time()));
     }
 
-    /** Skips of what lies before the next event all but the longest gap. */
-    private void approach() {
-        Long longest = desired.plan().maxGap();
-        if (!approached && longest != null) {
+    /** Shortens the gap before the next event to the maximum. */
+    private void shortenGap() {
+        Long maxGap = desired.plan().maxGap();
+        if (!shortened && maxGap != null) {
             long gap = pass.get(0).time() - Math.max(reached, origin);
-            origin += Math.max(0, gap - longest);
+            origin += Math.max(0, gap - maxGap);
         }
-        approached = true;
+        shortened = true;
     }
 
     private void begin(Long to, long now) {
         long first = recording.get(0).time();
         long last = recording.get(recording.size() - 1).time();
-        long least = from(first);
-        long most = Math.min(last + 1, desired.to());
-        long point = to == null || to < least ? least : to > most ? Math.max(least, most) : to;
+        long min = from(first);
+        long max = Math.min(last + 1, desired.to());
+        long point = to == null || to < min ? min : to > max ? Math.max(min, max) : to;
         epoch++;
         number = 0;
         played = false;
@@ -141,7 +141,7 @@ final class SimpleReplay {
                 .filter(this::isChosen)
                 .filter(event -> event.time() >= point)
                 .toList());
-        primes = new ArrayList<>(point > first ? Missions.known(recording, point) : List.of());
+        primes = new ArrayList<>(point > first ? Missions.stateBefore(recording, point) : List.of());
         primes.removeIf(event -> !isChosen(event));
     }
 
@@ -156,7 +156,7 @@ final class SimpleReplay {
         return desired.plan().devices().isEmpty() || desired.plan().devices().contains(event.entityId());
     }
 
-    private void goOn(long from, long until) {
+    private void advance(long from, long until) {
         long now = from;
         while (open || between || ended && isPaused() && total() < stepsDone) {
             if (ended) {
@@ -194,7 +194,7 @@ final class SimpleReplay {
                 }
                 step(now);
             } else {
-                approach();
+                shortenGap();
                 StoredEvent event = pass.get(0);
                 long due = clock + (long) Math.ceil((event.time() - origin) / desired.speed());
                 if (due > until) {
@@ -226,7 +226,7 @@ final class SimpleReplay {
         played = true;
         reached = event.time();
         done = Cursor.after(event);
-        approached = false;
+        shortened = false;
     }
 
     private void back(long now) {

@@ -24,7 +24,7 @@ class PageBudgetTest {
     private final PageBudget budget = new PageBudget(MAX);
 
     @Test
-    void givesOneReplayWhatItAsksFor() {
+    void grantsTheRequestOfASingleReplay() {
         PageBudget.Pages pages = budget.pages();
 
         assertThat(pages.next(5_000)).isEqualTo(MAX);
@@ -32,7 +32,7 @@ class PageBudgetTest {
     }
 
     @Test
-    void holdsNoMoreOfAnyNumberOfReplaysThanIsStated() {
+    void staysWithinItsBoundForManyReplays() {
         long seed = System.nanoTime();
         Random random = new Random(seed);
         List<PageBudget.Pages> replays =
@@ -52,7 +52,7 @@ class PageBudgetTest {
     }
 
     @Test
-    void countsTheTwoNewestPagesAndNoneThatWasNotRead() {
+    void countsOnlyTheTwoNewestPages() {
         PageBudget.Pages pages = budget.pages();
         pages.next(10);
         pages.settle();

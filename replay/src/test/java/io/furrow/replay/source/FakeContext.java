@@ -15,7 +15,7 @@ import org.apache.flink.util.UserCodeClassLoader;
 
 import io.furrow.flink.record.TopicRecord;
 
-/** What a reader has around it. */
+/** The context of a reader, with its metrics. */
 final class FakeContext implements SourceReaderContext {
     private final MetricListener metrics = new MetricListener();
 
@@ -24,7 +24,7 @@ final class FakeContext implements SourceReaderContext {
         return InternalSourceReaderMetricGroup.mock(metrics.getMetricGroup());
     }
 
-    /** The gauge of a replay. */
+    /** Returns the value of a replay's gauge. */
     Object gauge(String replay, String name) {
         return metrics.getGauge("replay", replay, name).orElseThrow().getValue();
     }
@@ -46,20 +46,20 @@ final class FakeContext implements SourceReaderContext {
 
     @Override
     public void sendSplitRequest() {
-        throw new UnsupportedOperationException("no reader asks");
+        throw new UnsupportedOperationException("readers request no splits");
     }
 
     @Override
     public void sendSourceEventToCoordinator(SourceEvent event) {
-        throw new UnsupportedOperationException("no reader says anything");
+        throw new UnsupportedOperationException("readers send no events");
     }
 
     @Override
     public UserCodeClassLoader getUserCodeClassLoader() {
-        throw new UnsupportedOperationException("no reader loads classes");
+        throw new UnsupportedOperationException("readers load no classes");
     }
 
-    /** @param to takes the records */
+    /** @param to receives the records */
     record Output(Consumer<TopicRecord> to) implements ReaderOutput<TopicRecord> {
         @Override
         public void collect(TopicRecord record) {
@@ -73,17 +73,17 @@ final class FakeContext implements SourceReaderContext {
 
         @Override
         public void emitWatermark(Watermark watermark) {
-            // of no interest
+            // not tested
         }
 
         @Override
         public void markIdle() {
-            // of no interest
+            // not tested
         }
 
         @Override
         public void markActive() {
-            // of no interest
+            // not tested
         }
 
         @Override
@@ -93,7 +93,7 @@ final class FakeContext implements SourceReaderContext {
 
         @Override
         public void releaseOutputForSplit(String split) {
-            // of no interest
+            // not tested
         }
     }
 }

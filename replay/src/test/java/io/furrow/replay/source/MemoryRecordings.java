@@ -22,24 +22,24 @@ import io.furrow.mission.Recordings;
 import io.furrow.mission.SkippedRecords;
 import io.furrow.mission.StoredEvent;
 
-/** Missions in memory; one that is away cannot be read until it is back, {@code stuck} never answers. */
+/** Missions in memory; reads of an unavailable one fail, opening {@code stuck} never returns. */
 final class MemoryRecordings implements Recordings {
     private static final long serialVersionUID = 1L;
 
     private final transient Map<String, List<StoredEvent>> missions = new ConcurrentHashMap<>();
     private final transient AtomicInteger open = new AtomicInteger();
-    private final transient AtomicInteger held = new AtomicInteger();
-    private final transient Set<String> away = ConcurrentHashMap.newKeySet();
-    private volatile boolean holding;
+    private final transient AtomicInteger blocked = new AtomicInteger();
+    private final transient Set<String> unavailable = ConcurrentHashMap.newKeySet();
+    private volatile boolean blocking;
 
-    /** Events of the entity {@code urn:x} at these times. */
+    /** Adds a mission with events of the entity {@code urn:x} at these times. */
     MemoryRecordings with(String mission, long... times) {
         missions.put(mission, new CopyOnWriteArrayList<>());
         add(mission, times);
         return this;
     }
 
-    /** Later ones. */
+    /** Adds later events. */
     void add(String mission, long... times) {
         List<StoredEvent> events = missions.get(mission);
         for (long time : times) {
@@ -52,42 +52,42 @@ final class MemoryRecordings implements Recordings {
         }
     }
 
-    void setAway(String mission, boolean isAway) {
-        if (isAway) {
-            away.add(mission);
+    void setUnavailable(String mission, boolean isUnavailable) {
+        if (isUnavailable) {
+            unavailable.add(mission);
         } else {
-            away.remove(mission);
+            unavailable.remove(mission);
         }
     }
 
-    private void requireThere(String mission) throws RecordingException {
-        if (away.contains(mission)) {
-            throw new RecordingException("the store is away");
+    private void requireAvailable(String mission) throws RecordingException {
+        if (unavailable.contains(mission)) {
+            throw new RecordingException("the store is unavailable");
         }
     }
 
-    /** Whether whoever begins to read a mission from its beginning does so until he is interrupted. */
-    void hold(boolean isHolding) {
-        holding = isHolding;
+    /** @param isBlocking whether reads from a mission's beginning block until they are interrupted */
+    void block(boolean isBlocking) {
+        blocking = isBlocking;
     }
 
-    /** How many are held. */
-    int held() {
-        return held.get();
+    /** Returns the number of blocked reads. */
+    int blocked() {
+        return blocked.get();
     }
 
-    private void hold() throws RecordingException {
-        held.incrementAndGet();
+    private void block() throws RecordingException {
+        blocked.incrementAndGet();
         try {
             new CountDownLatch(1).await();
         } catch (InterruptedException e) {
             throw RecordingInterruptedException.of(e);
         } finally {
-            held.decrementAndGet();
+            blocked.decrementAndGet();
         }
     }
 
-    /** How many recordings are open. */
+    /** Returns the number of open recordings. */
     int open() {
         return open.get();
     }
@@ -103,7 +103,7 @@ final class MemoryRecordings implements Recordings {
                 }
             }
         }
-        requireThere(mission);
+        requireAvailable(mission);
         return Optional.ofNullable(missions.get(mission)).map(events -> new InMemory(mission, events));
     }
 
@@ -127,9 +127,9 @@ final class MemoryRecordings implements Recordings {
 
         @Override
         public EventPage read(Cursor after, PageLimits limits) throws RecordingException {
-            requireThere(mission);
-            if (holding && after.equals(Cursor.START)) {
-                hold();
+            requireAvailable(mission);
+            if (blocking && after.equals(Cursor.START)) {
+                block();
             }
             List<StoredEvent> rest = events.stream()
                     .filter(event -> Cursor.after(event).compareTo(after) > 0)

@@ -11,24 +11,24 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.replay.topic.ReplayTopics;
 import io.furrow.replay.topic.TopicEnd;
 
-/** Topics that take everything. */
+/** Topics with one partition that accept records of any size. */
 final class OnePartition implements ReplayTopics.Writing {
     TopicEnd end = TopicEnd.EMPTY;
 
-    /** How often it was asked which topics are there. */
-    volatile int asked;
+    /** Number of requests for topic ids. */
+    volatile int idRequests;
 
-    /** Topics that somebody has deleted. */
+    /** Deleted topics. */
     final Set<String> deleted = ConcurrentHashMap.newKeySet();
-    /** Topics that somebody has deleted, and the broker has made again. */
-    final Set<String> madeAgain = ConcurrentHashMap.newKeySet();
-    /** Why no topic can be prepared; null if each can. */
-    volatile String refusal;
+    /** Deleted topics that the broker has created again. */
+    final Set<String> recreated = ConcurrentHashMap.newKeySet();
+    /** Why no topic can be prepared; null if all can. */
+    volatile String problem;
 
     @Override
     public int prepare(String topic) throws IOException {
-        if (refusal != null) {
-            throw new IOException(refusal);
+        if (problem != null) {
+            throw new IOException(problem);
         }
         deleted.remove(topic);
         return 1;
@@ -36,10 +36,10 @@ final class OnePartition implements ReplayTopics.Writing {
 
     @Override
     public Map<String, String> ids(Collection<String> topics) {
-        asked++;
+        idRequests++;
         return topics.stream()
                 .filter(topic -> !deleted.contains(topic))
-                .collect(Collectors.toMap(topic -> topic, topic -> madeAgain.contains(topic) ? "2" : "1"));
+                .collect(Collectors.toMap(topic -> topic, topic -> recreated.contains(topic) ? "2" : "1"));
     }
 
     @Override
@@ -54,6 +54,6 @@ final class OnePartition implements ReplayTopics.Writing {
 
     @Override
     public void close() {
-        // holds nothing
+        // no resources
     }
 }

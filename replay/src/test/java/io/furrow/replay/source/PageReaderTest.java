@@ -40,12 +40,12 @@ class PageReaderTest {
             answers::add);
 
     @Test
-    void abandonsWhatASeekReadsForANewerOne() {
-        missions.hold(true);
+    void abandonsASeekForANewerOne() {
+        missions.block(true);
         pages.read(seek(1, TIME + 20));
-        await().until(() -> missions.held() == 1);
+        await().until(() -> missions.blocked() == 1);
 
-        missions.hold(false);
+        missions.block(false);
         pages.read(seek(2, TIME + 30));
 
         await().until(() -> !answers.isEmpty());
@@ -53,18 +53,18 @@ class PageReaderTest {
             assertThat(primed.epoch()).isEqualTo(2);
             assertThat(primed.primes()).hasSize(1);
         });
-        assertThat(missions.held()).isZero();
+        assertThat(missions.blocked()).isZero();
     }
 
     @Test
     void readsNothingAfterItWasClosed() {
-        missions.hold(true);
+        missions.block(true);
         pages.read(seek(1, TIME + 20));
-        await().until(() -> missions.held() == 1);
+        await().until(() -> missions.blocked() == 1);
 
         pages.close();
 
-        await().until(() -> missions.held() == 0 && missions.open() == 0);
+        await().until(() -> missions.blocked() == 0 && missions.open() == 0);
         assertThat(answers).isEmpty();
     }
 

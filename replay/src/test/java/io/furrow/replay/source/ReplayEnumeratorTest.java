@@ -46,7 +46,7 @@ class ReplayEnumeratorTest {
     }
 
     @Test
-    void dividesReplaysEvenlyWhenAllReadersAreThere() {
+    void assignsReplaysEvenlyOnceAllReadersAreRegistered() {
         ReplayEnumerator enumerator = enumerator();
         script.next = List.of(update("a", 1), update("b", 1), update("c", 1), update("d", 1));
         readers.poll();
@@ -59,15 +59,15 @@ class ReplayEnumeratorTest {
         assertThat(readers.of(1)).hasSize(2);
         script.next = List.of(update("a", 2));
         readers.poll();
-        assertThat(readers.events).last().isEqualTo("0 a.0a1b2c3d told");
+        assertThat(readers.events).last().isEqualTo("0 a.0a1b2c3d updated");
     }
 
     @Test
-    void givesReplaysOfACheckpointToReadersAnewAndRemovesUndesiredOnes() {
+    void reassignsReplaysOfACheckpointAndRemovesUndesiredOnes() {
         ReplayEnumerator enumerator = enumerator(split("c"));
         readers.register(0, enumerator, split("a"), split("b"), split("gone"));
         readers.register(1, enumerator);
-        assertThat(readers.assigned).as("before it is known what is wanted").isEmpty();
+        assertThat(readers.assigned).as("before the desired replays are read").isEmpty();
 
         script.next = List.of(update("a", 1), update("b", 1), update("c", 1));
         readers.poll();
@@ -75,18 +75,18 @@ class ReplayEnumeratorTest {
         assertThat(readers.of(0)).hasSize(2);
         assertThat(readers.of(1)).hasSize(2);
         assertThat(readers.assigned).allMatch(one -> one.epoch == 3);
-        assertThat(readers.events).contains("1 gone.0a1b2c3d removed").contains("0 c.0a1b2c3d told");
+        assertThat(readers.events).contains("1 gone.0a1b2c3d removed").contains("0 c.0a1b2c3d updated");
         assertThat(enumerator.snapshotState(1).splits()).isEmpty();
     }
 
     @Test
-    void keepsWhatComesBackUntilItsReaderDoes() {
+    void keepsReturnedSplitsUntilTheirReaderRegistersAgain() {
         ReplayEnumerator enumerator = enumerator();
         readers.register(0, enumerator);
         readers.register(1, enumerator);
         script.next = List.of(update("a", 1));
         readers.poll();
-        readers.known.remove(0);
+        readers.registered.remove(0);
 
         enumerator.addSplitsBack(List.of(split("a")), 0);
 
@@ -97,9 +97,9 @@ class ReplayEnumeratorTest {
     }
 
     @Test
-    void goesOnWithEpochsOfReplaysThatNoCheckpointKnows() {
+    void continuesTheEpochsOfReplaysWithoutACheckpoint() {
         ReplayStatus.Progress progress = new ReplayStatus.Progress(4, 1_000, 0, 0, 500, 0, 0, 0, 0, 0, 0, null);
-        script.told = List.of(
+        script.reported = List.of(
                 new ReportedStatus("a.0a1b2c3d", new ReplayStatus(1, State.RUNNING, null, false, progress)),
                 new ReportedStatus("b.0a1b2c3d", new ReplayStatus(1, State.ENDED, null, true, progress)));
         ReplayEnumerator enumerator = enumerator();
@@ -110,7 +110,7 @@ class ReplayEnumeratorTest {
         readers.poll();
 
         assertThat(readers.assigned)
-                .as("b is over: who wanted it is about to be told")
+                .as("b is over, and its status is settled")
                 .containsExactly(new Assigned(0, "a.0a1b2c3d", 5, 1_500));
         script.next = List.of(update("b", 2));
         readers.poll();
@@ -118,7 +118,7 @@ class ReplayEnumeratorTest {
     }
 
     @Test
-    void leavesToItsReaderWhatAnotherHadAtACheckpoint() {
+    void leavesAReplayToItsReaderWhenAnotherReportsIt() {
         ReplayEnumerator enumerator = enumerator();
         script.next = List.of(update("a", 1));
         readers.poll();
@@ -138,7 +138,7 @@ class ReplayEnumeratorTest {
     }
 
     @Test
-    void tellsAReaderThatIsThereAgainThatNoMoreComes() {
+    void signalsNoMoreSplitsToAReaderThatRegistersAgain() {
         script.bounded = true;
         ReplayEnumerator enumerator = enumerator();
         script.next = List.of(update("a", 1));
@@ -153,29 +153,29 @@ class ReplayEnumeratorTest {
     }
 
     @Test
-    void readsOnWhenTheBrokerIsBack() {
+    void continuesToReadWhenTheBrokerIsBack() {
         ReplayStatus.Progress progress = new ReplayStatus.Progress(4, 1_000, 0, 0, 500, 0, 0, 0, 0, 0, 0, null);
-        script.told =
+        script.reported =
                 List.of(new ReportedStatus("a.0a1b2c3d", new ReplayStatus(1, State.RUNNING, null, false, progress)));
         script.next = List.of(update("a", 1));
-        script.away = true;
+        script.unavailable = true;
         ReplayEnumerator enumerator = enumerator();
         readers.register(0, enumerator);
         readers.register(1, enumerator);
 
-        script.away = false;
+        script.unavailable = false;
         readers.poll();
-        script.away = true;
+        script.unavailable = true;
         readers.poll();
         assertThat(readers.assigned).isEmpty();
-        script.away = false;
+        script.unavailable = false;
         readers.poll();
 
         assertThat(readers.assigned).containsExactly(new Assigned(0, "a.0a1b2c3d", 5, 1_500));
     }
 
     @Test
-    void passesOverWhatIsNoReplay() {
+    void skipsRecordsThatAreNoReplays() {
         ReplayEnumerator enumerator = enumerator();
         readers.register(0, enumerator);
         readers.register(1, enumerator);
@@ -193,10 +193,10 @@ class ReplayEnumeratorTest {
     private static final class Script implements DesiredReplays {
         private static final long serialVersionUID = 1L;
 
-        private transient List<ReportedStatus> told = List.of();
+        private transient List<ReportedStatus> reported = List.of();
         private transient List<ReplayUpdate> next = List.of();
         private transient boolean bounded;
-        private transient boolean away;
+        private transient boolean unavailable;
 
         @Override
         public boolean isBounded() {
@@ -208,18 +208,18 @@ class ReplayEnumeratorTest {
             return new Reading() {
                 @Override
                 public List<ReportedStatus> reportedStatuses() throws IOException {
-                    requireThere();
-                    return told;
+                    requireAvailable();
+                    return reported;
                 }
 
                 @Override
                 public List<ReplayUpdate> poll() throws IOException {
-                    requireThere();
+                    requireAvailable();
                     return next;
                 }
 
-                private void requireThere() throws IOException {
-                    if (away) {
+                private void requireAvailable() throws IOException {
+                    if (unavailable) {
                         throw new IOException("the broker does not answer");
                     }
                 }
@@ -231,7 +231,7 @@ class ReplayEnumeratorTest {
 
                 @Override
                 public void close() {
-                    // holds nothing
+                    // no resources
                 }
             };
         }
@@ -239,10 +239,10 @@ class ReplayEnumeratorTest {
 
     private record Assigned(int reader, String replay, long epoch, long stamp) {}
 
-    /** The other side, with calls made at once or by {@link #poll}. */
+    /** The context of the enumerator; runs asynchronous calls at once, and periodic ones also by {@link #poll}. */
     private static final class Readers implements SplitEnumeratorContext<ReplaySplit> {
         private final int parallelism;
-        private final Map<Integer, ReaderInfo> known = new HashMap<>();
+        private final Map<Integer, ReaderInfo> registered = new HashMap<>();
         private final List<Assigned> assigned = new ArrayList<>();
         private final List<String> events = new ArrayList<>();
         private Runnable poll;
@@ -252,7 +252,7 @@ class ReplayEnumeratorTest {
         }
 
         void register(int reader, ReplayEnumerator enumerator, ReplaySplit... reported) {
-            known.put(reader, ReaderInfo.createReaderInfo(reader, "here", List.of(reported)));
+            registered.put(reader, ReaderInfo.createReaderInfo(reader, "here", List.of(reported)));
             enumerator.addReader(reader);
         }
 
@@ -272,7 +272,7 @@ class ReplayEnumeratorTest {
         @Override
         public void sendEventToSourceReader(int reader, SourceEvent event) {
             ReplayChangeEvent desired = (ReplayChangeEvent) event;
-            events.add(reader + " " + desired.replay() + (desired.desired() == null ? " removed" : " told"));
+            events.add(reader + " " + desired.replay() + (desired.desired() == null ? " removed" : " updated"));
         }
 
         @Override
@@ -282,7 +282,7 @@ class ReplayEnumeratorTest {
 
         @Override
         public Map<Integer, ReaderInfo> registeredReaders() {
-            return known;
+            return registered;
         }
 
         @Override

@@ -65,7 +65,9 @@ class ReplayReaderTest {
         reader.handleSourceEvents(new ReplayChangeEvent(desired.replay(), desired.toBytes()));
     }
 
-    /** Until that many records of the mission of that kind are there; a minute at most without the reader being available. */
+    /**
+     * Polls until the mission has that many records of the kind; waits at most a minute for the reader to be available.
+     */
     private void play(String mission, String kind, int count) throws Exception {
         playUntil(() -> played(mission, kind).size() >= count);
     }
@@ -117,7 +119,7 @@ class ReplayReaderTest {
     }
 
     @Test
-    void letsNoReplayHoldUpAnother() throws Exception {
+    void delaysNoReplayByAnother() throws Exception {
         missions.with("m", TIME, TIME + 50);
         start(desired("stuck", 1, State.RUNNING, 1));
         start(desired("unknown", 1, State.RUNNING, 1));
@@ -137,14 +139,14 @@ class ReplayReaderTest {
     }
 
     @Test
-    void saysThatItWaitsForARecordingAndGoesOn() throws Exception {
-        missions.with("m", TIME, TIME + 1, TIME + 2).setAway("m", true);
+    void reportsThatItWaitsForARecordingAndContinues() throws Exception {
+        missions.with("m", TIME, TIME + 1, TIME + 2).setUnavailable("m", true);
         start(desired("m", ReplayCommand.MAX, State.RUNNING, 1));
         playUntil(() -> status("m") != null && status("m").progress().waiting() != null);
         assertThat(status("m").state()).isEqualTo(State.RUNNING);
-        assertThat(status("m").progress().waiting()).isEqualTo("the store is away");
+        assertThat(status("m").progress().waiting()).isEqualTo("the store is unavailable");
 
-        missions.setAway("m", false);
+        missions.setUnavailable("m", false);
         play("m", "end", 1);
 
         assertThat(played("m", "event")).hasSize(3);
@@ -152,7 +154,7 @@ class ReplayReaderTest {
     }
 
     @Test
-    void goesOnWhereItStoodAfterHalfAMinuteWithoutItsRecordingAndHoldsUpNoOther() throws Exception {
+    void continuesAfterHalfAMinuteWithoutItsRecordingAndDelaysNoOther() throws Exception {
         reader.close();
         reader = newReader(new ReplayClock(() -> System.nanoTime() + ahead.get()));
         missions.with("m", every100Millis(8)).with("other", every100Millis(400));
@@ -161,19 +163,19 @@ class ReplayReaderTest {
         playUntil(() -> !played("m", "event").isEmpty());
 
         long began = System.nanoTime();
-        missions.setAway("m", true);
+        missions.setUnavailable("m", true);
         playUntil(() -> status("m").progress().waiting() != null);
         for (int step = 0; step < 300; step++) {
             int others = played("other", "event").size();
             ahead.addAndGet(TimeUnit.MILLISECONDS.toNanos(100));
             playUntil(() -> played("other", "event").size() > others);
         }
-        assertThat(status("m").progress().waiting()).isEqualTo("the store is away");
+        assertThat(status("m").progress().waiting()).isEqualTo("the store is unavailable");
         assertThat(status("m").state()).isEqualTo(State.RUNNING);
         assertThat(played("m", "event")).as("what had been read").hasSizeLessThanOrEqualTo(4);
         assertThat(status("other").progress().slipMillis()).isZero();
 
-        missions.setAway("m", false);
+        missions.setUnavailable("m", false);
         playUntil(() -> status("m").progress().waiting() == null);
         playUntil(() -> !played("m", "end").isEmpty());
         assertThat(played("m", "event"))
@@ -188,7 +190,7 @@ class ReplayReaderTest {
     }
 
     @Test
-    void measuresWhatItTells() throws Exception {
+    void exposesItsStatusAsMetrics() throws Exception {
         missions.with("m", TIME, TIME + 20);
         start(desired("m", 1, State.RUNNING, 1));
 
@@ -216,7 +218,7 @@ class ReplayReaderTest {
     }
 
     @Test
-    void tellsTheEndAtOnceAndThatItIsSettledAfterACheckpoint() throws Exception {
+    void reportsTheEndAtOnceAndAsSettledAfterACheckpoint() throws Exception {
         missions.with("m", TIME);
         start(desired("m", 1, State.RUNNING, 1));
         play("m", "end", 1);
@@ -232,7 +234,7 @@ class ReplayReaderTest {
     }
 
     @Test
-    void playsWhatIsRecordedWhileItPlays() throws Exception {
+    void playsEventsThatAreRecordedWhileItPlays() throws Exception {
         missions.with("m", TIME, TIME + 10);
         start(desired("m", 1, State.RUNNING, 1));
         play("m", "event", 1);
@@ -273,17 +275,17 @@ class ReplayReaderTest {
     }
 
     @Test
-    void restsAgainWhereNobodyWaitsForAStepBackFromItsEnd() throws Exception {
+    void closesItsRecordingWhenAStepBackFromItsEndIsCancelled() throws Exception {
         missions.with("m", TIME, TIME + 10);
         DesiredReplay running = desired("m", ReplayCommand.MAX, State.RUNNING, 1);
         start(running);
         play("m", "end", 1);
         await().until(() -> missions.open() == 0);
-        missions.setAway("m", true);
+        missions.setUnavailable("m", true);
         update(running.desired(State.PAUSED, 2).stepping(-1, 2));
         playUntil(() -> status("m").progress().waiting() != null);
         update(running.desired(State.RUNNING, 3));
-        missions.setAway("m", false);
+        missions.setUnavailable("m", false);
 
         playUntil(() -> status("m").sequence() == 3 && status("m").progress().waiting() == null);
         await().until(() -> missions.open() == 0);
@@ -292,7 +294,7 @@ class ReplayReaderTest {
     }
 
     @Test
-    void goesOnWhereACheckpointWas() throws Exception {
+    void continuesFromACheckpoint() throws Exception {
         missions.with("m", TIME, TIME + 10, TIME + 20, TIME + 100_000);
         start(desired("m", 1, State.RUNNING, 1));
         play("m", "event", 3);
@@ -307,9 +309,9 @@ class ReplayReaderTest {
                 .containsExactly("0", "1", "2", "3");
     }
 
-    /** What was written after the checkpoint is on the topic: two seeks, of which only the later one is still known. */
+    /** The topic has records from after the checkpoint: two seeks, of which only the later one is still desired. */
     @Test
-    void usesNoEpochAgainThatIsOnItsTopic() throws Exception {
+    void reusesNoEpochOfItsTopic() throws Exception {
         missions.with("m", TIME, TIME + 10, TIME + 100_000);
         DesiredReplay started = desired("m", 1, State.RUNNING, 1);
         start(started);
@@ -328,12 +330,12 @@ class ReplayReaderTest {
     }
 
     @Test
-    void goesOnBehindItsTopicWhereNoCheckpointKnowsIt() throws Exception {
+    void continuesBehindTheEndOfItsTopicWithoutACheckpoint() throws Exception {
         missions.with("m", TIME, TIME + 10);
         topics.end = new TopicEnd(6, TIME + 900_000);
         DesiredReplay desired = desired("m", ReplayCommand.MAX, State.RUNNING, 1);
-        PlaybackState told = new PlaybackState(5, TIME + 400_000);
-        reader.addSplits(List.of(new ReplaySplit(desired.replay(), desired.toBytes(), told)));
+        PlaybackState reported = new PlaybackState(5, TIME + 400_000);
+        reader.addSplits(List.of(new ReplaySplit(desired.replay(), desired.toBytes(), reported)));
 
         play("m", "end", 1);
 
@@ -344,7 +346,7 @@ class ReplayReaderTest {
     }
 
     @Test
-    void beginsANewEpochOnATopicThatAReplayBeforeHasLeft() throws Exception {
+    void beginsANewEpochOnTheTopicOfAnEarlierReplay() throws Exception {
         missions.with("m", TIME, TIME + 10);
         topics.end = new TopicEnd(0, TIME + 10);
         start(desired("m", ReplayCommand.MAX, State.RUNNING, 1));
@@ -357,9 +359,9 @@ class ReplayReaderTest {
         assertThat(played("m", "event")).extracting(TopicRecord::timestamp).containsExactly(TIME + 10, TIME + 20);
     }
 
-    /** Whoever asked for it can forget it then. */
+    /** The control plane can then delete the replay. */
     @Test
-    void appliesARecordThatItCannotReadAsAFailure() throws Exception {
+    void failsAReplayWithAnUnreadableRecord() throws Exception {
         byte[] later = "{\"sequence\": 7, \"replay\": 1}".getBytes(UTF_8);
         reader.addSplits(List.of(new ReplaySplit("bad.0a1b2c3d", later, new PlaybackState())));
         missions.with("m", TIME, TIME + 100_000);
@@ -378,7 +380,7 @@ class ReplayReaderTest {
     }
 
     @Test
-    void failsAReplayWhoseTopicWasDeletedAndNoOther() throws Exception {
+    void failsOnlyTheReplayWhoseTopicWasDeleted() throws Exception {
         missions.with("m", TIME, TIME + 100_000).with("other", TIME, TIME + 100_000);
         start(desired("m", 1, State.RUNNING, 1));
         start(desired("other", 1, State.RUNNING, 1));
@@ -395,13 +397,13 @@ class ReplayReaderTest {
     }
 
     @Test
-    void failsAReplayOnATopicThatWasLeftWhenThatIsDeletedAndRefused() throws Exception {
+    void failsAReplayWhoseTopicCannotBeCreatedAgain() throws Exception {
         missions.with("m", TIME, TIME + 100_000);
         topics.end = new TopicEnd(0, TIME);
         start(desired("m", 1, State.RUNNING, 1));
         play("m", "event", 1);
 
-        topics.refusal = "no more topics";
+        topics.problem = "no more topics";
         topics.deleted.add(Topics.replay("m", "0a1b2c3d"));
 
         playUntil(() -> status("m").state() == State.FAILED);
@@ -409,15 +411,15 @@ class ReplayReaderTest {
     }
 
     @Test
-    void failsAReplayWhoseTopicWasDeletedAndMadeAgainByTheBroker() throws Exception {
+    void failsAReplayWhoseTopicTheBrokerCreatedAgain() throws Exception {
         missions.with("m", TIME, TIME + 100, TIME + 200_000).with("other", TIME, TIME + 200_000);
         start(desired("m", 1, State.RUNNING, 1));
         start(desired("other", 1, State.RUNNING, 1));
         play("m", "event", 1);
-        int before = topics.asked;
-        playUntil(() -> topics.asked > before + 1);
+        int before = topics.idRequests;
+        playUntil(() -> topics.idRequests > before + 1);
 
-        topics.madeAgain.add(Topics.replay("m", "0a1b2c3d"));
+        topics.recreated.add(Topics.replay("m", "0a1b2c3d"));
         play("m", "end", 1);
 
         assertThat(status("m").reason()).isEqualTo("its topic was deleted while it was played");
@@ -425,13 +427,13 @@ class ReplayReaderTest {
     }
 
     @Test
-    void stopsAReplayWhoseTopicIsRefusedAfterARestart() throws Exception {
+    void stopsAReplayWhoseTopicCannotBeCreatedAfterARestart() throws Exception {
         missions.with("m", TIME, TIME + 100_000);
         DesiredReplay running = desired("m", 1, State.RUNNING, 1);
         start(running);
         play("m", "event", 1);
 
-        topics.refusal = "no topic may be made";
+        topics.problem = "no topic may be made";
         restart();
         playUntil(() -> "no topic may be made".equals(status("m").progress().waiting()));
         assertThat(status("m").state()).isEqualTo(State.RUNNING);
@@ -453,7 +455,7 @@ class ReplayReaderTest {
     }
 
     @Test
-    void obeysWhereACheckpointLeftItBehindItsEnd() throws Exception {
+    void stopsWhenACheckpointLeftItBehindItsEnd() throws Exception {
         missions.with("m", TIME, TIME + 10, TIME + 20, TIME + 30);
         DesiredReplay paused = desired("m", 1, State.PAUSED, 1).stepping(3, 1);
         start(paused);
@@ -469,7 +471,7 @@ class ReplayReaderTest {
     }
 
     @Test
-    void forgetsWhatNobodyWantsAndEndsItsEpoch() throws Exception {
+    void removesAnUndesiredReplayAndEndsItsEpoch() throws Exception {
         missions.with("m", TIME, TIME + 100_000);
         start(desired("m", 1, State.RUNNING, 1));
         play("m", "event", 1);
@@ -491,7 +493,7 @@ class ReplayReaderTest {
     }
 
     @Test
-    void endsWithItsReplayWhereNothingElseIsToCome() throws Exception {
+    void endsWithItsReplayAfterTheLastSplit() throws Exception {
         missions.with("m", TIME, TIME + 1);
         start(desired("m", ReplayCommand.MAX, State.RUNNING, 1));
 
@@ -501,7 +503,7 @@ class ReplayReaderTest {
     }
 
     @Test
-    void failsWithItsReplayWhereNothingElseIsToCome() {
+    void failsWithItsReplayAfterTheLastSplit() {
         start(desired("unknown", 1, State.RUNNING, 1));
 
         assertThatThrownBy(this::lastStatus)

@@ -17,7 +17,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class ReplaySplitSerializerTest {
-    /** Behind name, record and sequence. */
+    /** Offset of the phase, behind name, record and sequence. */
     private static final int PHASE_AT = 28;
 
     private final ReplaySplitSerializer serializer = new ReplaySplitSerializer();
@@ -32,7 +32,7 @@ class ReplaySplitSerializerTest {
 
     @ParameterizedTest
     @EnumSource(PlaybackState.Phase.class)
-    void givesBackWhatItWrote(PlaybackState.Phase phase) throws Exception {
+    void readsBackASplit(PlaybackState.Phase phase) throws Exception {
         for (ReplaySplit split : List.of(split(phase, null, -1L, null), split(phase, "why", null))) {
             assertThat(serializer.deserialize(serializer.getVersion(), serializer.serialize(split)))
                     .usingRecursiveComparison()
@@ -40,7 +40,7 @@ class ReplaySplitSerializerTest {
         }
     }
 
-    /** As savepoints hold them. */
+    /** Savepoints contain these bytes. */
     @Test
     void writesTheBytesOfItsVersion() throws Exception {
         byte[] stored = HexFormat.of()
@@ -60,7 +60,7 @@ class ReplaySplitSerializerTest {
     }
 
     @Test
-    void knowsPhasesByCodesThatStay() {
+    void keepsTheCodesOfPhases() {
         assertThat(PlaybackState.Phase.values())
                 .extracting(phase -> phase.code() + " " + phase)
                 .containsExactly(
@@ -68,7 +68,7 @@ class ReplaySplitSerializerTest {
     }
 
     @Test
-    void refusesOtherVersionsAndWhatFollows() throws Exception {
+    void rejectsOtherVersionsAndTrailingBytes() throws Exception {
         byte[] bytes = serializer.serialize(split(PlaybackState.Phase.PLAYING, null, null));
 
         for (int version : new int[] {1, 3}) {
@@ -82,7 +82,7 @@ class ReplaySplitSerializerTest {
     }
 
     @Test
-    void keepsReplaysWithoutAReader() throws Exception {
+    void readsBackReplaysWithoutAReader() throws Exception {
         EnumeratorStateSerializer all = new EnumeratorStateSerializer();
         EnumeratorState replays = new EnumeratorState(
                 List.of(split(PlaybackState.Phase.PLAYING, null, null), split(PlaybackState.Phase.ENDED, "x", 1L)));

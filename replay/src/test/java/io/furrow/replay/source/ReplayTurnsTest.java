@@ -24,7 +24,10 @@ import io.furrow.replay.recording.RecordingSources;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** How replays of one reader share its thread; each record that is written takes its time of a clock that the test drives. */
+/**
+ * Tests how the replays of a reader share its thread. Each written record takes some time of a clock that the test
+ * drives.
+ */
 class ReplayTurnsTest {
     private static final long TIME = 1_700_000_000_000L;
     private static final int EVENTS = 1_000;
@@ -52,7 +55,7 @@ class ReplayTurnsTest {
         reader.start();
     }
 
-    /** Paused, with its first page read. */
+    /** Adds a paused replay and waits until its first page is read. */
     private DesiredReplay ready(String mission, double speed) throws Exception {
         DesiredReplay paused = ReplayReaderTest.desired(mission, speed, State.PAUSED, 1);
         reader.addSplits(List.of(new ReplaySplit(paused.replay(), paused.toBytes(), new PlaybackState())));
@@ -71,7 +74,7 @@ class ReplayTurnsTest {
                 paused.replay(), paused.desired(State.RUNNING, 2).toBytes()));
     }
 
-    /** Names of the missions of what was played. */
+    /** Returns the mission of each played event. */
     private List<String> played() {
         return records.stream()
                 .filter(record -> "event".equals(record.headers().get(HeaderNames.REPLAY_KIND)))
@@ -91,7 +94,7 @@ class ReplayTurnsTest {
     }
 
     @Test
-    void playsWhatIsDueBetweenTheTurnsOfReplaysThatAreFasterThanItCan() throws Exception {
+    void playsDueEventsBetweenTheTurnsOfFasterReplays() throws Exception {
         missions.with("fast1", LongStream.range(TIME, TIME + EVENTS).toArray());
         missions.with("fast2", LongStream.range(TIME, TIME + EVENTS).toArray());
         missions.with("slow", TIME + 3, TIME + 5);
@@ -108,7 +111,7 @@ class ReplayTurnsTest {
     }
 
     @Test
-    void measuresLatenessThatAnotherReplayHasCaused() throws Exception {
+    void measuresLatenessCausedByAnotherReplay() throws Exception {
         missions.with("m1", TIME, TIME + 100);
         missions.with("m2", TIME, TIME + 100);
         List<DesiredReplay> replays = List.of(ready("m1", 1), ready("m2", 1));
@@ -129,7 +132,7 @@ class ReplayTurnsTest {
     }
 
     @Test
-    void reportsNotAllReplaysAtOnce() throws Exception {
+    void spreadsStatusReportsOverTime() throws Exception {
         List<DesiredReplay> replays = new ArrayList<>();
         for (int i = 0; i < 20; i++) {
             missions.with("m" + i, TIME, TIME + 100_000);

@@ -15,11 +15,11 @@ import io.furrow.model.topic.Topics;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ReplaysTopicTest {
-    /** Gives its records one by one only. */
+    /** A snapshot that passes records only one by one. */
     private record Statuses(List<TopicRecord> records) implements TopicSnapshot {
         @Override
         public List<TopicRecord> read() {
-            throw new AssertionError("all statuses ever reported are not held at once");
+            throw new AssertionError("reads all statuses into memory");
         }
 
         @Override
@@ -31,7 +31,7 @@ class ReplaysTopicTest {
     }
 
     @Test
-    void readsTheNewestStatusOfEachReplayThatIsNotForgotten() throws IOException {
+    void readsTheNewestStatusOfEachReplayThatWasNotDeleted() throws IOException {
         Statuses statuses = new Statuses(List.of(
                 status("a", 1),
                 status("b", 1),

@@ -22,14 +22,14 @@ import io.furrow.http.AllowedNames;
 import io.furrow.http.OptionNames;
 
 /**
- * Applies the access rule to a worker's REST API, where {@code rest.extension.classes} names it. The addresses of {@code listeners}
- * and {@code rest.advertised.host.name}, by which other workers come, are allowed by themselves; {@code GET /health} is for
- * probes. Connect adds extensions to {@code listeners} only: {@code admin.listeners} of their own stay without.
+ * Applies {@link AccessRule} to a worker's REST API; enabled by {@code rest.extension.classes}. The addresses of {@code
+ * listeners} and {@code rest.advertised.host.name}, which other workers use, are always allowed; {@code GET /health} is
+ * open to probes. Connect applies extensions to {@code listeners} only, not to separate {@code admin.listeners}.
  */
 public final class AccessExtension implements ConnectRestExtension {
-    /** Further hosts by which the worker is reached; a list. */
+    /** List of further hosts of the worker. */
     public static final String ALLOWED_HOSTS = "furrow.http.allowed.hosts";
-    /** Origins of pages that may use the worker; a list. */
+    /** List of origins of pages that may use the worker. */
     public static final String ALLOWED_ORIGINS = "furrow.http.allowed.origins";
 
     private static final OptionNames NAMES = new OptionNames(ALLOWED_HOSTS, ALLOWED_ORIGINS);
@@ -55,10 +55,10 @@ public final class AccessExtension implements ConnectRestExtension {
 
     private AccessRule rule;
 
-    /** Made by the worker. */
+    /** Called by the worker. */
     public AccessExtension() {}
 
-    /** @throws ConfigException if an entry of a list is not a host or no origin */
+    /** @throws ConfigException if a host or origin is invalid */
     @Override
     public void configure(Map<String, ?> settings) {
         AbstractConfig config = new AbstractConfig(OPTIONS, settings, false);
@@ -101,6 +101,6 @@ public final class AccessExtension implements ConnectRestExtension {
 
     @Override
     public void close() {
-        // holds nothing
+        // no resources
     }
 }

@@ -22,7 +22,10 @@ import io.furrow.http.AccessRule;
 import io.furrow.http.Decision;
 import io.furrow.http.HttpCall;
 
-/** Refuses in the shape of Connect's own errors; not part of {@link AccessExtension}, whose class must load without JAX-RS too. */
+/**
+ * Applies the rule and rejects requests in the format of Connect's own errors. A separate class because {@link
+ * AccessExtension} must load without JAX-RS, too.
+ */
 @PreMatching
 @Priority(Priorities.AUTHENTICATION - 1)
 final class AccessFilter implements ContainerRequestFilter, ContainerResponseFilter {
@@ -73,7 +76,7 @@ final class AccessFilter implements ContainerRequestFilter, ContainerResponseFil
     private InetAddress local() {
         try {
             return InetAddress.getByName(servlet.getLocalAddr());
-        } catch (UnknownHostException e) { // not from an address that Jetty printed itself
+        } catch (UnknownHostException e) { // impossible for an address that Jetty printed
             return null;
         }
     }

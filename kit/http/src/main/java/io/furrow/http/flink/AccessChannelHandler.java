@@ -35,21 +35,24 @@ import io.furrow.http.Decision;
 import io.furrow.http.HttpCall;
 
 /**
- * Decides about the requests of one connection. Flink puts handlers of its service interface behind the one that writes uploads to the
- * disk and the one that collects bodies of up to 100 MB, so this one moves to the front of them.
+ * Decides on the requests of one connection. Flink adds handlers of its service interface behind the one that writes
+ * uploads to disk and the one that buffers bodies of up to 100 MB, so this one moves to the front.
  */
 final class AccessChannelHandler extends ChannelDuplexHandler {
     private static final String IN_FRONT = "furrow-access";
-    /** A body up to here is read before the answer: a client that is still sending might lose that with its connection. */
+    /**
+     * A body up to this size is read before the answer, because a client that is still sending may lose an answer when
+     * the connection closes.
+     */
     private static final int MAX_DRAINED = 64 * 1024;
-    /** What Flink offers by GET, for YARN's proxy, although it ends a job. */
+    /** Paths that end a job although their method is GET; Flink has them for YARN's proxy. */
     private static final Pattern COMMAND_BY_GET = Pattern.compile(".*/yarn-(cancel|stop)/?");
 
     private final AccessRule rule;
     private final boolean readOnly;
-    /** Headers of the answers that are still to come, in the order of their requests. */
+    /** Headers of the pending answers, in the order of their requests. */
     private final Deque<Map<String, String>> granted = new ArrayDeque<>();
-    /** Set once a request goes no further; the connection is closed behind this answer. */
+    /** The answer to a rejected request; the connection is closed behind it. */
     private FullHttpResponse closing;
 
     private boolean closed;
@@ -85,8 +88,8 @@ final class AccessChannelHandler extends ChannelDuplexHandler {
 
     private void decide(ChannelHandlerContext context, HttpRequest request) {
         Decision decision = rule.decide(call(context, request));
-        if (decision instanceof Decision.Granted go && !(readOnly && isCommand(request))) {
-            granted.add(go.headers());
+        if (decision instanceof Decision.Granted grant && !(readOnly && isCommand(request))) {
+            granted.add(grant.headers());
             context.fireChannelRead(request);
             return;
         }
@@ -128,7 +131,7 @@ final class AccessChannelHandler extends ChannelDuplexHandler {
         try {
             return RestMapperUtils.getStrictObjectMapper().writeValueAsBytes(body);
         } catch (JsonProcessingException e) {
-            throw new IllegalStateException("a sentence makes JSON", e);
+            throw new IllegalStateException("cannot write an error as JSON", e);
         }
     }
 
@@ -140,7 +143,7 @@ final class AccessChannelHandler extends ChannelDuplexHandler {
         }
     }
 
-    /** Replaces what {@code web.access-control-allow-origin} offers to every page. */
+    /** Replaces the header of {@code web.access-control-allow-origin}, which allows every page. */
     @Override
     public void write(ChannelHandlerContext context, Object message, ChannelPromise promise) {
         if (message instanceof HttpResponse response && response.status().code() >= HttpResponseStatus.OK.code()) {

@@ -13,21 +13,21 @@ import io.furrow.http.AccessRule;
 import io.furrow.http.AllowedNames;
 import io.furrow.http.OptionNames;
 
-/** Applies the access rule to Flink's REST API and web UI; Flink finds it by itself where the jar is in {@code lib/}. */
+/** Applies {@link AccessRule} to Flink's REST API and web UI. Flink discovers it when the jar is in {@code lib/}. */
 public final class AccessHandlerFactory implements InboundChannelHandlerFactory {
     private static final OptionNames NAMES =
             new OptionNames(AccessOptions.ALLOWED_HOSTS.key(), AccessOptions.ALLOWED_ORIGINS.key());
 
-    /** Made by Flink. */
+    /** Called by Flink. */
     public AccessHandlerFactory() {}
 
-    /** Before other handlers, which need not see what is refused. */
+    /** Runs before other handlers, so that rejected requests do not reach them. */
     @Override
     public int priority() {
         return Integer.MAX_VALUE;
     }
 
-    /** @throws ConfigurationException if an option names no host or no origin; each connection is closed then */
+    /** @throws ConfigurationException if a host or origin is invalid; Flink then closes each connection */
     @Override
     public Optional<ChannelHandler> createHandler(Configuration configuration, Map<String, String> responseHeaders)
             throws ConfigurationException {

@@ -5,9 +5,9 @@ import java.util.List;
 import org.apache.flink.configuration.ConfigOption;
 import org.apache.flink.configuration.ConfigOptions;
 
-/** Options of Flink's configuration for who may use its REST API and web UI. */
+/** Options in Flink's configuration that control access to its REST API and web UI. */
 public final class AccessOptions {
-    /** Further hosts. */
+    /** Further hosts of the REST API. */
     public static final ConfigOption<List<String>> ALLOWED_HOSTS = ConfigOptions.key("furrow.http.allowed-hosts")
             .stringType()
             .asList()
@@ -15,7 +15,7 @@ public final class AccessOptions {
             .withDescription(
                     "Hosts by which the REST API is reached, beside loopback, rest.address and rest.bind-address.");
 
-    /** Origins of pages. */
+    /** Origins of pages that may use the REST API. */
     public static final ConfigOption<List<String>> ALLOWED_ORIGINS = ConfigOptions.key("furrow.http.allowed-origins")
             .stringType()
             .asList()
@@ -24,7 +24,7 @@ public final class AccessOptions {
                     "Origins of the pages that may use the REST API, beside the web UI's own. It takes the place of"
                             + " web.access-control-allow-origin.");
 
-    /** Whether the REST API only shows. */
+    /** Whether the REST API is read-only. */
     public static final ConfigOption<Boolean> READ_ONLY = ConfigOptions.key("furrow.http.read-only")
             .booleanType()
             .defaultValue(false)

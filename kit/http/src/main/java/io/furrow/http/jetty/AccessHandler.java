@@ -17,15 +17,18 @@ import io.furrow.http.AccessRule;
 import io.furrow.http.Decision;
 import io.furrow.http.HttpCall;
 
-/** Applies an {@link AccessRule} to all that a Jetty server takes, before the handler that it wraps sees any of it. */
+/** Applies an {@link AccessRule} to all requests of a Jetty server before the wrapped handler. */
 public final class AccessHandler extends Handler.Wrapper {
-    /** A body up to here is read first: a client that is still sending might lose the answer with its connection. */
+    /**
+     * A body up to this size is read first, because a client that is still sending may lose an answer when the
+     * connection closes.
+     */
     private static final int MAX_DRAINED = 64 * 1024;
 
     private final AccessRule rule;
     private final Function<Decision.Refused, byte[]> body;
 
-    /** @param body the JSON with which this server says why it refuses */
+    /** @param body composes the JSON of a rejection */
     public AccessHandler(AccessRule rule, Function<Decision.Refused, byte[]> body, Handler handler) {
         super(handler);
         this.rule = rule;
@@ -44,12 +47,12 @@ public final class AccessHandler extends Handler.Wrapper {
             response.setStatus(HttpStatus.NO_CONTENT_204);
             response.write(true, null, callback);
         } else if (decision instanceof Decision.Refused refused) {
-            refuse(request, response, refused, callback);
+            reject(request, response, refused, callback);
         }
         return true;
     }
 
-    private void refuse(Request request, Response response, Decision.Refused refused, Callback callback) {
+    private void reject(Request request, Response response, Decision.Refused refused, Callback callback) {
         response.setStatus(Decision.REFUSED_STATUS);
         response.getHeaders().put(HttpHeader.CONTENT_TYPE, "application/json");
         response.getHeaders().put(HttpHeader.CONNECTION, "close");

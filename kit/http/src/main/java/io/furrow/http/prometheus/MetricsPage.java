@@ -11,17 +11,17 @@ import io.prometheus.metrics.model.snapshots.GaugeSnapshot;
 import io.prometheus.metrics.model.snapshots.Labels;
 import io.prometheus.metrics.model.snapshots.MetricSnapshots;
 
-/** A page of metrics in the text format of Prometheus, in the order of their names. */
+/** Composes a page of metrics in Prometheus' text format, sorted by name. */
 public final class MetricsPage {
     public static final String CONTENT_TYPE = PrometheusTextFormatWriter.CONTENT_TYPE;
 
     private final String prefix;
     private final MetricSnapshots.Builder metrics = MetricSnapshots.builder();
 
-    /** @param labels of the value: a name and its value, the next name and so on */
+    /** @param labels names and values in turn */
     public record Point(double value, String... labels) {}
 
-    /** @param prefix what the names of all metrics begin with */
+    /** @param prefix prefix of all names */
     public MetricsPage(String prefix) {
         this.prefix = prefix;
     }
@@ -61,7 +61,7 @@ public final class MetricsPage {
         try {
             PrometheusTextFormatWriter.builder().build().write(page, metrics.build());
         } catch (IOException e) {
-            throw new UncheckedIOException("memory cannot fail", e);
+            throw new UncheckedIOException("cannot write to memory", e);
         }
         return page.toByteArray();
     }

@@ -14,12 +14,12 @@ class AccessExtensionTest {
         "furrow.http.allowed.hosts, 'connect.farm,http://farm', '''http://farm'' is not a host'",
         "furrow.http.allowed.origins, *, '''*'' is not an origin'"
     })
-    void namesTheOptionThatIsWrong(String option, String value, String why) {
+    void namesTheInvalidOption(String option, String value, String reason) {
         try (AccessExtension extension = new AccessExtension()) {
             assertThatThrownBy(() -> extension.configure(Map.of(option, value)))
                     .isInstanceOf(ConfigException.class)
                     .hasMessageStartingWith(option + ": ")
-                    .hasMessageContaining(why);
+                    .hasMessageContaining(reason);
         }
     }
 }

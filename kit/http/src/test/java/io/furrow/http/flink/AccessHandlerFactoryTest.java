@@ -15,13 +15,13 @@ class AccessHandlerFactoryTest {
         "furrow.http.allowed-hosts, flink.farm;http://farm, '''http://farm'' is not a host'",
         "furrow.http.allowed-origins, *, '''*'' is not an origin'"
     })
-    void namesTheOptionThatIsWrong(String option, String value, String why) {
+    void namesTheInvalidOption(String option, String value, String reason) {
         Configuration configuration = new Configuration();
         configuration.setString(option, value);
 
         assertThatThrownBy(() -> new AccessHandlerFactory().createHandler(configuration, Map.of()))
                 .isInstanceOf(ConfigurationException.class)
                 .hasMessageStartingWith(option + ": ")
-                .hasMessageContaining(why);
+                .hasMessageContaining(reason);
     }
 }

@@ -59,16 +59,16 @@ class AccessHandlerTest {
     }
 
     @Test
-    void letsItsOwnPassAsTheyAre() throws IOException {
-        assertThat(ask("GET / HTTP/1.1\r\nConnection: close\r\nHost: localhost\r\n\r\n"))
+    void passesOwnRequestsUnchanged() throws IOException {
+        assertThat(send("GET / HTTP/1.1\r\nConnection: close\r\nHost: localhost\r\n\r\n"))
                 .startsWith("HTTP/1.1 200 ")
                 .endsWith("hello")
                 .doesNotContainIgnoringCase("access-control");
     }
 
     @Test
-    void refusesInTheShapeOfTheServerBeforeTheHandlerSeesAnything() throws IOException {
-        assertThat(ask("GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n"))
+    void rejectsWithTheServersBodyBeforeTheHandlerIsCalled() throws IOException {
+        assertThat(send("GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n"))
                 .startsWith("HTTP/1.1 403 ")
                 .containsIgnoringCase("content-type: application/json")
                 .endsWith("{\"error\":\"foreign-host\"}");
@@ -76,7 +76,7 @@ class AccessHandlerTest {
     }
 
     @Test
-    void answersAlsoWhileABodyIsStillComing() throws IOException {
+    void answersWhileABodyIsStillBeingSent() throws IOException {
         String head =
                 "POST / HTTP/1.1\r\nHost: localhost\r\nOrigin: https://evil.example\r\nContent-Type: text/plain\r\n";
         try (Socket socket = connect()) {
@@ -84,27 +84,27 @@ class AccessHandlerTest {
             write(socket, "late");
             assertThat(read(socket)).endsWith("{\"error\":\"foreign-origin\"}");
         }
-        assertThat(ask(head + "Content-Length: 100000000\r\n\r\nx")).endsWith("{\"error\":\"foreign-origin\"}");
-        assertThat(ask(head + "Transfer-Encoding: chunked\r\n\r\n1\r\nx\r\n"))
+        assertThat(send(head + "Content-Length: 100000000\r\n\r\nx")).endsWith("{\"error\":\"foreign-origin\"}");
+        assertThat(send(head + "Transfer-Encoding: chunked\r\n\r\n1\r\nx\r\n"))
                 .endsWith("{\"error\":\"foreign-origin\"}");
         assertThat(handled).hasValue(0);
     }
 
     @Test
-    void letsAPageOfAnAllowedOriginAskAndRead() throws IOException {
+    void answersPreflightsAndRequestsOfAnAllowedOrigin() throws IOException {
         String page = " / HTTP/1.1\r\nConnection: close\r\nHost: localhost\r\nOrigin: https://map.example.org\r\n";
 
-        assertThat(ask("OPTIONS" + page + "Access-Control-Request-Method: PUT\r\n\r\n"))
+        assertThat(send("OPTIONS" + page + "Access-Control-Request-Method: PUT\r\n\r\n"))
                 .startsWith("HTTP/1.1 204 ")
                 .contains("Access-Control-Allow-Origin: https://map.example.org", "Access-Control-Allow-Methods: PUT");
         assertThat(handled).hasValue(0);
-        assertThat(ask("GET" + page + "\r\n"))
+        assertThat(send("GET" + page + "\r\n"))
                 .startsWith("HTTP/1.1 200 ")
                 .contains("Access-Control-Allow-Origin: https://map.example.org")
                 .endsWith("hello");
     }
 
-    /** Jetty itself refuses some of these, before any handler. */
+    /** Jetty itself rejects some of these before any handler. */
     @ParameterizedTest
     @ValueSource(
             strings = {
@@ -120,8 +120,8 @@ class AccessHandlerTest {
                 "GET / HTTP/1.1\r\nHost: localhost\r\noRIGIN: https://evil.example\r\n\r\n",
                 "GET / HTTP/1.1\r\nHost: evil.example\r\nX-Forwarded-Host: localhost\r\n\r\n"
             })
-    void letsNothingThroughThatNamesAnotherHostOrNone(String request) throws IOException {
-        assertThat(ask(request)).matches("(?s)HTTP/1\\.1 40[03] .*");
+    void rejectsRequestsThatNameAnotherHostOrNone(String request) throws IOException {
+        assertThat(send(request)).matches("(?s)HTTP/1\\.1 40[03] .*");
         assertThat(handled).hasValue(0);
     }
 
@@ -136,12 +136,12 @@ class AccessHandlerTest {
         socket.getOutputStream().flush();
     }
 
-    /** All that comes until the server closes the connection, which it does only where it is to. */
+    /** Reads until the server closes the connection, which the tests expect. */
     private static String read(Socket socket) throws IOException {
         return new String(socket.getInputStream().readAllBytes(), US_ASCII);
     }
 
-    private String ask(String request) throws IOException {
+    private String send(String request) throws IOException {
         try (Socket socket = connect()) {
             write(socket, request);
             return read(socket);

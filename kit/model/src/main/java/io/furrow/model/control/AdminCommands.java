@@ -5,7 +5,7 @@ import java.util.Set;
 
 import io.furrow.model.topic.Topics;
 
-/** The commands that only an admin may give, by the topic of their manager; all others an operator may give too. */
+/** Lists the commands that need the role of an admin, by the topic of their manager; operators may give all others. */
 public final class AdminCommands {
     private static final Map<String, Set<String>> BY_TOPIC = Map.of(
             Topics.DOMAIN_MANAGER, Set.of("delete"),

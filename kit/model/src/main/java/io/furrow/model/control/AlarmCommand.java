@@ -8,9 +8,9 @@ import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.annotation.JsonTypeName;
 import com.fasterxml.jackson.annotation.JsonUnwrapped;
 
-/** What the topic {@code service.alarmmanager} asks for. */
+/** A command on the topic {@code service.alarmmanager}. */
 public sealed interface AlarmCommand extends Command {
-    /** What is muted: one alarm, or all of a kind, those to come too. */
+    /** The muted alarms: one, or all of a kind including future ones. */
     sealed interface Target {}
 
     record OfAlarm(String alarm) implements Target {}
@@ -19,22 +19,22 @@ public sealed interface AlarmCommand extends Command {
     record OfKind(AlarmKind kind, String subject) implements Target {}
 
     /**
-     * Somebody looks at it.
+     * Marks the alarm as seen by a user.
      *
-     * @param user who; null if nobody says so
+     * @param user null if unknown
      */
     @JsonTypeName("acknowledge")
     record Acknowledge(String alarm, String user) implements AlarmCommand {}
 
     /**
-     * It is over, whatever devices say.
+     * Closes the alarm regardless of its devices.
      *
-     * @param user who says so; null if nobody does
+     * @param user null if unknown
      */
     @JsonTypeName("close")
     record Close(String alarm, String user) implements AlarmCommand {}
 
-    /** Nobody is notified of it for a while. */
+    /** Suppresses notifications for a time. */
     @JsonTypeName("mute")
     record Mute(
             @JsonUnwrapped Target target,

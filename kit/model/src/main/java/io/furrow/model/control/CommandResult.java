@@ -11,17 +11,17 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * What a manager answers: {@code type=response}, {@code status}, and what the command says beside it.
+ * The answer of a manager: {@code type=response}, {@code status}, and the members of the command.
  *
  * @param json the whole message; owned by the response, not to be changed by readers
  */
 public record CommandResult(ObjectNode json) {
-    /** The status of whatever is refused. */
+    /** The status of all rejections. */
     public static final String ERROR = "error";
 
     private static final String REQUEST_ID = "requestId";
 
-    /** An answer of a status, for instance {@code created}. */
+    /** Returns an answer with a status, for instance {@code created}. */
     public static CommandResult of(String status) {
         ObjectNode json = NgsiJson.object();
         return new CommandResult(json.put("type", "response").put("status", status));
@@ -36,7 +36,7 @@ public record CommandResult(ObjectNode json) {
         return of(ERROR).with("error", error).with("reason", reason);
     }
 
-    /** With one more member; of null the same. */
+    /** Returns a copy with one more member; unchanged for null. */
     public CommandResult with(String member, String value) {
         return value == null ? this : new CommandResult(json.deepCopy().put(member, value));
     }
@@ -51,7 +51,7 @@ public record CommandResult(ObjectNode json) {
         return new CommandResult(members);
     }
 
-    /** To a request; the id may be null. */
+    /** Returns the answer to a request; the id may be null. */
     public CommandResult to(String requestId) {
         return with(REQUEST_ID, requestId);
     }
@@ -60,7 +60,7 @@ public record CommandResult(ObjectNode json) {
         return json.path("status").asText();
     }
 
-    /** The code of an error, else empty. */
+    /** Returns the code of an error; otherwise empty. */
     public Optional<String> error() {
         return Optional.ofNullable(json.path("error").textValue());
     }
@@ -70,9 +70,9 @@ public record CommandResult(ObjectNode json) {
     }
 
     /**
-     * Reads a message; members of other names are kept.
+     * Reads a message; unknown members are kept.
      *
-     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is not a response
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} if it is not a response
      */
     public static CommandResult read(byte[] value) throws UnreadableException {
         JsonNode json = NgsiJson.read(value);

@@ -17,19 +17,20 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /**
- * A record of {@code service.replays}: the replay that is requested, whole, because compaction may remove all but the newest record.
- * The manager keeps it in this form too. Whoever plays it back says so on {@code service.replays.status}, see {@link ReplayStatus}.
+ * A record of {@code service.replays}: the complete desired state of a replay, because compaction may remove all but
+ * the newest record. The manager's state has this form, too. The replay's player reports on {@code
+ * service.replays.status}, see {@link ReplayStatus}.
  *
  * @param replay {@code <mission>.<id8>}, the record's key
  * @param topic on which it is played
- * @param group id of the group whose clock it follows; null if it has its own
+ * @param group id of the group whose clock it follows; null if it is in none
  * @param speed 0.1 to 1000, or {@link ReplayCommand#MAX}
- * @param range what is played over and over; null for all
+ * @param range the part to repeat; null to play the whole recording
  * @param desired running, paused or stopped
- * @param seek the newest jump that was asked for; null if none was
- * @param step the newest steps that were asked for; null if none were
- * @param clock of the group; null if it has none
- * @param created when, epoch ms
+ * @param seek the newest requested seek; null if there was none
+ * @param step the newest requested steps; null if there were none
+ * @param clock of the group; null if it is in none
+ * @param created time of creation, epoch ms
  * @param sequence grows with every change of the replay
  */
 public record DesiredReplay(
@@ -58,7 +59,7 @@ public record DesiredReplay(
      * A part of the recording, between event times.
      *
      * @param from epoch ms
-     * @param to epoch ms, after the last event
+     * @param to epoch ms, exclusive
      */
     public record Range(long from, long to) {
         static Range read(JsonObjectReader members) throws RejectedException {
@@ -70,29 +71,32 @@ public record DesiredReplay(
     }
 
     /**
-     * A jump, for whoever has not yet applied its sequence.
+     * A seek; a player applies it if its sequence is new.
      *
      * @param to event time, epoch ms
      */
     public record Seek(long to, long sequence) {}
 
-    /** @param total events asked for one by one since the replay was started, less those asked to go back */
+    /** @param total requested steps since the replay was started, less those back */
     public record Step(long total, long sequence) {}
 
     /**
-     * One clock for all replays of a group: at a moment it shows an event time; from then on it runs by the speed, unless the replay
-     * is paused.
+     * The clock of all replays of a group: it shows an event time at a moment, and from then on runs at the speed
+     * unless the replay is paused.
      *
-     * @param at epoch ms of the clock of the machines
+     * @param at epoch ms of the machines' clock
      * @param shows event time, epoch ms
      */
     public record Clock(long at, long shows) {
-        /** The event time that it shows, epoch ms; before its moment that of its moment. */
+        /** Returns the event time that it shows, epoch ms; before its moment the initial one. */
         public long position(long now, double speed) {
             return shows + (long) Math.floor(Math.max(0, now - at) * speed);
         }
 
-        /** As {@link #position(long, double)}; each time that it comes to the end of the range it begins again at its start. */
+        /**
+         * Returns {@link #position(long, double)}, which restarts at the beginning of the range whenever it reaches the
+         * end.
+         */
         public long position(long now, double speed, Range loop) {
             long position = position(now, speed);
             return position < loop.to ? position : loop.from + (position - loop.from) % (loop.to - loop.from);
@@ -111,7 +115,7 @@ public record DesiredReplay(
         Objects.requireNonNull(desired);
     }
 
-    /** One that was never steered. */
+    /** Returns a replay without any command. */
     public static DesiredReplay started(
             String mission, String topic, ReplayPlan plan, double speed, long created, long sequence) {
         String replay = mission + topic.substring(topic.lastIndexOf('.'));
@@ -127,7 +131,7 @@ public record DesiredReplay(
         return changed(newSpeed, range, desired, seek, step, newSequence);
     }
 
-    /** @param newRange null for all */
+    /** @param newRange null for the whole recording */
     public DesiredReplay within(Range newRange, long newSequence) {
         return changed(speed, newRange, desired, seek, step, newSequence);
     }
@@ -136,36 +140,55 @@ public record DesiredReplay(
         return changed(speed, range, desired, new Seek(time, newSequence), step, newSequence);
     }
 
-    /** @param count events; negative to go back */
+    /** @param count events; negative to step back */
     public DesiredReplay stepping(int count, long newSequence) {
         long total = (step == null ? 0 : step.total) + count;
         return changed(speed, range, desired, seek, new Step(total, newSequence), newSequence);
     }
 
-    /** In a group, by its clock. */
+    /** Returns the replay as a member of a group that follows its clock. */
     public DesiredReplay following(String newGroup, Clock newClock) {
         return new DesiredReplay(
                 replay, mission, topic, newGroup, plan, speed, range, desired, seek, step, newClock, created, sequence);
     }
 
-    private DesiredReplay changed(double pace, Range part, State next, Seek jump, Step by, long number) {
+    private DesiredReplay changed(
+            double newSpeed, Range newRange, State next, Seek newSeek, Step newStep, long newSequence) {
         return new DesiredReplay(
-                replay, mission, topic, group, plan, pace, part, next, jump, by, clock, created, number);
+                replay,
+                mission,
+                topic,
+                group,
+                plan,
+                newSpeed,
+                newRange,
+                next,
+                newSeek,
+                newStep,
+                clock,
+                created,
+                newSequence);
     }
 
-    /** The first event time that is played, epoch ms, of a recording that begins at a time. */
+    /**
+     * Returns the first event time to play, epoch ms.
+     *
+     * @param first event time at which the recording begins, epoch ms
+     */
     public long from(long first) {
-        long least = plan.from() == null ? first : Math.max(first, plan.from());
-        return range == null ? least : Math.max(least, range.from);
+        long min = plan.from() == null ? first : Math.max(first, plan.from());
+        return range == null ? min : Math.max(min, range.from);
     }
 
-    /** The event time before which all is played, epoch ms; {@link Long#MAX_VALUE} for the recording's end. */
+    /**
+     * Returns the end of the played event times, epoch ms, exclusive; {@link Long#MAX_VALUE} for the recording's end.
+     */
     public long to() {
-        long most = plan.to() == null ? Long.MAX_VALUE : plan.to();
-        return range == null ? most : Math.min(most, range.to);
+        long max = plan.to() == null ? Long.MAX_VALUE : plan.to();
+        return range == null ? max : Math.min(max, range.to);
     }
 
-    /** Of a replay in a group: the event time that the clock shows, epoch ms, within what the group plays. */
+    /** Returns the event time that the group's clock shows, epoch ms, within the played range. */
     public long position(long now) {
         if (desired != State.RUNNING) {
             return clock.shows;
@@ -174,16 +197,16 @@ public record DesiredReplay(
         return loops() ? clock.position(now, speed, all) : Math.min(clock.position(now, speed), all.to);
     }
 
-    /** Whether it begins again at the end. */
+    /** Returns whether it restarts at the end. */
     public boolean loops() {
         return plan.loop() || range != null;
     }
 
     /**
-     * Reads a record; members of other names are skipped.
+     * Reads a record; unknown members are ignored.
      *
-     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such object, is another
-     *     replay's than its key says, or names a topic that is not this replay's
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} if it is not such an
+     * object, does not match its key, or names a topic of another replay
      */
     public static DesiredReplay read(String key, byte[] value) throws UnreadableException {
         DesiredReplay replay = read(value);
@@ -193,7 +216,11 @@ public record DesiredReplay(
         return replay;
     }
 
-    /** Reads a record whose key is not known. @throws UnreadableException as {@link #read(String, byte[])} */
+    /**
+     * Reads a record without its key.
+     *
+     * @throws UnreadableException as {@link #read(String, byte[])}
+     */
     public static DesiredReplay read(byte[] value) throws UnreadableException {
         if (!(NgsiJson.read(value) instanceof ObjectNode json)) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, "it is not an object");
@@ -208,7 +235,7 @@ public record DesiredReplay(
         }
     }
 
-    /** The sequence of a record that may be unreadable otherwise; 0 if it has none. */
+    /** Returns the sequence of a record that may be unreadable otherwise; 0 if it has none. */
     public static long sequence(byte[] value) {
         try {
             JsonNode sequence = NgsiJson.read(value).path("sequence");
@@ -244,7 +271,10 @@ public record DesiredReplay(
         };
     }
 
-    /** The topic may be called after something else than the mission, but has the replay's id. */
+    /**
+     * Returns whether replay, mission and topic match. The topic may have another name than the mission's, but must end
+     * with the replay's id.
+     */
     private boolean belongsTogether() {
         return ReplayCommand.REPLAY.matcher(replay).matches()
                 && replay.substring(0, replay.lastIndexOf('.')).equals(mission)

@@ -14,21 +14,20 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * Devices of one kind on a mission, an element of {@code devices}. As a text it is the id of an entity that reports with a login
- * of its own: it is assigned to the mission, but not provisioned.
+ * Devices of one kind on a mission, an element of {@code devices}. A text is the id of an entity with credentials of
+ * its own, which is assigned to the mission but not provisioned.
  *
- * @param name by which other groups say that they are carried; null if none needs it
- * @param id of the entity, for a single device that has one; null if ids are made of the mission's name
+ * @param name used by {@code carriedBy} of other groups; null if not needed
+ * @param id of the entity of a single device; null to derive ids from the mission's name
  * @param type of the entities; null if the device is not provisioned
- * @param count how many, 1 to {@value #MAX}
- * @param carriedBy name of the group whose devices carry these, the first the first and so on, then from the first again;
- *     null if none does
- * @param period between two measures; null if it is not known
+ * @param count number of devices, 1 to {@value #MAX}
+ * @param carriedBy name of the group whose devices carry these, in turn; null if none does
+ * @param period between two measures; null if unknown
  * @param simulated whether a host of simulated devices runs them; null for the default of the control plane
- * @param settings {@code area} (id of a field or GeoJSON), {@code path} (list of [longitude, latitude]), {@code speed} (m/s),
- *     {@code faults} (objects with {@code kind} stuck, drift, spikes or silent), {@code parameters} (anything the host
- *     understands), {@code attributes} (see {@link MeasuredAttribute}) and {@code at} ({@code {latitude, longitude}}, or one for
- *     each device), as they were given; owned by the group, not to be changed by readers
+ * @param settings {@code area} (id of a field or GeoJSON), {@code path} (list of [longitude, latitude]), {@code speed}
+ * (m/s), {@code faults} (objects with {@code kind} stuck, drift, spikes or silent), {@code parameters} (anything the
+ * host understands), {@code attributes} (see {@link MeasuredAttribute}) and {@code at} ({@code {latitude, longitude}},
+ * or one for each device), as in the request; owned by the group, not to be changed by readers
  */
 public record DeviceGroup(
         String name,
@@ -39,10 +38,10 @@ public record DeviceGroup(
         Duration period,
         Boolean simulated,
         ObjectNode settings) {
-    /** Devices of one mission. */
+    /** Maximum devices of a mission. */
     public static final int MAX = 10_000;
 
-    /** What the context broker takes as an entity id, some signs shorter. */
+    /** Entity ids that the context broker accepts, with room for a prefix. */
     static final Pattern ENTITY_ID = Pattern.compile("[!-~&&[^&?/#<>\"'=;()|%]]{1,200}");
 
     private static final String AT = "at";
@@ -51,14 +50,14 @@ public record DeviceGroup(
     private static final Set<String> FAULTS = Set.of("stuck", "drift", "spikes", "silent");
     private static final List<String> SETTINGS =
             List.of("area", "path", "speed", "faults", "parameters", "attributes", AT);
-    private static final double FASTEST = 100;
+    private static final double MAX_SPEED = 100;
 
-    /** An entity that reports with a login of its own. */
+    /** Returns an entity with credentials of its own. */
     public static DeviceGroup entity(String id) {
         return new DeviceGroup(null, id, null, 1, null, null, null, NgsiJson.object());
     }
 
-    /** By what {@code carriedBy} of another group means this one; null if nothing does. */
+    /** Returns the value of {@code carriedBy} that refers to this group; null if there is none. */
     public String label() {
         return name == null ? id : name;
     }
@@ -92,7 +91,7 @@ public record DeviceGroup(
                 settings);
     }
 
-    /** The settings of a group as requests have it; those that are null are left out. */
+    /** Returns the settings of a group of a request, without nulls. */
     public static ObjectNode settings(ObjectNode group) {
         ObjectNode settings = NgsiJson.object();
         for (String name : SETTINGS) {
@@ -103,7 +102,7 @@ public record DeviceGroup(
         return settings;
     }
 
-    /** What its settings take, all but the area, which its devices share: for each device. */
+    /** Returns the bytes of the settings of all devices, except the area, which they share. */
     long settingsBytes() {
         ObjectNode own = NgsiJson.object();
         own.setAll(settings);
@@ -118,7 +117,7 @@ public record DeviceGroup(
     }
 
     private static void check(JsonObjectReader members) throws RejectedException {
-        members.numberOrNull("speed", 0, FASTEST);
+        members.numberOrNull("speed", 0, MAX_SPEED);
         members.objectOrNull("parameters");
         JsonNode area = members.json().path("area");
         boolean field = area.isTextual() && ENTITY_ID.matcher(area.textValue()).matches();
@@ -160,8 +159,8 @@ public record DeviceGroup(
         return at.isObject() && isDegrees(at.get("latitude"), 90) && isDegrees(at.get("longitude"), 180);
     }
 
-    private static boolean isDegrees(JsonNode value, double most) {
-        return value != null && value.isNumber() && Math.abs(value.doubleValue()) <= most;
+    private static boolean isDegrees(JsonNode value, double max) {
+        return value != null && value.isNumber() && Math.abs(value.doubleValue()) <= max;
     }
 
     private static boolean isArea(JsonNode area) {
@@ -186,7 +185,7 @@ public record DeviceGroup(
         return json;
     }
 
-    /** Puts a member that is not null. */
+    /** Puts a member unless it is null. */
     static void put(ObjectNode json, String member, String value) {
         if (value != null) {
             json.put(member, value);

@@ -3,22 +3,22 @@ package io.furrow.model.control;
 import com.fasterxml.jackson.annotation.JsonTypeName;
 import com.fasterxml.jackson.annotation.JsonUnwrapped;
 
-/** What the topic {@code service.domainmanager} asks for. */
+/** A command on the topic {@code service.domainmanager}. */
 public sealed interface DomainCommand extends Command {
     String domain();
 
     @JsonTypeName("create")
     record Create(String domain, @JsonUnwrapped DomainDetails details) implements DomainCommand {}
 
-    /** What the details do not say stays as it is. */
+    /** Changes a domain; omitted details stay unchanged. */
     @JsonTypeName("change")
     record Change(String domain, @JsonUnwrapped DomainDetails details) implements DomainCommand {}
 
-    /** @param force whether missions that run in it are stopped, rather than the request refused */
+    /** @param force whether to stop its running missions instead of rejecting the request */
     @JsonTypeName("delete")
     record Delete(String domain, boolean force) implements DomainCommand {}
 
-    /** A request without {@code command} creates: that is how the WeLASER dashboard asks. */
+    /** Reads a command; a request without {@code command} creates, as the WeLASER dashboard sends it. */
     static DomainCommand read(String verb, JsonObjectReader members) throws RejectedException {
         String domain = members.name("domain");
         return switch (verb == null ? "create" : verb) {

@@ -6,19 +6,19 @@ import java.util.regex.Pattern;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * What is said of a domain. Null is what is not said.
+ * Details of a domain; null for those that a request omits.
  *
  * @param name for people
- * @param area GeoJSON of a Polygon or MultiPolygon, valid
+ * @param area valid GeoJSON of a Polygon or MultiPolygon
  * @param fields ids of fields, see {@code FieldVersion}
  */
 public record DomainDetails(String name, String description, ObjectNode area, List<String> fields) {
-    /** Nothing said. */
+    /** No details. */
     public static final DomainDetails NONE = new DomainDetails(null, null, null, null);
 
     private static final Pattern FIELD = Pattern.compile("[!-~&&[^&?/#<>\"'=;()]]{1,200}");
 
-    /** These, and of what they do not say the others. */
+    /** Returns these details, completed by others. */
     public DomainDetails over(DomainDetails others) {
         return new DomainDetails(
                 name == null ? others.name : name,

@@ -8,8 +8,8 @@ import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * A record of {@code service.faults}, under the name of a part of Furrow: it does not do its work, or needs somebody. Repeated every
- * minute while that lasts; without repetition it is over.
+ * A record of {@code service.faults}, under the name of a part of Furrow that fails or needs an operator. It is
+ * repeated every minute; without repetition the fault is over.
  *
  * @param text what happened, to what, and what to do
  */

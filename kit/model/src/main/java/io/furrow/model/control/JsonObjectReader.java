@@ -17,7 +17,7 @@ import io.furrow.model.field.FieldArea;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.TopicName;
 
-/** The members of a request, each read as what it must be or refused by name. Null counts as missing. */
+/** Reads the members of a request by type; rejections name the member. Null counts as missing. */
 public final class JsonObjectReader {
     private static final int MAX_TEXT_LENGTH = 4096;
     private static final int MAX_QUOTE_LENGTH = 80;
@@ -38,7 +38,7 @@ public final class JsonObjectReader {
         return json.hasNonNull(member);
     }
 
-    /** A legal name of a domain, a mission or a template. */
+    /** Reads a legal name of a domain, a mission or a template. */
     String name(String member) throws RejectedException {
         String name = text(member);
         if (!TopicName.isLegal(name)) {
@@ -50,7 +50,7 @@ public final class JsonObjectReader {
         return name;
     }
 
-    /** Null if it is missing. */
+    /** Returns null if it is missing. */
     String nameOrNull(String member) throws RejectedException {
         return has(member) ? name(member) : null;
     }
@@ -63,7 +63,7 @@ public final class JsonObjectReader {
         return text;
     }
 
-    /** Null if it is missing. */
+    /** Returns null if it is missing. */
     String textOrNull(String member) throws RejectedException {
         if (!has(member)) {
             return null;
@@ -76,7 +76,7 @@ public final class JsonObjectReader {
         return value.textValue();
     }
 
-    /** False if it is missing. */
+    /** Returns false if it is missing. */
     boolean flag(String member) throws RejectedException {
         if (!has(member)) {
             return false;
@@ -85,7 +85,7 @@ public final class JsonObjectReader {
         return json.get(member).booleanValue();
     }
 
-    int wholeNumber(String member, int least, int most, int missing) throws RejectedException {
+    int wholeNumber(String member, int min, int max, int missing) throws RejectedException {
         if (!has(member)) {
             return missing;
         }
@@ -93,10 +93,10 @@ public final class JsonObjectReader {
         refuseIf(
                 !value.isIntegralNumber()
                         || !value.canConvertToInt()
-                        || value.intValue() < least
-                        || value.intValue() > most,
+                        || value.intValue() < min
+                        || value.intValue() > max,
                 member,
-                "a whole number from " + least + " to " + most);
+                "a whole number from " + min + " to " + max);
         return value.intValue();
     }
 
@@ -106,20 +106,20 @@ public final class JsonObjectReader {
         return value.longValue();
     }
 
-    /** Null if it is missing. */
-    Double numberOrNull(String member, double least, double most) throws RejectedException {
+    /** Returns null if it is missing. */
+    Double numberOrNull(String member, double min, double max) throws RejectedException {
         if (!has(member)) {
             return null;
         }
         JsonNode value = json.get(member);
         double number = value.isNumber() ? value.doubleValue() : Double.NaN;
-        if (!(number >= least && number <= most)) {
-            throw wrong(member, "a number from %s to %s".formatted(plain(least), plain(most)));
+        if (!(number >= min && number <= max)) {
+            throw wrong(member, "a number from %s to %s".formatted(plain(min), plain(max)));
         }
         return number;
     }
 
-    /** ISO 8601 with an offset, or epoch ms. */
+    /** Reads a time in ISO 8601 with an offset, or in epoch ms. */
     public Instant time(String member) throws RejectedException {
         Instant time = timeOrNull(member);
         if (time == null) {
@@ -128,7 +128,7 @@ public final class JsonObjectReader {
         return time;
     }
 
-    /** ISO 8601 with an offset, or epoch ms; null if it is missing. */
+    /** Reads a time in ISO 8601 with an offset, or in epoch ms; null if it is missing. */
     Instant timeOrNull(String member) throws RejectedException {
         if (!has(member)) {
             return null;
@@ -144,7 +144,7 @@ public final class JsonObjectReader {
         }
     }
 
-    /** Years of four digits only, so that every later sum of times stays within a long. */
+    /** Allows four-digit years only, so that later sums of times fit into a long. */
     private static Instant checked(String member, Instant time) throws RejectedException {
         refuseIf(
                 time.isBefore(Instant.EPOCH) || time.isAfter(Instant.parse("9999-12-31T23:59:59Z")),
@@ -153,7 +153,7 @@ public final class JsonObjectReader {
         return Instant.ofEpochMilli(time.toEpochMilli());
     }
 
-    /** ISO 8601 such as {@code PT90S}, above zero and at most ten years; null if it is missing. */
+    /** Reads a duration in ISO 8601 such as {@code PT90S}, above zero and at most ten years; null if it is missing. */
     Duration durationOrNull(String member) throws RejectedException {
         if (!has(member)) {
             return null;
@@ -165,21 +165,21 @@ public final class JsonObjectReader {
                 return duration;
             }
         } catch (DateTimeException e) {
-            // Said below, as for a duration that is out of range.
+            // Rejected below, like a duration that is out of range.
         }
         throw wrong(member, "a duration such as PT90S or PT2H, above zero and at most ten years");
     }
 
-    /** Null if it is missing. */
+    /** Returns null if it is missing. */
     ObjectNode objectOrNull(String member) throws RejectedException {
         refuseIf(has(member) && !(json.get(member) instanceof ObjectNode), member, "an object");
         return has(member) ? (ObjectNode) json.get(member) : null;
     }
 
     /**
-     * Refuses an area whose inside is ambiguous.
+     * Rejects an area whose interior is ambiguous.
      *
-     * @param name what the message calls it
+     * @param name of the area in the message
      */
     static void checkArea(JsonNode area, String name) throws RejectedException {
         try {
@@ -189,32 +189,35 @@ public final class JsonObjectReader {
         }
     }
 
-    /** Makes something of the members of an object. */
+    /** Reads the members of an object. */
     interface Part<T> {
         T read(JsonObjectReader members) throws RejectedException;
     }
 
-    /** What the members of an object are; null if it is missing. */
+    /** Reads an object; null if it is missing. */
     <T> T partOrNull(String member, Part<T> part) throws RejectedException {
         ObjectNode object = objectOrNull(member);
         return object == null ? null : part.read(new JsonObjectReader(object));
     }
 
-    /** Null if it is missing. */
-    ArrayNode arrayOrNull(String member, int most) throws RejectedException {
+    /** Returns null if it is missing. */
+    ArrayNode arrayOrNull(String member, int max) throws RejectedException {
         refuseIf(
-                has(member) && !(json.get(member) instanceof ArrayNode array && array.size() <= most),
+                has(member) && !(json.get(member) instanceof ArrayNode array && array.size() <= max),
                 member,
-                "a list of at most " + most);
+                "a list of at most " + max);
         return has(member) ? (ArrayNode) json.get(member) : null;
     }
 
-    /** Texts that fit a pattern; none where it is missing. */
-    List<String> texts(String member, Pattern form, String said) throws RejectedException {
+    /** Reads texts that match a pattern; empty if it is missing. */
+    List<String> texts(String member, Pattern pattern, String description) throws RejectedException {
         List<String> texts = new ArrayList<>();
         ArrayNode array = arrayOrNull(member, 10_000);
         for (JsonNode each : array == null ? List.<JsonNode>of() : array) {
-            refuseIf(!each.isTextual() || !form.matcher(each.textValue()).matches(), member, "a list of " + said);
+            refuseIf(
+                    !each.isTextual() || !pattern.matcher(each.textValue()).matches(),
+                    member,
+                    "a list of " + description);
             texts.add(each.textValue());
         }
         return List.copyOf(texts);
@@ -224,23 +227,23 @@ public final class JsonObjectReader {
         return new RejectedException(ErrorCode.MISSING_MEMBER, "the request needs a member '" + member + "'");
     }
 
-    public static RejectedException wrong(String member, String rightForm) {
-        return new RejectedException(ErrorCode.WRONG_MEMBER, "'%s' must be %s".formatted(member, rightForm));
+    public static RejectedException wrong(String member, String expected) {
+        return new RejectedException(ErrorCode.WRONG_MEMBER, "'%s' must be %s".formatted(member, expected));
     }
 
-    public static void refuseIf(boolean isWrong, String member, String rightForm) throws RejectedException {
+    public static void refuseIf(boolean isWrong, String member, String expected) throws RejectedException {
         if (isWrong) {
-            throw wrong(member, rightForm);
+            throw wrong(member, expected);
         }
     }
 
-    /** As it may stand in a sentence: printable ASCII, not too long. */
+    /** Returns a text that can be quoted in a message: printable ASCII of limited length. */
     static String quotable(String text) {
         String start = text.length() > MAX_QUOTE_LENGTH ? text.substring(0, MAX_QUOTE_LENGTH) + "..." : text;
         return NOT_PRINTABLE.matcher(start).replaceAll("?");
     }
 
-    /** Refuses what could be read here but not by whoever reads what is made of it. */
+    /** Rejects values that readers of the resulting records could not read. */
     public static void checkReadable(JsonNode node) throws RejectedException {
         if (node.isTextual()) {
             checkUnicode(node.textValue());
@@ -261,7 +264,7 @@ public final class JsonObjectReader {
         }
     }
 
-    /** Half of a surrogate pair has no form in UTF-8. */
+    /** Rejects half of a surrogate pair, which UTF-8 cannot encode. */
     private static void checkUnicode(String text) throws RejectedException {
         if (!StandardCharsets.UTF_8.newEncoder().canEncode(text)) {
             throw new RejectedException(ErrorCode.NOT_JSON, "a text holds half of a surrogate pair");

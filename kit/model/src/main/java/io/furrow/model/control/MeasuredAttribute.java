@@ -11,23 +11,24 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * An attribute of a device's entity, and the member of its MQTT messages that the IoT Agent makes it from. What a device sends follows
- * from its type and from the member {@code attributes} of its group, a list of {@code {object_id, name, type, unit}}, which
- * replaces what the type says of the same name.
+ * An attribute of a device's entity, and the member of its MQTT messages from which the IoT Agent derives it. The
+ * attributes of a device result from its type and from the member {@code attributes} of its group, a list of {@code
+ * {object_id, name, type, unit}}, which overrides those of the type by name.
  *
  * @param objectId the member of a message
  * @param name of the attribute
  * @param type NGSI type of its value
- * @param unit code of UN/CEFACT Recommendation 20, as {@code CEL}, for the metadata {@code unitCode}; null for none
+ * @param unit code of UN/CEFACT Recommendation 20, such as {@code CEL}, for the metadata {@code unitCode}; null for
+ * none
  */
 public record MeasuredAttribute(String objectId, String name, String type, String unit) {
-    /** Attributes that a group may name. */
+    /** Maximum attributes of a group. */
     static final int MAX = 100;
 
     private static final String FLOAT = "Float";
     private static final String LATITUDE = "Latitude";
     private static final String LONGITUDE = "Longitude";
-    /** What the context broker takes as the name of an attribute and as a type. */
+    /** Attribute names and types that the context broker accepts. */
     private static final Pattern NAME = Pattern.compile("[A-Za-z][A-Za-z0-9_.:-]{0,99}");
 
     private static final Pattern OBJECT_ID = Pattern.compile("[!-~&&[^<>\"'=;()]]{1,100}");
@@ -42,7 +43,7 @@ public record MeasuredAttribute(String objectId, String name, String type, Strin
             of("bat", "battery", FLOAT));
     private static final Map<String, List<MeasuredAttribute>> BY_TYPE = Map.of(
             "Thermometer", List.of(of("temp", "Temperature", FLOAT)),
-            // The context broker refuses the = of base64 in ordinary text.
+            // The context broker rejects the = of base64 in ordinary text.
             "Camera", List.of(of("img", "Image", "TextUnrestricted")),
             "WeatherStation",
                     List.of(
@@ -59,18 +60,18 @@ public record MeasuredAttribute(String objectId, String name, String type, Strin
     }
 
     /**
-     * What a device sends: first what is measured, then what all devices may send. A real device whose place is known does not send
-     * it, and a simulated one of a known type sends what its type says.
+     * Returns the attributes of a device: first those of its type, then those of all devices. A real device with a
+     * known position does not send it, and a simulated one of a known type sends exactly the attributes of its type.
      *
-     * @param named the member {@code attributes} of its settings, checked
-     * @param placed whether its place is known
+     * @param named the checked member {@code attributes} of its settings
+     * @param placed whether its position is known
      */
     public static List<MeasuredAttribute> of(String type, boolean simulated, JsonNode named, boolean placed) {
         Map<String, MeasuredAttribute> byName = new LinkedHashMap<>();
-        List<MeasuredAttribute> known = BY_TYPE.getOrDefault(type, List.of());
-        known.forEach(each -> byName.put(each.name(), each));
+        List<MeasuredAttribute> ofType = BY_TYPE.getOrDefault(type, List.of());
+        ofType.forEach(each -> byName.put(each.name(), each));
         COMMON.forEach(each -> byName.put(each.name(), each));
-        if (known.isEmpty() || !simulated) {
+        if (ofType.isEmpty() || !simulated) {
             named.forEach(each -> {
                 MeasuredAttribute own = parse(each);
                 byName.put(own.name(), own);
@@ -92,7 +93,7 @@ public record MeasuredAttribute(String objectId, String name, String type, Strin
                 json.path("unit").textValue());
     }
 
-    /** As both its group and the IoT Agent name it; each has its own member for the unit. */
+    /** Returns the members that groups and the IoT Agent have in common, without the unit. */
     public ObjectNode toJson() {
         return NgsiJson.object().put("object_id", objectId).put("name", name).put("type", type);
     }

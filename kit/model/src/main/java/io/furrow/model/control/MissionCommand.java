@@ -8,7 +8,7 @@ import com.fasterxml.jackson.annotation.JsonTypeName;
 import com.fasterxml.jackson.annotation.JsonUnwrapped;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-/** What the topic {@code service.missionmanager} asks for. */
+/** A command on the topic {@code service.missionmanager}. */
 public sealed interface MissionCommand extends Command {
     @JsonTypeName("create")
     record Create(String mission, String domain, MissionPlan plan) implements MissionCommand {
@@ -20,11 +20,11 @@ public sealed interface MissionCommand extends Command {
     }
 
     /**
-     * Makes the mission if there is none.
+     * Starts a mission and creates it if it does not exist.
      *
-     * @param domain null for that of a mission that is there
-     * @param start when it shall start; null, and a time that has passed, is now
-     * @param duration after which it is stopped, from its start on; null for never
+     * @param domain null for that of an existing mission
+     * @param start null or a time in the past to start at once
+     * @param duration from the start until the mission is stopped; null for unlimited
      */
     @JsonTypeName("start")
     record Start(String mission, String domain, MissionPlan plan, Instant start, Duration duration)
@@ -45,11 +45,11 @@ public sealed interface MissionCommand extends Command {
     @JsonTypeName("delete")
     record Delete(String mission) implements MissionCommand {}
 
-    /** Adds to the list of a mission that is not active. */
+    /** Adds devices to an inactive mission. */
     @JsonTypeName("add-devices")
     record AddDevices(String mission, MissionDevices devices) implements MissionCommand {}
 
-    /** Keeps a new version; the version that the template names is skipped. */
+    /** Stores a new version of a template; the version in the request is ignored. */
     @JsonTypeName("save-template")
     record SaveTemplate(@JsonUnwrapped MissionTemplate template) implements MissionCommand {}
 
@@ -60,7 +60,7 @@ public sealed interface MissionCommand extends Command {
             @JsonInclude(JsonInclude.Include.NON_DEFAULT) int version) implements MissionCommand {}
 
     /**
-     * Gives a device a new password; the old one is refused from then on.
+     * Gives a device a new password and rejects the old one from then on.
      *
      * @param device id of its entity
      */
@@ -79,7 +79,7 @@ public sealed interface MissionCommand extends Command {
                         members.durationOrNull("duration"));
             case "stop" -> new Stop(members.name("mission"));
             case "delete" -> new Delete(members.name("mission"));
-            case "add-devices" -> new AddDevices(members.name("mission"), added(members));
+            case "add-devices" -> new AddDevices(members.name("mission"), readAdded(members));
             case "save-template" -> {
                 MissionTemplate template = MissionTemplate.read(members);
                 template.devices().withValidAreas();
@@ -95,7 +95,7 @@ public sealed interface MissionCommand extends Command {
         };
     }
 
-    private static MissionDevices added(JsonObjectReader members) throws RejectedException {
+    private static MissionDevices readAdded(JsonObjectReader members) throws RejectedException {
         if (!members.has("devices")) {
             throw new RejectedException(ErrorCode.MISSING_MEMBER, "the request needs a member 'devices'");
         }

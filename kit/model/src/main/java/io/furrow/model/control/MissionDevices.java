@@ -14,51 +14,51 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * The devices of a mission or of a template, group by group. Names are unique, what carries is there, nothing carries itself.
+ * The devices of a mission or a template, by group. Names are unique, carriers exist, and no group carries itself.
  *
- * @param groups at most {@value DeviceGroup#MAX} devices in all
+ * @param groups at most {@value DeviceGroup#MAX} devices in total
  */
 public record MissionDevices(List<DeviceGroup> groups) {
-    /** No devices of its own: what reports with the mission's name belongs to it. */
+    /** No listed devices: devices that report the mission's name belong to it. */
     public static final MissionDevices NONE = new MissionDevices(List.of());
 
     public MissionDevices {
         groups = List.copyOf(groups);
     }
 
-    /** How many devices there are, those that report by themselves too. */
+    /** Returns the number of devices, including those that are not provisioned. */
     public int count() {
         return groups.stream().mapToInt(DeviceGroup::count).sum();
     }
 
     /**
-     * As {@link #toJson()} wrote it.
+     * Reads the result of {@link #toJson()}.
      *
-     * @throws IllegalArgumentException if it did not
+     * @throws IllegalArgumentException if it is invalid
      */
     public static MissionDevices of(ArrayNode json) {
         try {
             return read(new JsonObjectReader(NgsiJson.object().set("devices", json)));
         } catch (RejectedException e) {
-            throw new IllegalArgumentException("these are no devices of a mission: " + e.getMessage(), e);
+            throw new IllegalArgumentException("invalid devices of a mission: " + e.getMessage(), e);
         }
     }
 
-    /** A part of a list as {@link #toJson()} wrote it: whether names and carriers fit shows with the rest of the list. */
+    /** Reads a part of a list from {@link #toJson()}; names and carriers are checked with the whole list. */
     public static MissionDevices ofPart(ArrayNode json) {
         try {
             return readPart(new JsonObjectReader(NgsiJson.object().set("devices", json)));
         } catch (RejectedException e) {
-            throw new IllegalArgumentException("these are no devices of a mission: " + e.getMessage(), e);
+            throw new IllegalArgumentException("invalid devices of a mission: " + e.getMessage(), e);
         }
     }
 
-    /** The member {@code devices} of a request or a template. */
+    /** Reads the member {@code devices} of a request or a template. */
     static MissionDevices read(JsonObjectReader members) throws RejectedException {
         return readPart(members).checked();
     }
 
-    /** The same of a request that adds to a list: whether names and carriers fit shows with the rest of the list. */
+    /** Reads the devices of a request that adds to a list; names and carriers are checked with the whole list. */
     static MissionDevices readPart(JsonObjectReader members) throws RejectedException {
         ArrayNode array = members.arrayOrNull("devices", DeviceGroup.MAX);
         List<DeviceGroup> groups = new ArrayList<>();
@@ -78,9 +78,9 @@ public record MissionDevices(List<DeviceGroup> groups) {
     }
 
     /**
-     * These, and behind them others.
+     * Returns these devices followed by others.
      *
-     * @throws RejectedException where they do not fit together, or are too many
+     * @throws RejectedException if they do not fit together or are too many
      */
     public MissionDevices plus(MissionDevices others) throws RejectedException {
         List<DeviceGroup> all = new ArrayList<>(groups);
@@ -93,8 +93,8 @@ public record MissionDevices(List<DeviceGroup> groups) {
     }
 
     /**
-     * What settings take that every device of a group has for itself, all but its area, in bytes: more than they take here where a
-     * group has many.
+     * Returns the bytes of the settings of all devices except areas. This exceeds the size here because devices of a
+     * group share settings.
      */
     public long settingsBytes() {
         return groups.stream().mapToLong(DeviceGroup::settingsBytes).sum();
@@ -110,9 +110,9 @@ public record MissionDevices(List<DeviceGroup> groups) {
         Map<String, DeviceGroup> named = new HashMap<>();
         Set<String> ids = new HashSet<>();
         for (DeviceGroup group : groups) {
-            boolean known = group.label() != null && named.put(group.label(), group) != null;
+            boolean isDuplicate = group.label() != null && named.put(group.label(), group) != null;
             JsonObjectReader.refuseIf(
-                    known || group.id() != null && !ids.add(group.id()),
+                    isDuplicate || group.id() != null && !ids.add(group.id()),
                     "devices",
                     "a list in which no name and no id comes twice");
         }
@@ -128,7 +128,7 @@ public record MissionDevices(List<DeviceGroup> groups) {
         return this;
     }
 
-    /** The same of a request, whose areas must be valid; a list that was stored may be older than that rule. */
+    /** Checks the areas of a request; stored lists may be older than this check. */
     MissionDevices withValidAreas() throws RejectedException {
         for (int group = 0; group < groups.size(); group++) {
             JsonNode area = groups.get(group).settings().path("area");
@@ -139,7 +139,7 @@ public record MissionDevices(List<DeviceGroup> groups) {
         return this;
     }
 
-    /** As {@code devices} has it. */
+    /** Returns the member {@code devices}. */
     @JsonValue
     public ArrayNode toJson() {
         ArrayNode array = NgsiJson.array();

@@ -5,17 +5,17 @@ import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-/** The devices that a mission is created from. */
+/** The source of a mission's devices. */
 public sealed interface MissionPlan {
     /** @param version 0 for the newest at the time of the request */
     record FromTemplate(String template, int version) implements MissionPlan {}
 
     record OfDevices(MissionDevices devices) implements MissionPlan {}
 
-    /** Nothing said: the mission keeps the devices it has, a new one has none. */
+    /** Not specified: the mission keeps its devices, a new one has none. */
     record Unspecified() implements MissionPlan {}
 
-    /** {@code template}: a name, or {@code <name>@<version>}. */
+    /** The member {@code template}: a name, or {@code <name>@<version>}. */
     Pattern TEMPLATE = Pattern.compile("([A-Za-z0-9_-]{1,64})(?:@([1-9][0-9]{0,8}))?");
 
     static MissionPlan read(JsonObjectReader members) throws RejectedException {

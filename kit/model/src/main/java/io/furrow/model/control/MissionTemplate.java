@@ -10,10 +10,10 @@ import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * What missions are made from: {@code {"template": …, "version": …, "description": …, "devices": […]}}, a record of {@code
- * service.templates} with the key {@link #key()}, and the form in which templates are exported and imported.
+ * A template of missions: {@code {"template": …, "version": …, "description": …, "devices": […]}}, a record of {@code
+ * service.templates} with the key {@link #key()}, and the format of exported and imported templates.
  *
- * @param version from 1 on; a version never changes. 0 where it is not yet given
+ * @param version from 1; a version never changes. 0 if it is not assigned yet
  * @param description null if there is none
  */
 public record MissionTemplate(
@@ -22,20 +22,20 @@ public record MissionTemplate(
         String description,
         MissionDevices devices)
         implements StateRecord {
-    /** {@code <name>@<version>}. */
+    /** Returns {@code <name>@<version>}. */
     public String key() {
         return name + "@" + version;
     }
 
-    /** The same under a version. */
+    /** Returns the template with another version. */
     public MissionTemplate as(int newVersion) {
         return new MissionTemplate(name, newVersion, description, devices);
     }
 
     /**
-     * Reads an exported template, its version too where it has one.
+     * Reads an exported template, including the version if it has one.
      *
-     * @throws RejectedException if it is none; the message names the member
+     * @throws RejectedException if it is invalid; the message names the member
      */
     public static MissionTemplate read(byte[] value) throws RejectedException {
         try {

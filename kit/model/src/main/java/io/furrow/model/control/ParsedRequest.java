@@ -1,7 +1,7 @@
 package io.furrow.model.control;
 
 /**
- * What a record on a manager's topic is.
+ * A parsed record of a manager's topic.
  *
  * @param <C> the commands of that manager
  */
@@ -10,13 +10,13 @@ public sealed interface ParsedRequest<C> {
     record Request<C>(String requestId, C command) implements ParsedRequest<C> {}
 
     /**
-     * A request that cannot be understood, or what is not a message at all.
+     * An invalid request or other record.
      *
-     * @param requestId null if none can be read
+     * @param requestId null if it cannot be read
      * @param answer without the request's id
      */
     record Refused<C>(String requestId, CommandResult answer) implements ParsedRequest<C> {}
 
-    /** Nothing that a manager acts on: its own responses, and records without a value. */
+    /** A record that managers ignore: a response, or a record without a value. */
     record Passed<C>() implements ParsedRequest<C> {}
 }

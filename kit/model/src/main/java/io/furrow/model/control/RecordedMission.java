@@ -10,14 +10,15 @@ import io.furrow.model.ngsi.UnreadableException;
 /**
  * A record of {@code service.recordings} under the mission's name: the mission is stored and can be played back.
  *
- * @param first event time of its oldest event, epoch ms, as it was when it was looked up last
+ * @param first event time of its oldest event at the last check, epoch ms
  * @param last event time of its newest event, epoch ms, inclusive
  */
 public record RecordedMission(String mission, long first, long last) implements StateRecord {
     /**
-     * Reads the value of a record; members of other names are skipped.
+     * Reads the value of a record; unknown members are ignored.
      *
-     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such object
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} if it is not such an
+     * object
      */
     public static RecordedMission read(byte[] value) throws UnreadableException {
         if (!(NgsiJson.read(value) instanceof ObjectNode json)) {

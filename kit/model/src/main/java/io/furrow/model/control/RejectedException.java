@@ -2,7 +2,7 @@ package io.furrow.model.control;
 
 import java.util.Objects;
 
-/** A request that is not granted; the message is the sentence that the answer gives as {@code reason}. */
+/** Thrown if a request is rejected; the message is the member {@code reason} of the answer. */
 public final class RejectedException extends Exception {
     private static final long serialVersionUID = 1L;
 

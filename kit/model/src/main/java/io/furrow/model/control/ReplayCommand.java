@@ -16,28 +16,28 @@ import com.fasterxml.jackson.databind.util.StdConverter;
 
 import io.furrow.model.topic.TopicName;
 
-/** What the topic {@code service.replaymanager} asks for. */
+/** A command on the topic {@code service.replaymanager}. */
 public sealed interface ReplayCommand extends Command {
-    /** As fast as it goes, as a speed. */
+    /** The speed of a replay without a schedule. */
     double MAX = Double.POSITIVE_INFINITY;
 
-    /** How replays are called: {@code <mission>.<id8>}. */
+    /** Names of replays: {@code <mission>.<id8>}. */
     Pattern REPLAY = Pattern.compile("[A-Za-z0-9_-]{1,64}\\.[0-9a-f]{8}");
 
-    /** Where replays may be asked to be played. */
+    /** Topics that a request may name for a replay. */
     Pattern TOPIC = Pattern.compile("data\\.[A-Za-z0-9_-]{1,64}\\.replay\\.[0-9a-f]{8}");
 
-    /** How groups are called: the {@code id8} that their replays share. */
+    /** Names of groups: the {@code id8} of their replays. */
     Pattern GROUP = Pattern.compile("[0-9a-f]{8}");
 
-    /** Missions of one group. */
+    /** Maximum missions of a group. */
     int MAX_OF_GROUP = 16;
 
     /**
      * @param missions one, or several that follow one clock
-     * @param topic to play one mission on; null for one that is called after the mission
+     * @param topic topic of a single mission's replay; null for one named after the mission
      * @param speed 0.1 to 1000, or {@link #MAX}
-     * @param range what is played over and over; null for all
+     * @param range the part to repeat; null to play the whole recording
      */
     @JsonTypeName("start")
     record Start(
@@ -51,7 +51,7 @@ public sealed interface ReplayCommand extends Command {
             missions = List.copyOf(missions);
         }
 
-        /** Whether it asks for replays that follow one clock. */
+        /** Returns whether it starts replays that follow one clock. */
         @JsonIgnore
         public boolean isGroup() {
             return missions.size() > 1;
@@ -106,7 +106,7 @@ public sealed interface ReplayCommand extends Command {
     }
 
     /**
-     * A command to what is there.
+     * A command to an existing replay or group.
      *
      * @see Target
      */
@@ -115,7 +115,7 @@ public sealed interface ReplayCommand extends Command {
     }
 
     /**
-     * What is steered: a replay by its name, or all replays of a group.
+     * The target of a command: a replay by its name, or all replays of a group.
      *
      * @param replay null for a group
      * @param group null for a replay
@@ -128,7 +128,7 @@ public sealed interface ReplayCommand extends Command {
         private static Target read(JsonObjectReader members) throws RejectedException {
             String group = members.textOrNull("group");
             if (group == null) {
-                return of(named(members.text("replay")));
+                return of(checkName(members.text("replay")));
             }
             JsonObjectReader.refuseIf(members.has("replay"), "group", "without 'replay' beside it");
             if (!GROUP.matcher(group).matches()) {
@@ -140,7 +140,7 @@ public sealed interface ReplayCommand extends Command {
             return new Target(null, group);
         }
 
-        private static String named(String replay) throws RejectedException {
+        private static String checkName(String replay) throws RejectedException {
             if (!REPLAY.matcher(replay).matches()) {
                 throw new RejectedException(
                         ErrorCode.ILLEGAL_NAME,
@@ -150,14 +150,14 @@ public sealed interface ReplayCommand extends Command {
             return replay;
         }
 
-        /** As it stands in a sentence. */
+        /** Returns the target for use in messages. */
         @Override
         public String toString() {
             return replay == null ? "group '" + group + "'" : "replay '" + replay + "'";
         }
     }
 
-    /** Commands that say no more than what they mean. */
+    /** Commands without further members. */
     enum Verb {
         STOP,
         PAUSE,
@@ -180,11 +180,11 @@ public sealed interface ReplayCommand extends Command {
             @JsonUnwrapped Target target,
             @JsonSerialize(converter = SpeedToJson.class) double speed) implements Steering {}
 
-    /** @param count how many events are played, one after the other, of a replay that is paused; back where it is negative */
+    /** @param count number of events that a paused replay plays; negative to step back */
     @JsonTypeName("step")
     record Step(@JsonUnwrapped Target target, int count) implements Steering {}
 
-    /** @param range what is played over and over from now on; null for all */
+    /** @param range the part to repeat from now on; null to play the whole recording */
     @JsonTypeName("loop")
     record Loop(@JsonUnwrapped Target target, @JsonUnwrapped DesiredReplay.Range range) implements Steering {}
 
@@ -228,7 +228,7 @@ public sealed interface ReplayCommand extends Command {
         return number;
     }
 
-    /** A speed as requests have it: a number, or {@code max}. */
+    /** Writes a speed as requests have it: a number, or {@code max}. */
     final class SpeedToJson extends StdConverter<Double, Object> {
         @Override
         public Object convert(Double speed) {

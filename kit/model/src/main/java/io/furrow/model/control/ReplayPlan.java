@@ -14,17 +14,16 @@ import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.text.Coded;
 
 /**
- * What a replay plays, as it was asked for at its start.
+ * The plan of a replay, as requested at its start.
  *
- * @param source where the recording is; null for the missions that are kept in MongoDB
+ * @param source where the recording is; null for the missions in MongoDB
  * @param from event time of the first event, epoch ms; null for the recording's first
  * @param to event time after the last event, epoch ms; null for the recording's end
- * @param loop whether it begins again at the end
- * @param devices ids of the entities that are played back; empty for all
- * @param maxGap the longest stretch of event time in which nothing happens that is played, ms; what is longer is skipped down to it; null
- *     for every stretch as it was
- * @param startAt when the first event is due, epoch ms of the clock; null for at once
- * @param analytics the analytics jobs that run on the replay's topic as long as it lasts
+ * @param loop whether it restarts at the end
+ * @param devices ids of the entities to play; empty for all
+ * @param maxGap maximum gap between events, ms of event time; longer gaps are shortened to it. Null for no maximum
+ * @param startAt when the first event is due, epoch ms; null to start at once
+ * @param analytics the analytics jobs that run on the replay's topic during the replay
  */
 public record ReplayPlan(
         Source source,
@@ -39,14 +38,14 @@ public record ReplayPlan(
 
         Long startAt,
         @JsonInclude(JsonInclude.Include.NON_EMPTY) List<String> analytics) {
-    /** The whole of a mission, once. */
+    /** Plays a whole mission once. */
     public static final ReplayPlan PLAIN =
             new ReplayPlan(null, null, null, false, List.of(), null, Stamps.ORIGINAL, null, List.of());
 
     private static final Pattern TOPIC = Pattern.compile("data\\.[A-Za-z0-9._-]{1,240}");
     private static final Pattern FILE = Pattern.compile("[A-Za-z0-9_-][A-Za-z0-9._-]{0,199}");
 
-    /** A recording that is not in MongoDB: one of the two. */
+    /** A recording outside of MongoDB: either a topic or a file. */
     public record Source(String topic, String file) {
         private static Source read(ObjectNode json) throws RejectedException {
             JsonObjectReader members = new JsonObjectReader(json);
@@ -67,9 +66,9 @@ public record ReplayPlan(
         }
     }
 
-    /** What the timestamps of records say. */
+    /** The timestamps of records. */
     public enum Stamps implements Coded {
-        /** The original event time, plus an offset that grows at each jump back. */
+        /** The original event time plus an offset that grows with each seek back. */
         ORIGINAL,
         /** The time at which the event is played. */
         NOW;
@@ -82,7 +81,7 @@ public record ReplayPlan(
         }
     }
 
-    /** Original ones are not said. */
+    /** Omits original timestamps, the default. */
     private static final class StampsToText extends StdConverter<Stamps, String> {
         @Override
         public String convert(Stamps stamps) {
@@ -130,7 +129,7 @@ public record ReplayPlan(
         return time == null ? null : Long.valueOf(time.toEpochMilli());
     }
 
-    /** The same between other times. */
+    /** Returns the plan between other times. */
     public ReplayPlan between(long newFrom, long newTo) {
         return new ReplayPlan(source, newFrom, newTo, loop, devices, maxGap, stamps, startAt, analytics);
     }

@@ -15,10 +15,11 @@ import io.furrow.model.ngsi.UnreadableException;
 /**
  * The status of a replay, reported by its player: a record of {@code service.replays.status} under the replay's name.
  *
- * @param sequence of the desired replay that was applied last
- * @param reason why it ended or failed, at most {@value Limits#REASON_LENGTH} characters of it; null if it did not
- * @param settled whether no restart takes the state back; a replay that is over is reported at once, and again once this holds
- * @param progress how far it is; null if that is not reported
+ * @param sequence of the desired state that was applied last
+ * @param reason why it ended or failed, at most {@value Limits#REASON_LENGTH} characters; null if there is none
+ * @param settled whether no restart can revert the state; the end of a replay is reported at once, and again when it is
+ * settled
+ * @param progress null if it is not reported
  */
 public record ReplayStatus(long sequence, State state, String reason, boolean settled, Progress progress) {
     private static final String SEQUENCE = "sequence";
@@ -27,7 +28,7 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
     private static final String SETTLED = "settled";
     private static final String PROGRESS = "progress";
 
-    /** How it is with a replay. */
+    /** The state of a replay. */
     public enum State {
         RUNNING,
         PAUSED,
@@ -35,32 +36,33 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
         STOPPED,
         FAILED;
 
-        /** Whether nothing will come of it any more. */
+        /** Returns whether the replay is over. */
         public boolean isOver() {
             return this == ENDED || this == STOPPED || this == FAILED;
         }
 
-        /** As the record has it. */
+        /** Returns the text of the state in the record. */
         public String code() {
             return name().toLowerCase(Locale.ROOT);
         }
     }
 
     /**
-     * How far a replay is. Counts are those of the epoch.
+     * The progress of a replay. Counts are those of the epoch.
      *
-     * @param epoch 0, then one more with each start over
-     * @param position original event time that is reached, epoch ms
+     * @param epoch 0, then one more with each restart
+     * @param position reached original event time, epoch ms
      * @param from event time of the mission's first event, epoch ms
      * @param to event time of the mission's last event, epoch ms
      * @param offset ms that record timestamps are ahead of original times
-     * @param latenessMillis by which an event was behind its schedule, the most since the status before
-     * @param slipMillis by which the epoch's schedule was moved, because the recording was away; lateness is that behind the moved one
-     * @param eventsPerSecond since the status before
-     * @param events that were played
-     * @param primes that were played
-     * @param skipped stored documents that hold no event
-     * @param waiting for what the replay stands still, in a sentence; null if it does not
+     * @param latenessMillis maximum delay of an event behind its schedule since the last status
+     * @param slipMillis delay of the epoch's schedule because the recording was unavailable; lateness is relative to
+     * the delayed schedule
+     * @param eventsPerSecond since the last status
+     * @param events number of played events
+     * @param primes number of played primes
+     * @param skipped stored documents without a valid event
+     * @param waiting what the replay waits for, in a sentence; null if it does not wait
      */
     public record Progress(
             long epoch,
@@ -95,9 +97,10 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
     }
 
     /**
-     * Reads the value of a record; members of other names are skipped. One that does not say whether it is settled is.
+     * Reads the value of a record; unknown members are ignored. A missing {@code settled} counts as true.
      *
-     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such object
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} if it is not such an
+     * object
      */
     public static ReplayStatus read(byte[] value) throws UnreadableException {
         JsonNode json = NgsiJson.read(value);

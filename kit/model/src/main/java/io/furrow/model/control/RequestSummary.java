@@ -10,8 +10,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * The members of a request that say whose it is and what it is about, read without the rest: for requests that are too large, or that
- * could not be carried out.
+ * Reads the members that identify a request without parsing the rest, for requests that are too large or failed.
  *
  * @param json texts of at most {@value #MAX_LENGTH} characters; empty if the value is not a JSON object
  */
@@ -20,7 +19,7 @@ public record RequestSummary(ObjectNode json) {
     private static final Set<String> MEMBERS =
             Set.of("type", "requestId", "command", "user", "domain", "mission", "replay", "alarm", "template");
 
-    /** Reads as far as the value is JSON. */
+    /** Reads until the first invalid JSON. */
     public static RequestSummary of(byte[] value) {
         ObjectNode json = NgsiJson.object();
         try (JsonParser parser = NgsiJson.mapper().getFactory().createParser(value)) {
@@ -28,7 +27,7 @@ public record RequestSummary(ObjectNode json) {
                 read(parser, json);
             }
         } catch (IOException e) {
-            // What was read until then is the excerpt: nobody can say more of such a request.
+            // The members before the invalid JSON are the summary.
         }
         return new RequestSummary(json);
     }
@@ -49,13 +48,13 @@ public record RequestSummary(ObjectNode json) {
         return "response".equals(json.path("type").textValue());
     }
 
-    /** Null if the request has none that is legal. */
+    /** Returns the request's id; null if it has no legal one. */
     public String requestId() {
         String id = json.path("requestId").textValue();
         return Requests.isRequestId(id) ? id : null;
     }
 
-    /** A refusal that names what the request is about. */
+    /** Returns a rejection that names the subject of the request. */
     public CommandResult refusal(ErrorCode code, String reason) {
         return Requests.aboutSubjects(CommandResult.refused(new RejectedException(code, reason)), json);
     }

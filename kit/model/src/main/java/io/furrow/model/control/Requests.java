@@ -11,37 +11,37 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.TopicName;
 
 /**
- * Requests to and from JSON. Reading never throws: what cannot be understood is {@link ParsedRequest.Refused} with a code and a
- * sentence. Members of names that no command has are skipped, because older clients send more than is asked for.
+ * Converts requests to and from JSON. Reading never throws: an invalid request is {@link ParsedRequest.Refused} with a
+ * code and a sentence. Unknown members are ignored, because older clients send some.
  */
 public final class Requests {
     private static final Pattern REQUEST_ID = Pattern.compile("[!-~]{1,200}");
-    /** Members that an error answers with, so that a client without request ids knows what it is about. */
+    /** Members that are repeated in errors for clients without request ids. */
     private static final List<String> SUBJECTS = List.of("domain", "mission", "replay", "group", "alarm");
 
     private Requests() {}
 
-    /** Makes a command of a request's members. */
+    /** Reads a command from a request's members. */
     private interface Reader<C> {
         C read(String verb, JsonObjectReader members) throws RejectedException;
     }
 
-    /** A record of {@code service.domainmanager}; the value may be null. */
+    /** Reads a record of {@code service.domainmanager}; the value may be null. */
     public static ParsedRequest<DomainCommand> domain(byte[] value) {
         return read(value, DomainCommand::read);
     }
 
-    /** A record of {@code service.missionmanager}; the value may be null. */
+    /** Reads a record of {@code service.missionmanager}; the value may be null. */
     public static ParsedRequest<MissionCommand> mission(byte[] value) {
         return read(value, MissionCommand::read);
     }
 
-    /** A record of {@code service.replaymanager}; the value may be null. */
+    /** Reads a record of {@code service.replaymanager}; the value may be null. */
     public static ParsedRequest<ReplayCommand> replay(byte[] value) {
         return read(value, ReplayCommand::read);
     }
 
-    /** A record of {@code service.alarmmanager}; the value may be null. */
+    /** Reads a record of {@code service.alarmmanager}; the value may be null. */
     public static ParsedRequest<AlarmCommand> alarm(byte[] value) {
         return read(value, AlarmCommand::read);
     }
@@ -55,7 +55,7 @@ public final class Requests {
         return NgsiJson.write(json);
     }
 
-    /** The answer to a command that was understood and not granted. */
+    /** Returns the answer to a valid command that was rejected. */
     public static CommandResult refusal(RejectedException refusal, Command command) {
         ObjectNode request = NgsiJson.object();
         command.describe(request);
@@ -102,7 +102,7 @@ public final class Requests {
         return id;
     }
 
-    /** Whether it is a legal id of a request; null is none. */
+    /** Returns whether it is a legal request id; false for null. */
     static boolean isRequestId(String text) {
         return text != null && REQUEST_ID.matcher(text).matches();
     }
@@ -122,12 +122,12 @@ public final class Requests {
         return answer;
     }
 
-    static RejectedException unknown(String verb, String known) {
+    static RejectedException unknown(String verb, String commands) {
         return verb == null
                 ? new RejectedException(
-                        ErrorCode.MISSING_MEMBER, "the request needs a member 'command': one of " + known)
+                        ErrorCode.MISSING_MEMBER, "the request needs a member 'command': one of " + commands)
                 : new RejectedException(
                         ErrorCode.UNKNOWN_COMMAND,
-                        "there is no command '%s' here, but %s".formatted(JsonObjectReader.quotable(verb), known));
+                        "there is no command '%s' here, but %s".formatted(JsonObjectReader.quotable(verb), commands));
     }
 }

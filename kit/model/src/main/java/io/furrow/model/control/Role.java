@@ -4,16 +4,16 @@ import java.util.Optional;
 
 import io.furrow.model.text.Coded;
 
-/** What a caller may do; each may what those before it may. */
+/** The roles of callers; each role includes those before it. */
 public enum Role implements Coded {
-    /** Reads, but no credentials. */
+    /** Reads everything except credentials. */
     VIEWER,
     /** Commands missions, devices, replays and alarms. */
     OPERATOR,
-    /** Reads and rotates credentials, and deletes what others build on. */
+    /** Reads and rotates credentials, and deletes domains and templates. */
     ADMIN;
 
-    /** For annotations of operations that need more than the method of the request says. */
+    /** Role name in annotations of operations that need more than the request method implies. */
     public static final String ADMINS = "admin";
 
     public static Optional<Role> of(String code) {

@@ -15,19 +15,19 @@ import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * A record of {@code service.devices} as the control plane writes it: to whom the device belongs, which is all that jobs read,
- * how it is provisioned, and whether a host simulates it. The host reconciles what it runs with these records and publishes the
- * result on {@code service.devices.status}, see {@link DeviceStatus}.
+ * A record of {@code service.devices} as the control plane writes it: to which mission the device belongs, which is all
+ * that jobs read, how it is provisioned, and whether a host simulates it. The host reconciles its devices with these
+ * records and reports on {@code service.devices.status}, see {@link DeviceStatus}.
  *
- * @param type of the entity; null if the device reports with a login of its own and is not provisioned
+ * @param type of the entity; null if the device has credentials of its own and is not provisioned
  * @param device id at the IoT Agent and in MQTT topics; null if {@code type} is
- * @param running false if it shall be removed; {@code version} then has an end
- * @param period between two measures; null if it is not known
- * @param simulated whether a host runs it; a real device is up by its first report
- * @param settings {@code area}, {@code path}, {@code speed}, {@code faults}, {@code parameters}, where the record itself has them;
- *     owned by the record
- * @param group where they are else, see {@link MissionDeviceLists#resolve}; null if the record itself has them
- * @param generation how often its credentials were rotated, see {@link FarmSecret#device(String, String, int)}
+ * @param running false to remove the device; {@code version} then has an end
+ * @param period between two measures; null if unknown
+ * @param simulated whether a host runs it; a real device is up with its first report
+ * @param settings {@code area}, {@code path}, {@code speed}, {@code faults}, {@code parameters}, if the record itself
+ * contains them; owned by the record
+ * @param group reference to them, see {@link MissionDeviceLists#resolve}; null if the record itself contains them
+ * @param generation number of rotations of its credentials, see {@link FarmSecret#device(String, String, int)}
  */
 public record DesiredDevice(
         DeviceVersion version,
@@ -49,13 +49,16 @@ public record DesiredDevice(
         Objects.requireNonNull(settings);
     }
 
-    /** A simulated device, if it has a type, with its settings in itself, whose credentials were never rotated. */
+    /**
+     * Returns a device, simulated if it has a type, that contains its settings and whose credentials were never
+     * rotated.
+     */
     public static DesiredDevice simulated(
             DeviceVersion version, String type, String device, boolean running, Duration period, ObjectNode settings) {
         return new DesiredDevice(version, type, device, running, period, type != null, settings, null, 0);
     }
 
-    /** The same with settings of its own. */
+    /** Returns the device with these settings. */
     DesiredDevice with(ObjectNode own) {
         return new DesiredDevice(version, type, device, running, period, simulated, own, null, generation);
     }
@@ -64,27 +67,30 @@ public record DesiredDevice(
         return new DesiredDevice(version, type, device, running, period, simulated, settings, group, other);
     }
 
-    /** Where a real device stands that does not tell it: {@code {latitude, longitude}}, degrees; null if it tells it. */
+    /**
+     * Returns the position of a real device that does not report one: {@code {latitude, longitude}}, degrees; null if
+     * it reports it.
+     */
     public JsonNode place() {
         JsonNode at = settings.path("at");
         return at.isObject() && !simulated ? at : null;
     }
 
-    /** What it sends, see {@link MeasuredAttribute#of}; its settings are in it, and checked. */
+    /** Returns its attributes, see {@link MeasuredAttribute#of}; requires checked settings in the record. */
     public List<MeasuredAttribute> attributes() {
         return MeasuredAttribute.of(type, simulated, settings.path("attributes"), place() != null);
     }
 
-    /** The same after another version of it. */
+    /** Returns the device with another version. */
     public DesiredDevice with(DeviceVersion other, boolean shallRun) {
         return new DesiredDevice(other, type, device, shallRun, period, simulated, settings, group, generation);
     }
 
     /**
-     * Reads the value of a record; one that says no more than to whom the device belongs is of a device that is not provisioned.
+     * Reads the value of a record; one with only a version is a device that is not provisioned.
      *
-     * @throws UnreadableException as {@link DeviceVersion#read}, and where {@code period} is not a duration or {@code generation} no
-     *     whole number from 0 on
+     * @throws UnreadableException as {@link DeviceVersion#read}, and if {@code period} is not a duration or {@code
+     * generation} is not a whole number from 0
      */
     public static DesiredDevice read(byte[] value) throws UnreadableException {
         DeviceVersion version = DeviceVersion.read(value);

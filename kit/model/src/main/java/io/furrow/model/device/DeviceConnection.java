@@ -6,15 +6,16 @@ import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * What MQTT broker and IoT Agent know of a device, and thus why it may be silent: a record of {@code service.devices.connection}
- * under the key of {@code service.devices}, written by the provisioner. All times are epoch ms.
+ * The state of a device at the MQTT broker and the IoT Agent, which explains its silence: a record of {@code
+ * service.devices.connection} under the key of {@code service.devices}, written by the provisioner. All times are epoch
+ * ms.
  *
- * @param since from when on logins were observed; null where nobody does
- * @param loggedIn when it last connected to the MQTT broker; null if it has not since then
- * @param refusedLogin null if none was refused
- * @param foreignTopic null if it has published to none
- * @param unreadablePayload null if all could be read, or where nobody says
- * @param registered whether the IoT Agent knows the device; null before it was asked
+ * @param since when the observation of logins began; null if they are not observed
+ * @param loggedIn last connection to the MQTT broker; null if there was none
+ * @param refusedLogin null if there was none
+ * @param foreignTopic null if there was none
+ * @param unreadablePayload null if there was none or it is not reported
+ * @param registered whether the IoT Agent has the device; null before the first check
  */
 public record DeviceConnection(
         Long since,
@@ -24,13 +25,13 @@ public record DeviceConnection(
         UnreadablePayload unreadablePayload,
         Boolean registered)
         implements StateRecord {
-    /** Reason of a refused login: there is no such user, or no longer. */
+    /** Reason of a rejected login: the user does not exist. */
     public static final String UNKNOWN_USER = "unknown-user";
-    /** Reason of a refused login: the user exists and has another password. */
+    /** Reason of a rejected login: the user has another password. */
     public static final String WRONG_PASSWORD = "wrong-password";
 
     /**
-     * Logins that the MQTT broker refused since the last one that it accepted.
+     * Logins that the MQTT broker has rejected since the last accepted one.
      *
      * @param reason {@link #UNKNOWN_USER} or {@link #WRONG_PASSWORD}
      * @param user of the last one
@@ -47,17 +48,18 @@ public record DeviceConnection(
     /**
      * Messages that the IoT Agent could not read.
      *
-     * @param reason why it could not read the last one
-     * @param payload the first bytes of it
+     * @param reason of the last failure
+     * @param payload the first bytes of the last one
      */
     public record UnreadablePayload(long count, long last, String reason, String payload) {}
 
-    /** @throws UnreadableException if it is no such record */
+    /** @throws UnreadableException if it is not such a record */
     public static DeviceConnection read(byte[] value) throws UnreadableException {
         try {
             return StateJson.readRecord(value, DeviceConnection.class);
         } catch (UnreadableException e) {
-            throw new UnreadableException(Reason.NOT_JSON, "no record of a device's connection: " + e.getMessage(), e);
+            throw new UnreadableException(
+                    Reason.NOT_JSON, "not a record of a device's connection: " + e.getMessage(), e);
         }
     }
 }

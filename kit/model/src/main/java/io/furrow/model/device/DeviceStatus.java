@@ -15,11 +15,12 @@ import io.furrow.model.text.Coded;
  * The status of a device, reported by its host: a record of {@code service.devices.status} under the key of {@code
  * service.devices}.
  *
- * @param sequence of the desired device that this is the state of; a smaller one than the newest wanted says nothing of it
- * @param reason why it failed, at most {@value Limits#REASON_LENGTH} characters of it; null if it did not
+ * @param sequence of the desired state to which it refers; an older one than the newest desired state does not describe
+ * it
+ * @param reason why it failed, at most {@value Limits#REASON_LENGTH} characters; null if it did not
  */
 public record DeviceStatus(long sequence, State state, String reason) implements StateRecord {
-    /** How it is with a device. */
+    /** The state of a device. */
     public enum State implements Coded {
         RUNNING,
         STOPPED,
@@ -31,9 +32,10 @@ public record DeviceStatus(long sequence, State state, String reason) implements
     }
 
     /**
-     * Reads the value of a record; members of other names are skipped.
+     * Reads the value of a record; unknown members are ignored.
      *
-     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such object
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} if it is not such an
+     * object
      */
     public static DeviceStatus read(byte[] value) throws UnreadableException {
         JsonNode json = NgsiJson.read(value);

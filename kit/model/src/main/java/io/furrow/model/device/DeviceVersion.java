@@ -12,19 +12,19 @@ import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * To whom a device belongs from a time on: a record of {@code service.devices}, key = {@link #key()}, value = {@link
- * #toBytes()}. A record without a value ends the device at its record timestamp.
+ * The domain and mission of a device from a time on: a record of {@code service.devices}, key = {@link #key()}, value =
+ * {@link #toBytes()}. A record without a value ends the device at its record timestamp.
  *
  * @param id id of the entity as which the device reports
  * @param service tenant, empty for the default one
  * @param servicePath {@code /} for the root
- * @param domain empty if it belongs to none
- * @param mission empty if it is on none
- * @param from event time from which on this holds, epoch ms
- * @param until event time at which it ends, epoch ms; null if it holds until the next version
- * @param sequence grows with every version of a device; a version with a smaller one is out of date
+ * @param domain empty for none
+ * @param mission empty for none
+ * @param from event time from which this version is valid, epoch ms
+ * @param until event time at which it ends, epoch ms; null if it is valid until the next version
+ * @param sequence grows with every version of a device; a version with a smaller one is obsolete
  * @param carriedBy id of the entity that carries this one; null if none does
- * @param stationary whether it stays where it is: two such devices never collide
+ * @param stationary whether it never moves: two such devices never collide
  */
 public record DeviceVersion(
         String id,
@@ -44,7 +44,7 @@ public record DeviceVersion(
         Objects.requireNonNull(mission);
     }
 
-    /** A device that may move. */
+    /** Creates a version of a device that may move. */
     public DeviceVersion(
             String id,
             String service,
@@ -59,10 +59,11 @@ public record DeviceVersion(
     }
 
     /**
-     * Reads the value of a record. {@code service}, {@code servicePath}, {@code domain}, {@code mission}, {@code until},
-     * {@code carriedBy} and {@code stationary} may be missing or null; members of other names are skipped.
+     * Reads the value of a record. {@code service}, {@code servicePath}, {@code domain}, {@code mission}, {@code
+     * until}, {@code carriedBy} and {@code stationary} may be missing or null; unknown members are ignored.
      *
-     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such object
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} if it is not such an
+     * object
      */
     public static DeviceVersion read(byte[] value) throws UnreadableException {
         JsonNode json = NgsiJson.read(value);
@@ -84,23 +85,23 @@ public record DeviceVersion(
                 json.path("stationary").asBoolean());
     }
 
-    /** The record's key: tenant, service path and id, because two tenants may have devices of one id. */
+    /** Returns the record's key: tenant, service path and id, because two tenants may have devices with the same id. */
     public String key() {
         return new FiwareScope(service, servicePath).identity(id);
     }
 
-    /** Whether it holds at an event time in epoch ms, as far as it says itself. */
+    /** Returns whether it is valid at an event time in epoch ms, regardless of later versions. */
     public boolean holdsAt(long time) {
         return from <= time && (until == null || time < until);
     }
 
-    /** The same, ended at a time. */
+    /** Returns the version ended at a time. */
     public DeviceVersion endingAt(long time) {
         return new DeviceVersion(
                 id, service, servicePath, domain, mission, from, time, sequence, carriedBy, stationary);
     }
 
-    /** The same with another sequence. */
+    /** Returns the version with another sequence. */
     public DeviceVersion numbered(long other) {
         return new DeviceVersion(id, service, servicePath, domain, mission, from, until, other, carriedBy, stationary);
     }

@@ -9,11 +9,11 @@ import javax.crypto.Mac;
 import javax.crypto.spec.SecretKeySpec;
 
 /**
- * One key of a farm's secret, of which codes are made (HMAC-SHA-256).
+ * A key of a farm's secret, from which codes are derived (HMAC-SHA-256).
  *
- * @param number 1 or more; the newest key has the highest
- * @param text the key itself, at least 16 bytes in UTF-8; left out of {@link #toString()}
- * @param until when passwords made of it cease to count; null for the newest key
+ * @param number from 1; the newest key has the highest
+ * @param text the key itself, at least 16 bytes in UTF-8; omitted from {@link #toString()}
+ * @param until when its passwords expire; null for the newest key
  */
 record FarmKey(int number, String text, Instant until) {
     static final int MIN_BYTES = 16;
@@ -22,7 +22,7 @@ record FarmKey(int number, String text, Instant until) {
     private static final int CODE_CHARACTERS = 22;
     private static final int FINGERPRINT_BYTES = 8;
 
-    /** @throws IllegalArgumentException where the text is too short */
+    /** @throws IllegalArgumentException if the text is too short */
     FarmKey {
         int bytes = text.getBytes(StandardCharsets.UTF_8).length;
         if (bytes < MIN_BYTES) {
@@ -40,13 +40,13 @@ record FarmKey(int number, String text, Instant until) {
         return until == null || until.isAfter(time);
     }
 
-    /** 22 of {@code A-Za-z0-9_-}, some 130 bits. */
+    /** Returns a code of 22 characters of {@code A-Za-z0-9_-}, about 130 bits. */
     String code(String... parts) {
         byte[] code = mac(String.join("\n", parts));
         return Base64.getUrlEncoder().withoutPadding().encodeToString(code).substring(0, CODE_CHARACTERS);
     }
 
-    /** 16 hexadecimal digits, the same for the same key, from which nobody comes to the key or to what is made of it. */
+    /** Returns a deterministic fingerprint of 16 hexadecimal digits; the key cannot be derived from it. */
     String fingerprint() {
         return HexFormat.of().formatHex(mac("fingerprint"), 0, FINGERPRINT_BYTES);
     }

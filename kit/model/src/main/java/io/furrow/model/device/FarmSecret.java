@@ -15,15 +15,15 @@ import java.util.Objects;
 import java.util.Optional;
 
 /**
- * The one secret of a farm, of which the API key of each mission and the MQTT password of each device are made: the control plane,
- * which provisions devices, and their host come to the same without a password on any topic. Whoever has the secret has all of
- * them.
+ * The secret of a farm, from which the API key of each mission and the MQTT password of each device are derived: the
+ * control plane, which provisions devices, and their host derive the same ones without sending passwords through
+ * topics. The secret grants access to all of them.
  *
- * <p>It has one key or, after a rotation, several. The newest makes passwords; those of older keys are accepted until a time that
- * each of them has. API keys are addresses, a part of MQTT topics: one key continues making them through rotations.
+ * <p>After a rotation the secret has several keys. The newest derives passwords; those of older keys are accepted until
+ * their expiry. API keys are parts of MQTT topics, so one key continues to derive them through rotations.
  */
 public final class FarmSecret {
-    /** What the names of all its MQTT users begin with. */
+    /** Prefix of all its MQTT users. */
     public static final String USER_PREFIX = "furrow.";
 
     private static final int GENERATED_BYTES = 32;
@@ -32,7 +32,7 @@ public final class FarmSecret {
     private final FarmKey apiKeys;
     private final List<FarmKey> accepted;
 
-    /** User and password at the MQTT broker; the password is left out of {@link #toString()}. */
+    /** User and password at the MQTT broker; {@link #toString()} omits the password. */
     public record Login(String user, String password) {
         @Override
         public String toString() {
@@ -41,9 +41,9 @@ public final class FarmSecret {
     }
 
     /**
-     * A secret with one key.
+     * Creates a secret with one key.
      *
-     * @throws IllegalArgumentException where there are fewer than 16 bytes
+     * @throws IllegalArgumentException if there are fewer than 16 bytes
      */
     public FarmSecret(byte[] secret) {
         this(new FarmKey(1, new String(secret, StandardCharsets.UTF_8), null));
@@ -53,7 +53,7 @@ public final class FarmSecret {
         this(List.of(only), only);
     }
 
-    /** @param apiKeys the one of them that makes API keys */
+    /** @param apiKeys the key that derives API keys */
     FarmSecret(List<FarmKey> keys, FarmKey apiKeys) {
         this(keys, apiKeys, keys);
     }
@@ -66,7 +66,7 @@ public final class FarmSecret {
         this.accepted = this.keys.stream().filter(accepted::contains).toList();
     }
 
-    /** A secret with one key of 256 random bits. */
+    /** Generates a secret with one key of 256 random bits. */
     public static FarmSecret generate() {
         return new FarmSecret(random(1));
     }
@@ -87,41 +87,47 @@ public final class FarmSecret {
     }
 
     /**
-     * The same with a new key that makes passwords from now on.
+     * Returns the secret with a new key that derives passwords.
      *
-     * @param now keys whose time was over by then are left out, but that which makes API keys
-     * @param until when passwords of the key that was the newest cease to count
-     * @param newApiKeys whether the new key makes API keys too; the others then only recognize those derived from them
+     * @param now keys that expired before are dropped, except the one that derives API keys
+     * @param until expiry of the passwords of the previous key
+     * @param newApiKeys whether the new key derives API keys, too; older keys then only recognize theirs
      */
     public FarmSecret rotated(Instant now, Instant until, boolean newApiKeys) {
-        FarmKey fresh = random(newest().number() + 1);
-        List<FarmKey> next = new ArrayList<>(List.of(fresh));
+        FarmKey newKey = random(newest().number() + 1);
+        List<FarmKey> next = new ArrayList<>(List.of(newKey));
         for (FarmKey key : keys) {
-            // The one before stays in any case: by it the farm knows that this secret comes after its own.
+            // The previous key always stays: it proves to the farm that this secret succeeds its own.
             if (key.until() == null) {
                 next.add(key.endingAt(until));
             } else if (key.isAcceptedAt(now) || key.equals(apiKeys)) {
                 next.add(key);
             }
         }
-        int naming = newApiKeys ? fresh.number() : apiKeys.number();
+        int apiKeyNumber = newApiKeys ? newKey.number() : apiKeys.number();
         return new FarmSecret(
                 next,
-                next.stream().filter(key -> key.number() == naming).findFirst().orElseThrow());
+                next.stream()
+                        .filter(key -> key.number() == apiKeyNumber)
+                        .findFirst()
+                        .orElseThrow());
     }
 
-    /** The same as it is at a time: logins are those of the keys that are accepted then. */
+    /** Returns the secret at a time: only keys that are accepted then derive logins. */
     public FarmSecret at(Instant time) {
-        List<FarmKey> then = keys.stream().filter(key -> key.isAcceptedAt(time)).toList();
-        return then.equals(accepted) ? this : new FarmSecret(keys, apiKeys, then);
+        List<FarmKey> validKeys =
+                keys.stream().filter(key -> key.isAcceptedAt(time)).toList();
+        return validKeys.equals(accepted) ? this : new FarmSecret(keys, apiKeys, validKeys);
     }
 
-    /** The first part of a mission's MQTT topics, {@code /<apikey>/<device>/attrs}: 22 of {@code A-Za-z0-9_-}. */
+    /**
+     * Returns the first part of a mission's MQTT topics, {@code /<apikey>/<device>/attrs}: 22 of {@code A-Za-z0-9_-}.
+     */
     public String apiKey(String mission) {
         return apiKey(apiKeys, mission);
     }
 
-    /** Whether an API key was made for a mission of any key of this secret. */
+    /** Returns whether any key of this secret derived the API key for the mission. */
     public boolean madeApiKey(String apiKey, String mission) {
         return keys.stream().anyMatch(key -> apiKey(key, mission).equals(apiKey));
     }
@@ -130,45 +136,46 @@ public final class FarmSecret {
         return key.code("apikey", mission, "");
     }
 
-    /** The login of a device whose credentials were never rotated. */
+    /** Returns the login of a device whose credentials were never rotated. */
     public Login device(String mission, String device) {
         return device(mission, device, 0);
     }
 
     /**
-     * The login of a device, of the newest key: user {@code furrow.d.<mission>.<device>.<key>.<generation>}, mission and device with
-     * all but {@code A-Za-z0-9_-} percent-encoded, so that no two logins share a user.
+     * Returns the login of a device, derived by the newest key: user {@code
+     * furrow.d.<mission>.<device>.<key>.<generation>}, with mission and device percent-encoded except {@code
+     * A-Za-z0-9_-}, so that no two logins share a user.
      *
      * @param device its id at the IoT Agent
-     * @param generation how often its credentials were rotated
+     * @param generation number of rotations of its credentials
      */
     public Login device(String mission, String device, int generation) {
         return deviceLogin(newest(), mission, device, generation);
     }
 
-    /** The logins of a device that are accepted, that of the newest key first. */
+    /** Returns the accepted logins of a device, that of the newest key first. */
     public List<Login> devices(String mission, String device, int generation) {
         return accepted.stream()
                 .map(key -> deviceLogin(key, mission, device, generation))
                 .toList();
     }
 
-    /** The login of the gateway that speaks for all devices of a mission: user {@code furrow.m.<mission>.<key>}. */
+    /** Returns the login of the gateway of all devices of a mission: user {@code furrow.m.<mission>.<key>}. */
     public Login gateway(String mission) {
         return gatewayLogin(newest(), mission);
     }
 
-    /** The logins of a gateway that are accepted, that of the newest key first. */
+    /** Returns the accepted logins of a gateway, that of the newest key first. */
     public List<Login> gateways(String mission) {
         return accepted.stream().map(key -> gatewayLogin(key, mission)).toList();
     }
 
     private static Login deviceLogin(FarmKey key, String mission, String device, int generation) {
-        return login(key, String.join(".", "d", encoded(mission), encoded(device), "" + key.number(), "" + generation));
+        return login(key, String.join(".", "d", encode(mission), encode(device), "" + key.number(), "" + generation));
     }
 
     private static Login gatewayLogin(FarmKey key, String mission) {
-        return login(key, "m." + encoded(mission) + "." + key.number());
+        return login(key, "m." + encode(mission) + "." + key.number());
     }
 
     private static Login login(FarmKey key, String name) {
@@ -176,28 +183,31 @@ public final class FarmSecret {
         return new Login(user, key.code("password", user));
     }
 
-    /** The device of which a user is the login, of whatever key and generation; empty for all other users. */
+    /** Returns the device of a user, for any key and generation; empty for all other users. */
     public static Optional<String> deviceOf(String user) {
         String[] parts = user.split("\\.", -1);
-        return parts.length == 6 && user.startsWith(USER_PREFIX + "d.") ? decoded(parts[3]) : Optional.empty();
+        return parts.length == 6 && user.startsWith(USER_PREFIX + "d.") ? decode(parts[3]) : Optional.empty();
     }
 
-    /** The mission of which a user is the gateway's login, of whatever key; empty for all other users. */
+    /** Returns the mission of a gateway's user, for any key; empty for all other users. */
     public static Optional<String> missionOf(String user) {
         String[] parts = user.split("\\.", -1);
-        return parts.length == 4 && user.startsWith(USER_PREFIX + "m.") ? decoded(parts[2]) : Optional.empty();
+        return parts.length == 4 && user.startsWith(USER_PREFIX + "m.") ? decode(parts[2]) : Optional.empty();
     }
 
-    private static Optional<String> decoded(String name) {
+    private static Optional<String> decode(String name) {
         try {
             return Optional.of(URLDecoder.decode(name, StandardCharsets.UTF_8));
-        } catch (IllegalArgumentException e) { // no name of ours: anybody can try to log in with any
+        } catch (IllegalArgumentException e) { // not a name of Furrow; clients may try any user
             return Optional.empty();
         }
     }
 
-    /** Without the signs that mean something in files or topics of an MQTT broker, and without the dot between the parts of a user. */
-    private static String encoded(String name) {
+    /**
+     * Encodes characters that have a meaning in files or topics of an MQTT broker, and the dot that separates the parts
+     * of a user.
+     */
+    private static String encode(String name) {
         return URLEncoder.encode(name, StandardCharsets.UTF_8)
                 .replace("+", "%20")
                 .replace(".", "%2E")
@@ -205,32 +215,32 @@ public final class FarmSecret {
     }
 
     /**
-     * What may be shown of a key.
+     * The public description of a key.
      *
-     * @param fingerprint 16 hexadecimal digits that reveal nothing of it
-     * @param until when its passwords cease to count; null for the newest key
-     * @param makesApiKeys whether it makes API keys
+     * @param fingerprint 16 hexadecimal digits that do not reveal the key
+     * @param until when its passwords expire; null for the newest key
+     * @param makesApiKeys whether it derives API keys
      */
     public record KeyInfo(int number, String fingerprint, Instant until, boolean makesApiKeys) {}
 
-    /** Its keys, the newest first. */
+    /** Returns descriptions of its keys, the newest first. */
     public List<KeyInfo> describe() {
         return keys.stream()
                 .map(key -> new KeyInfo(key.number(), key.fingerprint(), key.until(), key.equals(apiKeys)))
                 .toList();
     }
 
-    /** Numbers of the keys whose passwords are accepted, the newest first. */
+    /** Returns the numbers of the keys whose passwords are accepted, the newest first. */
     public List<Integer> acceptedKeys() {
         return accepted.stream().map(FarmKey::number).toList();
     }
 
-    /** Number of the key that makes passwords; a rotation gives the next. */
+    /** Returns the number of the key that derives passwords, which each rotation increments. */
     public int newestKey() {
         return newest().number();
     }
 
-    /** Of the newest key: 16 hexadecimal digits that reveal nothing of it. */
+    /** Returns the fingerprint of the newest key: 16 hexadecimal digits that do not reveal it. */
     public String fingerprint() {
         return newest().fingerprint();
     }
@@ -239,17 +249,17 @@ public final class FarmSecret {
         return keys.get(0);
     }
 
-    /** The newest first. */
+    /** Returns the keys, the newest first. */
     List<FarmKey> keys() {
         return keys;
     }
 
-    /** The one that makes API keys. */
+    /** Returns the key that derives API keys. */
     FarmKey apiKeys() {
         return apiKeys;
     }
 
-    /** Whether all keys are the same and the same of them are accepted. */
+    /** Returns whether the keys and the accepted keys are the same. */
     @Override
     public boolean equals(Object other) {
         return other instanceof FarmSecret that
@@ -263,7 +273,7 @@ public final class FarmSecret {
         return Objects.hash(keys, apiKeys, accepted);
     }
 
-    /** Fingerprint and number of the newest key. */
+    /** Returns the fingerprint and number of the newest key. */
     @Override
     public String toString() {
         return fingerprint() + " (key " + newestKey() + ")";

@@ -15,22 +15,23 @@ import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 /**
- * The file of a farm's secret. Its first line is {@value #HEADER}; then come a line for each key, {@code key <number> <key>}, with
- * {@code api-keys} at that which makes API keys and {@code until <time>} at each but the newest; empty lines and those that begin
- * with # are skipped. A file with another first line is a secret of one key, that line.
+ * Reads and writes the file of a farm's secret. The first line is {@value #HEADER}, followed by a line for each key,
+ * {@code key <number> <key>}, with {@code api-keys} for the one that derives API keys and {@code until <time>} for all
+ * but the newest; empty lines and lines that begin with # are ignored. A file with another first line is a secret with
+ * that line as its only key.
  */
 public final class FarmSecretCodec {
-    /** Shorter than a secret may be, so that no version takes it for one. */
+    /** Shorter than the minimum of a secret, so that no version mistakes it for one. */
     static final String HEADER = "farm-secret 1";
 
     private static final Pattern HEADERS = Pattern.compile("farm-secret \\d{1,3}");
     private static final Pattern KEY =
             Pattern.compile("key\\s+([1-9]\\d{0,8})\\s+(\\S+)(\\s+api-keys)?(?:\\s+until\\s+(\\S+))?");
-    /** A key of words, which a file of one line may hold, is written so. */
+    /** Prefix of an encoded key, for keys with spaces in files of one line. */
     private static final String ENCODED = "base64:";
 
     private static final Pattern PLAIN = Pattern.compile("(?!base64:)[!-~]+");
-    private static final String FORM =
+    private static final String LINE_FORMAT =
             "'key <number> <key>', then 'api-keys' at one of them and 'until <time>' at older ones";
 
     private FarmSecretCodec() {}
@@ -50,7 +51,7 @@ public final class FarmSecretCodec {
         }
     }
 
-    /** @throws IllegalArgumentException naming the line, what is wrong with it and what it must be */
+    /** @throws IllegalArgumentException if a line is invalid; the message says which, why and what is expected */
     static FarmSecret parse(List<String> lines) {
         String first = lines.isEmpty() ? "" : lines.get(0).strip();
         if (!HEADERS.matcher(first).matches()) {
@@ -80,11 +81,11 @@ public final class FarmSecretCodec {
 
     private static FarmKey key(Matcher parts, int line) {
         if (!parts.matches()) {
-            throw new IllegalArgumentException("line %d: a line is %s".formatted(line, FORM));
+            throw new IllegalArgumentException("line %d: a line is %s".formatted(line, LINE_FORMAT));
         }
         try {
             Instant until = parts.group(4) == null ? null : Instant.parse(parts.group(4));
-            return new FarmKey(Integer.parseInt(parts.group(1)), decoded(parts.group(2)), until);
+            return new FarmKey(Integer.parseInt(parts.group(1)), decode(parts.group(2)), until);
         } catch (DateTimeException e) {
             throw new IllegalArgumentException(
                     "line %d: '%s' is not a time such as 2026-03-01T08:00:00Z".formatted(line, parts.group(4)), e);
@@ -93,13 +94,13 @@ public final class FarmSecretCodec {
         }
     }
 
-    private static String encoded(String text) {
+    private static String encode(String text) {
         return PLAIN.matcher(text).matches()
                 ? text
                 : ENCODED + Base64.getEncoder().encodeToString(text.getBytes(StandardCharsets.UTF_8));
     }
 
-    private static String decoded(String word) {
+    private static String decode(String word) {
         return word.startsWith(ENCODED)
                 ? new String(Base64.getDecoder().decode(word.substring(ENCODED.length())), StandardCharsets.UTF_8)
                 : word;
@@ -124,13 +125,13 @@ public final class FarmSecretCodec {
         }
     }
 
-    /** The text of the file, lines of which the newest key comes first. */
+    /** Returns the text of the file, the newest key first. */
     public static String write(FarmSecret secret) {
         StringBuilder text = new StringBuilder(HEADER).append('\n');
         text.append(
                 "# Made by ./furrow secret. Whoever reads this file has the password of every device of the farm.\n");
         for (FarmKey key : secret.keys()) {
-            text.append("key ").append(key.number()).append(' ').append(encoded(key.text()));
+            text.append("key ").append(key.number()).append(' ').append(encode(key.text()));
             text.append(key.equals(secret.apiKeys()) ? " api-keys" : "");
             text.append(key.until() == null ? "" : " until " + key.until()).append('\n');
         }

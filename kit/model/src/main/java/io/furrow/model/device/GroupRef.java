@@ -3,7 +3,8 @@ package io.furrow.model.device;
 import com.fasterxml.jackson.databind.JsonNode;
 
 /**
- * Where the settings of a device are: those of a group in a part of its mission's device list, see {@link MissionDeviceList}.
+ * References the settings of a device: those of a group in a part of its mission's device list, see {@link
+ * MissionDeviceList}.
  *
  * @param part number of the part, from 0
  * @param index of the group in that part, from 0
@@ -11,7 +12,7 @@ import com.fasterxml.jackson.databind.JsonNode;
  * @param sequence of the part; another one has other settings
  */
 public record GroupRef(int part, int index, int member, long sequence) {
-    /** Null if the node is no such object. */
+    /** Returns null if the node is not such an object. */
     static GroupRef read(JsonNode json) {
         boolean complete = json.path("part").canConvertToInt()
                 && json.path("index").canConvertToInt()
@@ -25,7 +26,7 @@ public record GroupRef(int part, int index, int member, long sequence) {
                 : null;
     }
 
-    /** That of another device of the group. */
+    /** Returns the reference of another device of the group. */
     public GroupRef ofMember(int number) {
         return new GroupRef(part, index, number, sequence);
     }

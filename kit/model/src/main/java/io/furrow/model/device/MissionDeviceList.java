@@ -11,15 +11,15 @@ import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * A part of a mission's device list: a record of {@code service.missions.devices} under {@link #key()}. What one request listed is
- * one part, so that no record grows with the mission.
+ * A part of a mission's device list: a record of {@code service.missions.devices} under {@link #key()}. The devices of
+ * one request are one part, so that no record grows with the mission.
  *
- * @param part from 0 on
- * @param sequence grows with every change of anything that is requested
- * @param devices groups and entity ids as requests have them; owned by the list, not to be changed by readers
+ * @param part from 0
+ * @param sequence grows with every change of any desired state
+ * @param devices groups and entity ids as in requests; owned by the list, not to be changed by readers
  */
 public record MissionDeviceList(String mission, int part, long sequence, ArrayNode devices) implements StateRecord {
-    /** {@code <mission>.<part>}. */
+    /** Returns {@code <mission>.<part>}. */
     public String key() {
         return key(mission, part);
     }
@@ -31,7 +31,8 @@ public record MissionDeviceList(String mission, int part, long sequence, ArrayNo
     /**
      * Reads the value of a record.
      *
-     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such object
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} if it is not such an
+     * object
      */
     public static MissionDeviceList read(byte[] value) throws UnreadableException {
         JsonNode json = NgsiJson.read(value);
@@ -49,7 +50,7 @@ public record MissionDeviceList(String mission, int part, long sequence, ArrayNo
                 devices);
     }
 
-    /** The settings of a device, {@code at} its own place; none if there is no such group. */
+    /** Returns the settings of a device, with its own {@code at}; empty if there is no such group. */
     ObjectNode settings(GroupRef ref) {
         ObjectNode settings =
                 devices.get(ref.index()) instanceof ObjectNode group ? DeviceGroup.settings(group) : NgsiJson.object();

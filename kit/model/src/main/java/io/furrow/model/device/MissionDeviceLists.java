@@ -10,12 +10,12 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * The records of {@code service.missions.devices}, for those who run or provision devices. Parts are kept as bytes, because a tree
- * takes ten times the room; the last {@value #PARSED} that were asked for are kept as trees, because devices of one group come
- * together. For one thread.
+ * Caches the records of {@code service.missions.devices} for processes that run or provision devices. Parts are stored
+ * as bytes because trees need ten times the memory; the last {@value #MAX_PARSED} used ones are also cached as trees,
+ * because devices of a group are resolved together. Not thread-safe.
  */
 public final class MissionDeviceLists {
-    private static final int PARSED = 8;
+    private static final int MAX_PARSED = 8;
 
     private final Map<String, byte[]> parts = new HashMap<>();
     private final Map<String, MissionDeviceList> parsed = new LinkedHashMap<>(16, 0.75f, true) {
@@ -23,11 +23,11 @@ public final class MissionDeviceLists {
 
         @Override
         protected boolean removeEldestEntry(Map.Entry<String, MissionDeviceList> eldest) {
-            return size() > PARSED;
+            return size() > MAX_PARSED;
         }
     };
 
-    /** @param value null takes the part away */
+    /** @param value null removes the part */
     public void take(String key, byte[] value) {
         parsed.remove(key);
         if (value == null) {
@@ -38,10 +38,9 @@ public final class MissionDeviceLists {
     }
 
     /**
-     * The device with its settings in itself; empty if they are not known yet, or not any more: then a record is to come, of the
-     * part or of the device.
+     * Returns the device with its settings; empty if a newer record of the part or the device is still to come.
      *
-     * @throws UnreadableException where the part is no such record
+     * @throws UnreadableException if the part is invalid
      */
     public Optional<DesiredDevice> resolve(DesiredDevice device) throws UnreadableException {
         GroupRef group = device.group();

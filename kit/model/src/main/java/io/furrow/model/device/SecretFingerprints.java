@@ -13,26 +13,26 @@ import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * The record of {@code service.secrets}, under {@link #KEY}: which secret a farm has, without anything of the secret.
+ * The record of {@code service.secrets}, under {@link #KEY}: identifies the secret of a farm without revealing it.
  *
- * @param newest number of the key that makes passwords
- * @param apiKeys number of the key that makes API keys
+ * @param newest number of the key that derives passwords
+ * @param apiKeys number of the key that derives API keys
  * @param byNumber fingerprint of each key
  */
 public record SecretFingerprints(
         int newest,
         int apiKeys,
         @JsonProperty("fingerprints") Map<Integer, String> byNumber) implements StateRecord {
-    /** Key of the one record of the topic. */
+    /** Key of the topic's only record. */
     public static final String KEY = "farm";
 
-    /** How the secret of a process stands to that of the farm. */
+    /** The relation of a process' secret to that of the farm. */
     public enum Relation {
         /** The same keys. */
         SAME,
-        /** The farm's after one more rotation. */
+        /** The farm's secret after further rotations. */
         NEWER,
-        /** The farm's before its last rotation. */
+        /** The farm's secret before its last rotation. */
         OLDER,
         /** Another secret. */
         ANOTHER
@@ -48,7 +48,7 @@ public record SecretFingerprints(
         return new SecretFingerprints(secret.newestKey(), secret.apiKeys().number(), byNumber);
     }
 
-    /** How these, of a process, stand to those of the farm. */
+    /** Returns the relation of these fingerprints of a process to those of the farm. */
     public Relation to(SecretFingerprints farm) {
         boolean shares = byNumber.keySet().stream().anyMatch(farm.byNumber::containsKey);
         boolean agrees = byNumber.entrySet().stream()
@@ -62,12 +62,12 @@ public record SecretFingerprints(
         return newest > farm.newest ? Relation.NEWER : Relation.OLDER;
     }
 
-    /** Fingerprint of the newest key. */
+    /** Returns the fingerprint of the newest key. */
     public String fingerprint() {
         return byNumber.get(newest);
     }
 
-    /** @throws UnreadableException where it is no such object */
+    /** @throws UnreadableException if it is not such an object */
     public static SecretFingerprints read(byte[] value) throws UnreadableException {
         JsonNode json = NgsiJson.read(value);
         Map<Integer, String> byNumber = new TreeMap<>();
@@ -81,7 +81,7 @@ public record SecretFingerprints(
         return new SecretFingerprints(newest, json.path("apiKeys").asInt(), byNumber);
     }
 
-    /** Fingerprint and number of the newest key, as in {@link FarmSecret#toString()}. */
+    /** Returns the fingerprint and number of the newest key, as in {@link FarmSecret#toString()}. */
     @Override
     public String toString() {
         return fingerprint() + " (key " + newest + ")";

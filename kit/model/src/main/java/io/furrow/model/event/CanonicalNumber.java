@@ -5,7 +5,7 @@ import java.math.BigDecimal;
 import com.fasterxml.jackson.core.io.NumberOutput;
 import com.fasterxml.jackson.databind.JsonNode;
 
-/** The text of a number that is the same for all ways to write it: that of a decimal number without trailing zeros. */
+/** Writes a number in a canonical form, that of a decimal number without trailing zeros. */
 final class CanonicalNumber {
     private CanonicalNumber() {}
 
@@ -16,13 +16,13 @@ final class CanonicalNumber {
         };
     }
 
-    /** As if it had been written and read again; most are written so already. */
+    /** Returns the same text as after writing and reading the number; most are canonical when written. */
     private static String of(double number) {
         String written = NumberOutput.toString(number, true);
         return isCanonical(written) ? written : of(new BigDecimal(written));
     }
 
-    /** Whether it has digits behind the point, the last of them not 0, and no exponent. */
+    /** Returns whether it has digits behind the point, the last of them not 0, and no exponent. */
     private static boolean isCanonical(String written) {
         char last = written.charAt(written.length() - 1);
         return last >= '1' && last <= '9' && written.indexOf('E') < 0 && written.indexOf('.') > 0;

@@ -8,23 +8,23 @@ import java.util.Set;
 import io.furrow.model.ngsi.Reason;
 
 /**
- * Input that was set aside: the original bytes are the value of a record on {@code <topic>.dead}, this is in its headers.
+ * Headers of rejected input: the value of a record on {@code <topic>.dead} has the original bytes.
  *
- * @param message a sentence for people, at most {@value #MAX_MESSAGE_LENGTH} signs
- * @param stage who set it aside, for instance {@code ngsi-source}
- * @param source where it came from: {@code <topic>-<partition>@<offset>}, or the sender's address and path
+ * @param message a sentence for people, at most {@value #MAX_MESSAGE_LENGTH} characters
+ * @param stage the part that rejected it, for instance {@code ngsi-source}
+ * @param source its origin: {@code <topic>-<partition>@<offset>}, or the sender's address and path
  */
 public record DeadLetter(Reason reason, String message, String stage, String source) {
-    /** A sentence may quote the input, which may be megabytes. */
+    /** A message may quote megabytes of input. */
     private static final int MAX_MESSAGE_LENGTH = 500;
 
     public static final String REASON = "dead-reason";
     public static final String MESSAGE = "dead-message";
     public static final String STAGE = "dead-stage";
     public static final String SOURCE = "dead-source";
-    /** Time of the original record, epoch ms, where the letter has another. */
+    /** Time of the original record, epoch ms, if the dead letter has another. */
     public static final String TIME = "dead-time";
-    /** All headers of a dead letter that the original did not have. */
+    /** All headers that a dead letter adds to those of the original. */
     public static final Set<String> HEADERS = Set.of(REASON, MESSAGE, STAGE, SOURCE, TIME);
 
     public DeadLetter {
@@ -36,13 +36,18 @@ public record DeadLetter(Reason reason, String message, String stage, String sou
         source = unicode(source);
     }
 
-    /** Half of a surrogate pair, quoted from the input or left by cutting it, has no UTF-8 form, which a header must have. */
+    /**
+     * Replaces halves of surrogate pairs, quoted from the input or left by truncation, which UTF-8 headers cannot
+     * contain.
+     */
     private static String unicode(String text) {
         if (text == null || StandardCharsets.UTF_8.newEncoder().canEncode(text)) {
             return text;
         }
         return text.codePoints()
-                .map(sign -> sign >= Character.MIN_SURROGATE && sign <= Character.MAX_SURROGATE ? 0xfffd : sign)
+                .map(codePoint -> codePoint >= Character.MIN_SURROGATE && codePoint <= Character.MAX_SURROGATE
+                        ? 0xfffd
+                        : codePoint)
                 .collect(StringBuilder::new, StringBuilder::appendCodePoint, StringBuilder::append)
                 .toString();
     }

@@ -10,22 +10,22 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.time.Instants;
 
 /**
- * The end of an entity as a source passes it on: key = the entity's id, no value, record timestamp = {@code time}, headers =
- * {@link #headers(String)}.
+ * The deletion of an entity as a source emits it: key = the entity's id, no value, record timestamp = {@code time},
+ * headers = {@link #headers(String)}.
  *
- * @param type of the entity; empty if it is not known: then all entities of the id end
- * @param time when the entity was deleted if the context broker reports it, else when the source learned of it; whole
- *     milliseconds. Never the time of the entity's last values: a deletion is newer than they are.
- * @param received when the source learned of it
+ * @param type of the entity; empty if unknown, which deletes all entities of the id
+ * @param time when the entity was deleted if the context broker reports it, otherwise when the source received the
+ * deletion; whole milliseconds. Never the time of the entity's last values, because the deletion is newer
+ * @param received when the source received the deletion
  */
 public record EntityDeletion(
         String type, String entityId, FiwareScope scope, Instant time, Instant received, Origin origin) {
-    /** Whole milliseconds: what a record timestamp can hold, so that all copies of the time agree. */
+    /** Truncates the time to whole milliseconds, the precision of record timestamps, so that all copies of it agree. */
     public EntityDeletion {
         time = time.truncatedTo(ChronoUnit.MILLIS);
     }
 
-    /** The deletion that an entity for which {@link Entity#isDeleted()} reports. */
+    /** Returns the deletion that an entity with {@link Entity#isDeleted()} reports. */
     public static EntityDeletion of(
             Entity deleted, FiwareScope scope, Instant received, Duration maxSkew, Origin origin) {
         Instant time = deleted.value("deletedAt")
@@ -35,12 +35,12 @@ public record EntityDeletion(
         return new EntityDeletion(deleted.type(), deleted.id(), scope, time, received, origin);
     }
 
-    /** Equal for every copy of the same deletion, and of no change of the entity. */
+    /** Returns an id that is equal for all copies of the deletion and differs from those of all changes. */
     public String id() {
         return EventId.ofDeletion(scope, type, entityId, time);
     }
 
-    /** The headers of {@link HeaderNames} in a fixed order; {@code source} becomes {@code ce_source}. */
+    /** Returns the headers of {@link HeaderNames} in a fixed order; {@code source} becomes {@code ce_source}. */
     public Map<String, String> headers(String source) {
         Map<String, String> headers = new LinkedHashMap<>();
         headers.put(HeaderNames.CE_ID, id());

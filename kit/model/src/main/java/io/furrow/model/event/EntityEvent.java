@@ -9,15 +9,15 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.time.Instants;
 
 /**
- * A change of an entity as a source passes it on: key = {@link Entity#id()}, value = {@link Entity#toBytes()}, record
+ * A change of an entity as a source emits it: key = {@link Entity#id()}, value = {@link Entity#toBytes()}, record
  * timestamp = {@link EventTime#time()}, headers = {@link #headers(String)}.
  *
- * @param received when the source had it
+ * @param received when the source received it
  */
 public record EntityEvent(Entity entity, FiwareScope scope, EventTime time, Instant received, Origin origin) {
     private static final String TIME_INSTANT = "TimeInstant";
 
-    /** An event whose time is read from the entity, see {@link EventTimeRule}. */
+    /** Returns an event whose time is read from the entity, see {@link EventTimeRule}. */
     public static EntityEvent of(
             Entity entity, FiwareScope scope, Instant received, EventTimeRule rule, Origin origin) {
         return new EntityEvent(entity, scope, EventTime.of(entity, received, rule), received, origin);
@@ -27,7 +27,7 @@ public record EntityEvent(Entity entity, FiwareScope scope, EventTime time, Inst
         return EventId.of(scope, entity, time.time());
     }
 
-    /** The headers of {@link HeaderNames} in a fixed order; {@code source} becomes {@code ce_source}. */
+    /** Returns the headers of {@link HeaderNames} in a fixed order; {@code source} becomes {@code ce_source}. */
     public Map<String, String> headers(String source) {
         Map<String, String> headers = new LinkedHashMap<>();
         headers.put(HeaderNames.CE_ID, id());
@@ -47,7 +47,10 @@ public record EntityEvent(Entity entity, FiwareScope scope, EventTime time, Inst
         return headers;
     }
 
-    /** The IoT Agent stamps each attribute and the entity with the time of the measure, and merging keeps newer attributes. */
+    /**
+     * Returns the attributes that are later than the measure. The IoT Agent stamps each attribute and the entity with
+     * the time of the measure, and merging retains newer attributes.
+     */
     private String laterAttributes() {
         Instant measured = entity.value(TIME_INSTANT).flatMap(Instants::of).orElse(Instant.MAX);
         return entity.attributes().stream()

@@ -16,11 +16,11 @@ import io.furrow.model.text.Sha256;
 import io.furrow.model.time.Instants;
 
 /**
- * The id of an event: the first 128 bits of a SHA-256 over tenant, service path, entity type and id, event time, the sorted attribute name
- * and value pairs and, if present, the entity's {@code dateModified}, in lower-case hexadecimal. So three changes that turn
- * something on, off and on again under one time of the device are three events. Types of attributes, metadata, other built-ins, the order of
- * attributes and the way a number is written (18, 18.0, 1.8e1) make no difference, because they differ between notifications of one
- * change.
+ * Computes the id of an event: the first 128 bits of a SHA-256 over tenant, service path, entity type and id, event
+ * time, the sorted attribute name and value pairs and, if present, the entity's {@code dateModified}, in lower-case
+ * hexadecimal. Three changes that turn something on, off and on again at one device time are therefore three events.
+ * Attribute types, metadata, other built-ins, the order of attributes and the notation of a number (18, 18.0, 1.8e1)
+ * are ignored, because they differ between notifications of one change.
  */
 public final class EventId {
     private static final int BYTES = 16;
@@ -40,7 +40,7 @@ public final class EventId {
         return parts.digest();
     }
 
-    /** The id of the event that reports the entity in this state. */
+    /** Returns the id of the event that reports the entity in this state. */
     public static String of(FiwareScope scope, EntityBuilder entity, Instant eventTime) {
         List<EntityBuilder.Attribute> attributes = entity.attributes();
         attributes.sort(Comparator.comparing(EntityBuilder.Attribute::name));
@@ -56,9 +56,9 @@ public final class EventId {
     }
 
     /**
-     * The id of a deletion: no change of the same entity at the same time has it.
+     * Returns the id of a deletion, which differs from those of all changes of the entity at the same time.
      *
-     * @param type empty if it is not known
+     * @param type empty if unknown
      */
     static String ofDeletion(FiwareScope scope, String type, String entityId, Instant eventTime) {
         Parts parts = new Parts();
@@ -68,9 +68,9 @@ public final class EventId {
     }
 
     /**
-     * The id of an event that is played back: differs from the original's and between epochs.
+     * Returns the id of a replayed event, which differs from the original's and between epochs.
      *
-     * @param original id of the event that was stored
+     * @param original id of the stored event
      * @param replay {@code <mission>.<id8>}
      */
     public static String ofReplay(String original, String replay, long epoch) {
@@ -81,7 +81,7 @@ public final class EventId {
         return parts.digest();
     }
 
-    /** What the digest is over, gathered first: one large step of a digest costs a fraction of many small ones. */
+    /** Collects the input of the digest, because one large update is much cheaper than many small ones. */
     private static final class Parts {
         private final StringBuilder text = new StringBuilder(TYPICAL_LENGTH);
         private String modified = "";
@@ -94,7 +94,7 @@ public final class EventId {
             text.append(eventTime.toEpochMilli());
         }
 
-        /** Kept, and written last, since attributes come sorted. */
+        /** Stores the time of modification, which is written last, because attributes are added in order. */
         void addModified(Instant time) {
             modified = "m" + time.toEpochMilli();
         }
@@ -106,7 +106,7 @@ public final class EventId {
             }
         }
 
-        /** The length before the text makes the whole injective: no separator can be part of a text. */
+        /** Adds a text after its length, which makes the encoding injective without a separator. */
         void addText(String part) {
             text.append('"').append(part.length()).append(':').append(part);
         }

@@ -7,40 +7,40 @@ import java.time.temporal.ChronoUnit;
 import io.furrow.model.ngsi.Entity;
 
 /**
- * When an event happened, as an {@link EventTimeRule} has it; by default the device's own time, else when the context broker changed
- * what it reports, else the time of receipt. A date and time without offset is UTC, as NGSI-v2 has it.
+ * The time of an event according to an {@link EventTimeRule}: by default the device's own time, else when the context
+ * broker changed the entity, else the time of receipt. A date and time without offset is UTC, as in NGSI-v2.
  *
  * @param time whole milliseconds, at most ten years before the receipt and the allowed skew after it
- * @param basis what it was taken from
- * @param fault what is wrong with the time that the device gives; null if nothing is
+ * @param basis its origin
+ * @param fault what is wrong with the device's time; null if nothing is
  */
 public record EventTime(Instant time, Basis basis, Fault fault) {
-    /** What an event time was taken from. */
+    /** The origin of an event time. */
     public enum Basis {
         DEVICE,
         BROKER,
         RECEIPT
     }
 
-    /** Why the time that the device gives is not that of the event. */
+    /** Why the device's time is not the event time. */
     public enum Fault {
-        /** Further in the future than allowed: the time of receipt stands for it. */
+        /** Further in the future than allowed; replaced by the time of receipt. */
         AHEAD,
-        /** Longer ago than a measure can be: the time of receipt stands for it. */
+        /** Older than a measure can be; replaced by the time of receipt. */
         UNSET,
-        /** No form of a time is known in which it can be read. */
+        /** Not in a supported format. */
         UNREADABLE
     }
 
     /** Clocks that were never set show 1970, 1980 (GPS) or 2000. */
     private static final Duration MAX_AGE = Duration.ofDays(3650);
 
-    /** Whole milliseconds: what a record timestamp can hold, so that all copies of the time agree. */
+    /** Truncates the time to whole milliseconds, the precision of record timestamps, so that all copies of it agree. */
     public EventTime {
         time = time.truncatedTo(ChronoUnit.MILLIS);
     }
 
-    /** @param received when the event came in */
+    /** @param received when the event was received */
     public static EventTime of(Entity entity, Instant received, EventTimeRule rule) {
         Instant earliest = received.minus(MAX_AGE);
         Instant latest = received.plus(rule.maxSkew());

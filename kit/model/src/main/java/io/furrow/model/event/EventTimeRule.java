@@ -16,31 +16,34 @@ import io.furrow.model.text.Coded;
 import io.furrow.model.time.Instants;
 
 /**
- * Which of the times that an event may carry is its event time.
+ * Selects the event time among the times of an event.
  *
- * @param order the first of these that can be read decides; where none can, the time of receipt does
+ * @param order the first readable one of these counts; without one, the time of receipt does
  * @param maxSkew how far a time may be after the receipt
  */
 public record EventTimeRule(List<Source> order, Duration maxSkew) implements Serializable {
-    /** The device knows best; of what the context broker adds, the newest change of an attribute is closer than that of the entity. */
+    /**
+     * The device's time is the most accurate; of the context broker's times, the newest change of an attribute is
+     * closer than that of the entity.
+     */
     public static final List<Source> DEFAULT_ORDER = List.of(Source.DEVICE, Source.ATTRIBUTES, Source.ENTITY);
 
-    /** Where a time is read from. */
+    /** The sources of a time. */
     public enum Source implements Coded {
         /** {@code Time} (epoch ms), else {@code TimeInstant}, {@code dateObserved}, {@code timestamp} (see {@link Instants}). */
         DEVICE,
         /**
-         * The newest metadata {@code dateModified} of an attribute. Metadata {@code TimeInstant} is none: the context broker keeps
-         * it when somebody changes the value without it.
+         * The newest metadata {@code dateModified} of an attribute. Metadata {@code TimeInstant} does not count: the
+         * context broker retains it when the value changes without it.
          */
         ATTRIBUTES,
         /** {@code dateModified} of the entity. */
         ENTITY;
 
-        /** Attributes that hold the time of the device, the first that can be read before the others. */
+        /** Attributes with the time of the device; the first readable one counts. */
         public static final List<String> DEVICE_TIMES = List.of("Time", "TimeInstant", "dateObserved", "timestamp");
 
-        /** The time that an entity has from here; empty if none can be read. */
+        /** Reads the time of an entity from this source; empty if there is none. */
         public Optional<Instant> read(Entity entity) {
             return switch (this) {
                 case DEVICE ->
@@ -57,7 +60,7 @@ public record EventTimeRule(List<Source> order, Duration maxSkew) implements Ser
             };
         }
 
-        /** Whether the device gives a time, of whatever form. */
+        /** Returns whether the device reports a time in any format. */
         boolean isNamed(Entity entity) {
             return DEVICE_TIMES.stream()
                     .flatMap(name -> entity.value(name).stream())
@@ -70,17 +73,17 @@ public record EventTimeRule(List<Source> order, Duration maxSkew) implements Ser
             return Instants.of(modified).stream();
         }
 
-        private static Source of(String word) {
+        private static Source of(String name) {
             return List.of(values()).stream()
-                    .filter(source -> source.code().equals(word))
+                    .filter(source -> source.code().equals(name))
                     .findFirst()
                     .orElseThrow(() -> new IllegalArgumentException(
                             "'%s' is not an event time; give some of device, attributes, entity in the order of their weight"
-                                    .formatted(word)));
+                                    .formatted(name)));
         }
     }
 
-    /** @throws IllegalArgumentException where the order is empty or names a source twice */
+    /** @throws IllegalArgumentException if the order is empty or names a source twice */
     public EventTimeRule {
         order = List.copyOf(order);
         if (order.isEmpty() || new LinkedHashSet<>(order).size() < order.size()) {
@@ -94,9 +97,9 @@ public record EventTimeRule(List<Source> order, Duration maxSkew) implements Ser
     }
 
     /**
-     * The rule that an option names, as in {@code device,attributes,entity}.
+     * Returns the rule of an option such as {@code device,attributes,entity}.
      *
-     * @throws IllegalArgumentException with what was wrong and what can be given
+     * @throws IllegalArgumentException if a word is invalid; the message lists the valid ones
      */
     public static EventTimeRule of(List<String> words, Duration maxSkew) {
         return new EventTimeRule(words.stream().map(Source::of).toList(), maxSkew);

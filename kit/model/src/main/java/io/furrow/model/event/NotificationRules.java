@@ -13,11 +13,11 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * How the entities of a notification become records, whichever way the notification arrived.
+ * Converts the entities of a notification, however received, to records.
  *
- * @param name stands in {@code ce_source} for a subscription that has no usable id
- * @param excluded entities of a type that one of these matches as a whole are dropped
- * @param origin of the events, and of the deletions
+ * @param name used in {@code ce_source} for a subscription without a usable id
+ * @param excluded entities are dropped if one of these matches their whole type
+ * @param origin of the events and deletions
  */
 public record NotificationRules(String name, List<Pattern> excluded, EventTimeRule times, Origin origin)
         implements Serializable {
@@ -25,7 +25,7 @@ public record NotificationRules(String name, List<Pattern> excluded, EventTimeRu
     private static final Pattern PATH = Pattern.compile("/[!-+\\--~]*");
     private static final Pattern SUBSCRIPTION = Pattern.compile("[A-Za-z0-9_.:-]{1,128}");
 
-    /** The header {@code ce_source} of all records of a notification. */
+    /** Returns the header {@code ce_source} of all records of a notification. */
     public String source(Notification notification) {
         return "/ngsi/"
                 + notification
@@ -44,12 +44,12 @@ public record NotificationRules(String name, List<Pattern> excluded, EventTimeRu
     }
 
     /**
-     * The scope of an entity of a notification. Its service path is that of the header; where the header has several, the one that the
-     * context broker reports with the entity, or else one for each entity in their order.
+     * Returns the scope of an entity of a notification. Its service path is that of the header; if the header has
+     * several, the one that the context broker reports with the entity, otherwise the one at the entity's position.
      *
-     * @param index of the entity among those that could be read
+     * @param index of the entity among the readable ones
      * @param headers the scope of the headers
-     * @throws UnreadableException if the header has another number of different paths
+     * @throws UnreadableException if the header has a different number of distinct paths
      */
     public static FiwareScope scope(Notification notification, int index, FiwareScope headers)
             throws UnreadableException {
@@ -79,8 +79,8 @@ public record NotificationRules(String name, List<Pattern> excluded, EventTimeRu
     }
 
     /**
-     * @param received when the notification arrived
-     * @param source of {@link #source}
+     * @param received when the notification was received
+     * @param source result of {@link #source}
      */
     public EntityRecord record(Entity entity, FiwareScope scope, Instant received, String source) {
         if (entity.isDeleted()) {

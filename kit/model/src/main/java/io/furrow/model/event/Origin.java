@@ -2,15 +2,15 @@ package io.furrow.model.event;
 
 import java.util.Locale;
 
-/** How an event came into Furrow; the code stands in the header {@code origin}. */
+/** How Furrow received an event; the code is the value of the header {@code origin}. */
 public enum Origin {
     /** An HTTP notification of the context broker. */
     NOTIFICATION,
     /** A native Kafka notification of the context broker. */
     KAFKA,
-    /** Read from the context broker because a notification may have been missed. */
+    /** A read from the context broker because a notification may have been missed. */
     REPAIR,
-    /** Played back from a stored mission. */
+    /** A replay of a stored mission. */
     REPLAY;
 
     private final String code = name().toLowerCase(Locale.ROOT);

@@ -7,8 +7,8 @@ import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 /**
- * Where the whole of a record is, in the headers of one that stands for it: a late or dead record carries no large value a
- * second time.
+ * References an original record in the headers of a record that represents it, so that late and dead records do not
+ * copy large values.
  *
  * @param bytes of the original's value
  */
@@ -22,7 +22,7 @@ public record OriginalReference(String topic, int partition, long offset, long b
     private static final Pattern PLACE = Pattern.compile("(.+)-(\\d{1,9})@(\\d{1,18})");
     private static final Pattern SIZE = Pattern.compile("\\d{1,18}");
 
-    /** Of the headers with these texts, null if there is none; empty if they name no place. */
+    /** Parses two headers, each null if missing; empty if they are not a reference. */
     public static Optional<OriginalReference> of(String position, String bytes) {
         Matcher place = PLACE.matcher(position == null ? "" : position);
         if (!place.matches()) {

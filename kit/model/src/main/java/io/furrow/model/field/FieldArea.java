@@ -16,8 +16,8 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Reads the area of a field, or of another place, from GeoJSON; rejects areas whose inside is ambiguous. Every area that is not
- * repaired, as those of files are, is read by it. Uses JTS, which callers have on their class path.
+ * Reads the area of a field or another place from GeoJSON and rejects areas with an ambiguous interior. All areas are
+ * read by it except those of files, which are repaired. Requires JTS on the class path of callers.
  */
 public final class FieldArea {
     private static final Set<String> AREAS = Set.of("Polygon", "MultiPolygon");
@@ -26,12 +26,12 @@ public final class FieldArea {
     private FieldArea() {}
 
     /**
-     * @param field what the message calls it
+     * @param field name of the area in the message
      * @throws UnreadableException with {@link Reason#NOT_AN_EVENT}; the message names the place and the remedy
      */
     public static Geometry read(JsonNode geometry, String field) throws UnreadableException {
         if (!AREAS.contains(geometry.path("type").asText())) {
-            throw refused(field + " is not an area; give it a geometry of type Polygon or MultiPolygon", null);
+            throw rejected(field + " is not an area; give it a geometry of type Polygon or MultiPolygon", null);
         }
         int depth = geometry.path("type").asText().equals("Polygon") ? 2 : 3;
         Geometry area;
@@ -41,21 +41,21 @@ public final class FieldArea {
             }
             area = new GeoJsonReader().read(new String(NgsiJson.write(geometry), StandardCharsets.UTF_8));
         } catch (ParseException | NumberFormatException e) {
-            throw refused(
+            throw rejected(
                     field
                             + " has broken coordinates; a ring is four or more [longitude, latitude], the last like"
                             + " the first",
                     e);
         }
         if (area.isEmpty()) {
-            throw refused(field + " has no coordinates; draw its border or take it out", null);
+            throw rejected(field + " has no coordinates; draw its border or take it out", null);
         }
         if (!EARTH.contains(area.getEnvelopeInternal())) {
-            throw refused(field + " lies outside of longitude ±180, latitude ±90; give degrees in WGS 84", null);
+            throw rejected(field + " lies outside of longitude ±180, latitude ±90; give degrees in WGS 84", null);
         }
         TopologyValidationError error = new IsValidOp(area).getValidationError();
         if (error != null) {
-            throw refused(
+            throw rejected(
                     field + " is not a valid area: " + error.getMessage() + " at longitude " + error.getCoordinate().x
                             + ", latitude " + error.getCoordinate().y + "; redraw its border there",
                     null);
@@ -63,7 +63,7 @@ public final class FieldArea {
         return area;
     }
 
-    /** Whether each corner, so deep in the lists, has two numbers; JTS takes one that is missing for zero. */
+    /** Returns whether each corner at this depth of lists has two numbers; JTS reads a missing one as zero. */
     private static boolean hasCorners(JsonNode coordinates, int depth) {
         if (depth == 0) {
             return coordinates.path(0).isNumber() && coordinates.path(1).isNumber();
@@ -76,7 +76,7 @@ public final class FieldArea {
         return coordinates.isArray();
     }
 
-    private static UnreadableException refused(String what, Throwable cause) {
+    private static UnreadableException rejected(String what, Throwable cause) {
         return new UnreadableException(Reason.NOT_AN_EVENT, what, cause);
     }
 }

@@ -4,7 +4,7 @@ import java.nio.file.Path;
 
 /** Reads field files, with the libraries for their formats and coordinate systems. */
 public interface FieldReader {
-    /** For a process without these libraries. */
+    /** For processes without these libraries. */
     FieldReader NONE = (file, options) -> {
         throw new InvalidFileException(
                 "no field files are read here; import %s with ./furrow fields import".formatted(file));

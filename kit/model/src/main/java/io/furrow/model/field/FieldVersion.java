@@ -16,40 +16,40 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * A field as it is from a time on, until its next version: a record of {@code service.fields}, key = {@link #key()}, value =
- * {@link #toBytes()}, a GeoJSON Feature (RFC 7946). A record without a value takes the version of its key away, as if it had
- * never been.
+ * A field from a time on until its next version: a record of {@code service.fields}, key = {@link #key()}, value =
+ * {@link #toBytes()}, a GeoJSON Feature (RFC 7946). A record without a value removes the version of its key as if it
+ * had never existed.
  *
- * @param id what an entity id may hold, see {@link #isId}
- * @param validFrom event time from which on this holds, epoch ms
- * @param geometry GeoJSON of a Polygon or MultiPolygon, its coordinates not looked at; null if the field ends
- * @param properties what else is said of it, without {@code validFrom}; owned by the version, not to be changed by readers
+ * @param id valid in an entity id, see {@link #isId}
+ * @param validFrom event time from which this version is valid, epoch ms
+ * @param geometry GeoJSON of a Polygon or MultiPolygon with unchecked coordinates; null if the field ends
+ * @param properties other properties, without {@code validFrom}; owned by the version, not to be changed by readers
  */
 public record FieldVersion(String id, long validFrom, ObjectNode geometry, ObjectNode properties) {
     private static final String VALID_FROM = "validFrom";
     private static final Set<String> AREAS = Set.of("Polygon", "MultiPolygon");
-    /** What may stand in an entity id (NGSI-v2, "Field syntax restrictions"), with room for the prefix of a result's. */
+    /** Characters of an entity id (NGSI-v2, "Field syntax restrictions"), with room for the prefix of a result's id. */
     private static final Pattern ID = Pattern.compile("[!-~&&[^&?/#<>\"'=;()]]{1,200}");
 
     private static final DateTimeFormatter UTC_MILLIS =
             new DateTimeFormatterBuilder().appendInstant(3).toFormatter();
 
-    /** The key that distinguishes the versions of all fields. */
+    /** The key of a version among those of all fields. */
     public record Key(String id, long validFrom) {
         /**
-         * Reads a record's key, its time in ISO 8601 with any offset.
+         * Parses a record's key with a time in ISO 8601 with any offset.
          *
          * @throws UnreadableException with {@link Reason#NOT_AN_EVENT}
          */
         public static Key parse(String key) throws UnreadableException {
             int at = key.lastIndexOf('@');
             if (at < 1) {
-                throw refused("the key '" + key + "' is not a <field id>@<time>");
+                throw rejected("the key '" + key + "' is not a <field id>@<time>");
             }
             return new Key(key.substring(0, at), time(key.substring(at + 1)));
         }
 
-        /** In its one spelling, the time in UTC with milliseconds. */
+        /** Returns the canonical key, with the time in UTC and milliseconds. */
         @Override
         public String toString() {
             return id + "@" + iso(validFrom);
@@ -61,51 +61,55 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
         Objects.requireNonNull(properties);
     }
 
-    /** Whether the context broker would take it as (the end of) an entity id: 1 to 200 of ASCII, some signs excepted. */
+    /**
+     * Returns whether the context broker accepts it as (the end of) an entity id: 1 to 200 ASCII characters with some
+     * exceptions.
+     */
     public static boolean isId(String id) {
         return ID.matcher(id).matches();
     }
 
     /**
-     * Reads the value of a record: a Feature with {@code id} (text or whole number), {@code geometry} (null if the field
-     * ends, never missing) and {@code properties.validFrom}. Members of other names are skipped.
+     * Reads the value of a record: a Feature with {@code id} (text or whole number), {@code geometry} (null if the
+     * field ends, never missing) and {@code properties.validFrom}. Unknown members are ignored.
      *
-     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such Feature
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} if it is not such a
+     * Feature
      */
     public static FieldVersion read(byte[] value) throws UnreadableException {
         JsonNode feature = NgsiJson.read(value);
         if (!feature.path("type").asText().equals("Feature")) {
-            throw refused("the field is not a GeoJSON Feature");
+            throw rejected("the field is not a GeoJSON Feature");
         }
         JsonNode id = feature.path("id");
         if (!(id.isTextual() || id.isIntegralNumber()) || !isId(id.asText())) {
-            throw refused("the field has no member 'id' of 1 to 200 characters that are allowed in an entity id");
+            throw rejected("the field has no member 'id' of 1 to 200 characters that are allowed in an entity id");
         }
-        if (!(feature.path("properties") instanceof ObjectNode said)) {
-            throw refused("'properties' of the field is not an object");
+        if (!(feature.path("properties") instanceof ObjectNode original)) {
+            throw rejected("'properties' of the field is not an object");
         }
-        ObjectNode properties = said.deepCopy();
+        ObjectNode properties = original.deepCopy();
         JsonNode validFrom = properties.remove(VALID_FROM);
         if (validFrom == null || !validFrom.isTextual()) {
-            throw refused("the field has no property 'validFrom' with a text");
+            throw rejected("the field has no property 'validFrom' with a text");
         }
         return new FieldVersion(id.asText(), time(validFrom.textValue()), area(feature.get("geometry")), properties);
     }
 
     private static ObjectNode area(JsonNode geometry) throws UnreadableException {
         if (geometry == null) {
-            throw refused("the field has no member 'geometry'; null says that the field ends");
+            throw rejected("the field has no member 'geometry'; null says that the field ends");
         }
         if (geometry.isNull()) {
             return null;
         }
         if (!AREAS.contains(geometry.path("type").asText())) {
-            throw refused("'geometry' of the field is neither a Polygon nor a MultiPolygon");
+            throw rejected("'geometry' of the field is neither a Polygon nor a MultiPolygon");
         }
         return (ObjectNode) geometry;
     }
 
-    /** A time as {@code validFrom} and keys have it, ISO 8601 with an offset, in epoch ms. */
+    /** Parses a time of {@code validFrom} or a key, ISO 8601 with an offset, to epoch ms. */
     private static long time(String iso) throws UnreadableException {
         try {
             return Instant.parse(iso).toEpochMilli();
@@ -115,36 +119,39 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
         }
     }
 
-    /** The record's key: {@code <id>@<validFrom>}, the time in UTC with milliseconds. */
+    /** Returns the record's key: {@code <id>@<validFrom>}, with the time in UTC and milliseconds. */
     public String key() {
         return new Key(id, validFrom).toString();
     }
 
-    /** Whether the field ends here. */
+    /** Returns whether the field ends with this version. */
     public boolean isEnd() {
         return geometry == null;
     }
 
-    /** What people call the field; empty if it has no name. */
+    /** Returns the field's name; empty if it has none. */
     public String name() {
         return properties.path("name").asText("");
     }
 
-    /** The domain that the field belongs to; empty if it belongs to none. */
+    /** Returns the domain of the field; empty if it has none. */
     public String domain() {
         return properties.path("Domain").asText("");
     }
 
-    /** Whether its property {@code kind} is {@code exclusion}: an area in which devices may be close to each other. */
+    /**
+     * Returns whether its property {@code kind} is {@code exclusion}: an area in which devices may be close to each
+     * other.
+     */
     public boolean isExclusion() {
         return properties.path("kind").asText("").equals("exclusion");
     }
 
-    /** UTF-8 JSON of the Feature. */
+    /** Returns the Feature as UTF-8 JSON. */
     public byte[] toBytes() {
-        ObjectNode feature = none().put("type", "Feature").put("id", id);
+        ObjectNode feature = NgsiJson.object().put("type", "Feature").put("id", id);
         feature.set("geometry", geometry);
-        ObjectNode all = none().put(VALID_FROM, iso(validFrom));
+        ObjectNode all = NgsiJson.object().put(VALID_FROM, iso(validFrom));
         feature.set("properties", all.setAll(properties));
         return NgsiJson.write(feature);
     }
@@ -153,11 +160,7 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
         return UTC_MILLIS.format(Instant.ofEpochMilli(time));
     }
 
-    private static ObjectNode none() {
-        return NgsiJson.object();
-    }
-
-    private static UnreadableException refused(String why) {
-        return new UnreadableException(Reason.NOT_AN_EVENT, why);
+    private static UnreadableException rejected(String reason) {
+        return new UnreadableException(Reason.NOT_AN_EVENT, reason);
     }
 }

@@ -9,8 +9,8 @@ import java.util.function.Consumer;
 import java.util.function.Supplier;
 
 /**
- * A header with a token for a proxy that guards a server, such as a Wilma PEP proxy. The token is the first line of a file, which is read
- * again when it changes; while it cannot be used, the token from before is sent.
+ * Adds a header with a token for a proxy in front of a server, such as a Wilma PEP proxy. The token is the first line
+ * of a file, which is read again when it changes; while it is invalid, the previous token is sent.
  */
 public final class AccessToken {
     /** The header of a Wilma PEP proxy. */
@@ -18,7 +18,7 @@ public final class AccessToken {
 
     public static final AccessToken NONE = new AccessToken(null, () -> "");
 
-    /** HTTP clients set some headers themselves. */
+    /** Valid names, except those of headers that HTTP clients set themselves. */
     private static final String HEADER =
             "(?i)(?!(connection|content-length|expect|host|upgrade)$)[A-Za-z0-9!#$%&'*+.^_`|~-]+";
 
@@ -32,8 +32,8 @@ public final class AccessToken {
 
     /**
      * @param header null for {@value #DEFAULT_HEADER}
-     * @param warning is given a sentence when a changed file cannot be used, or everybody may read it
-     * @throws IOException if the file holds no token, or the header has no name that can be used; the message says what to do
+     * @param warning receives a message if a changed file cannot be used, or if everybody may read it
+     * @throws IOException if the file has no token or the header is invalid; the message says what to do
      */
     public static AccessToken of(Path file, String header, Consumer<String> warning) throws IOException {
         if (header != null && !header.matches(HEADER)) {
@@ -59,14 +59,14 @@ public final class AccessToken {
         return token;
     }
 
-    /** Sets the header; nothing where there is no token. */
+    /** Sets the header if there is a token. */
     public void addTo(BiConsumer<String, String> request) {
         if (header != null) {
             request.accept(header, token.get());
         }
     }
 
-    /** Without the token. */
+    /** Returns a description without the token. */
     @Override
     public String toString() {
         return header == null ? "no token" : "a token in " + header;

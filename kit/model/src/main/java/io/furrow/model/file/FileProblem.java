@@ -5,11 +5,11 @@ import java.nio.file.AccessDeniedException;
 import java.nio.file.FileSystemException;
 import java.nio.file.NoSuchFileException;
 
-/** Why a file could not be read, in words for people. */
+/** Describes why a file could not be read, for people. */
 public final class FileProblem {
     private FileProblem() {}
 
-    /** For instance {@code there is no such file}; to be put behind the name of the file. */
+    /** Returns a text that follows the file's name in a message, for instance {@code there is no such file}. */
     public static String of(IOException cause) {
         if (cause instanceof NoSuchFileException) {
             return "there is no such file";

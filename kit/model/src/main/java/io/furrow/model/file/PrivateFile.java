@@ -16,7 +16,7 @@ import java.util.Optional;
 import java.util.Set;
 import java.util.UUID;
 
-/** Writes files that only their owner may read, and reports those that others may. */
+/** Writes files that only their owner may read, and detects files that others may read. */
 public final class PrivateFile {
     private static final FileAttribute<Set<PosixFilePermission>> OWNER_ONLY =
             PosixFilePermissions.asFileAttribute(PosixFilePermissions.fromString("rw-------"));
@@ -24,9 +24,9 @@ public final class PrivateFile {
     private PrivateFile() {}
 
     /**
-     * Creates a file with mode 600 and writes a text to it, in UTF-8 and through to the disk.
+     * Creates a file with mode 600, writes a text to it in UTF-8 and forces it to disk.
      *
-     * @throws java.nio.file.FileAlreadyExistsException if there is such a file, which stays as it is
+     * @throws java.nio.file.FileAlreadyExistsException if the file exists; it stays unchanged
      */
     public static void create(Path file, String text) throws IOException {
         boolean posix = file.getFileSystem().supportedFileAttributeViews().contains("posix");
@@ -41,23 +41,23 @@ public final class PrivateFile {
         }
     }
 
-    /** Replaces a file in one step, so that a reader sees all of the old text or all of the new; its permissions stay. */
+    /** Replaces a file atomically; its permissions stay. */
     public static void replace(Path file, String text) throws IOException {
         Path real = file.toRealPath();
-        Path fresh = real.resolveSibling(real.getFileName() + "." + UUID.randomUUID() + ".new");
+        Path temporary = real.resolveSibling(real.getFileName() + "." + UUID.randomUUID() + ".new");
         try {
-            create(fresh, text);
-            PosixFileAttributeView view = Files.getFileAttributeView(fresh, PosixFileAttributeView.class);
+            create(temporary, text);
+            PosixFileAttributeView view = Files.getFileAttributeView(temporary, PosixFileAttributeView.class);
             if (view != null) {
                 view.setPermissions(Files.getPosixFilePermissions(real));
             }
-            Files.move(fresh, real, StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
+            Files.move(temporary, real, StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
         } finally {
-            Files.deleteIfExists(fresh);
+            Files.deleteIfExists(temporary);
         }
     }
 
-    /** A sentence for the log where every user of the machine may read the file; empty if not, or if that is unknown. */
+    /** Returns a warning if every user of the machine may read the file; empty if not, or if that is unknown. */
     public static Optional<String> exposure(Path file) throws IOException {
         PosixFileAttributeView view = Files.getFileAttributeView(file, PosixFileAttributeView.class);
         if (view == null) {

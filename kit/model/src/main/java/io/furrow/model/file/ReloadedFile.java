@@ -15,10 +15,10 @@ import java.util.function.Consumer;
 import java.util.function.Supplier;
 
 /**
- * Reads files again after they have changed. What cannot be used leaves the last good content in place, is reported once, and is
- * tried again. The files are checked when the content is asked for, at most once a second; safe from all threads.
+ * Reloads files after changes. Invalid files leave the last valid content in place; this is reported once, and the
+ * files are tried again. The files are checked on access to the content, at most once a second. Thread-safe.
  *
- * @param <T> what is made of the files
+ * @param <T> the content of the files
  */
 public final class ReloadedFile<T> implements Supplier<T> {
     private static final Duration CHECK_INTERVAL = Duration.ofSeconds(1);
@@ -34,23 +34,23 @@ public final class ReloadedFile<T> implements Supplier<T> {
     private List<Stamp> stamps;
 
     /**
-     * Makes the content of the files.
+     * Reads the content of the files.
      *
      * @param <T> the content
      */
     @FunctionalInterface
     public interface Source<T> {
-        /** @throws IOException if it cannot be made; the message names the file, what is wrong and what to do */
+        /** @throws IOException if the files are invalid; the message names the file, what is wrong and what to do */
         T read() throws IOException;
     }
 
-    /** What distinguishes a file from its successor, also where it is replaced by a link to another one. */
+    /** Identifies a state of a file, also if it is replaced by a link to another one. */
     private record Stamp(FileTime modified, long bytes, Object file) {
         static Stamp of(Path file) throws IOException {
             try {
                 BasicFileAttributes attributes = Files.readAttributes(file, BasicFileAttributes.class);
                 return new Stamp(attributes.lastModifiedTime(), attributes.size(), attributes.fileKey());
-            } catch (NoSuchFileException e) { // the source says what is missing
+            } catch (NoSuchFileException e) { // the source reports missing files
                 return new Stamp(null, 0, null);
             }
         }
@@ -66,7 +66,7 @@ public final class ReloadedFile<T> implements Supplier<T> {
     /**
      * Reads the files for the first time.
      *
-     * @param warning is given a sentence whenever changed files cannot be used
+     * @param warning receives a message whenever changed files are invalid
      * @throws IOException of the source
      */
     public static <T> ReloadedFile<T> open(List<Path> files, Source<T> source, Consumer<String> warning)
@@ -83,7 +83,7 @@ public final class ReloadedFile<T> implements Supplier<T> {
         return opened;
     }
 
-    /** The newest content that could be used. */
+    /** Returns the newest valid content. */
     @Override
     public T get() {
         boolean due = System.nanoTime() - checked >= intervalNanos;
@@ -97,7 +97,7 @@ public final class ReloadedFile<T> implements Supplier<T> {
         return content;
     }
 
-    /** Why the files could not be used when they were checked last; empty if they are in use. */
+    /** Returns why the files were invalid at the last check; empty if they are in use. */
     public Optional<String> problem() {
         return Optional.ofNullable(problem);
     }

@@ -11,15 +11,15 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * One entity in NGSI-v2 normalized form: {@code {id, type, <attribute>: {type, value, metadata}}}.
+ * An entity in NGSI-v2 normalized form: {@code {id, type, <attribute>: {type, value, metadata}}}.
  *
  * @param json the normalized form; owned by the entity, not to be changed by readers
  */
 public record Entity(ObjectNode json) {
-    /** When the context broker changed an entity, and as metadata an attribute of it. */
+    /** When the context broker changed an entity, or as metadata one of its attributes. */
     public static final String MODIFIED = "dateModified";
 
-    /** What the context broker adds to an entity on request; no attributes of the thing itself. */
+    /** Members that the context broker adds to an entity on request, which are not attributes of the thing itself. */
     public static final Set<String> BUILT_INS =
             Set.of("dateCreated", MODIFIED, "dateExpires", "servicePath", "alterationType", "deletedAt");
 
@@ -30,7 +30,7 @@ public record Entity(ObjectNode json) {
     }
 
     /**
-     * An entity from a JSON object that should be one in normalized form.
+     * Reads an entity in normalized form.
      *
      * @throws UnreadableException with {@link Reason#NOT_AN_ENTITY}
      */
@@ -39,7 +39,7 @@ public record Entity(ObjectNode json) {
     }
 
     /**
-     * An entity from a JSON object in whatever form: NGSI-v2 normalized or key-values, or NGSI-LD, detected by its shape.
+     * Reads an entity in any form: NGSI-v2 normalized or key-values, or NGSI-LD, detected by its shape.
      *
      * @throws UnreadableException with {@link Reason#NOT_AN_ENTITY}
      */
@@ -49,20 +49,20 @@ public record Entity(ObjectNode json) {
                 : NgsiV2Representation.of(json).read(json);
     }
 
-    /** An entity from the UTF-8 JSON of its normalized form, which is what every {@code data.*} topic carries. */
+    /** Reads an entity from the UTF-8 JSON of its normalized form, the value on all {@code data.*} topics. */
     public static Entity parse(byte[] normalized) throws UnreadableException {
         return of(NgsiJson.read(normalized));
     }
 
     /**
-     * The same with the wanted attributes only, for readers that need few of many: an image that nobody asked for is passed
-     * over. What is refused is the same.
+     * Reads only the desired attributes, for readers that need few of many and, for instance, no images. The same input
+     * is rejected.
      */
     public static Entity parse(byte[] normalized, Set<String> desired) throws UnreadableException {
         return PartialEntityReader.read(normalized, desired);
     }
 
-    /** A new entity with the given id and type and no attributes. */
+    /** Returns a builder of an entity without attributes. */
     public static EntityBuilder builder(String id, String type) {
         return new EntityBuilder(id, type);
     }
@@ -71,13 +71,13 @@ public record Entity(ObjectNode json) {
         return json.get("id").textValue();
     }
 
-    /** The type; {@code Thing}, as the context broker has it, where none was reported. */
+    /** Returns the type; {@code Thing}, the context broker's default, if none was reported. */
     public String type() {
         JsonNode type = json.get("type");
         return type == null ? "Thing" : type.textValue();
     }
 
-    /** The value of an attribute; empty if the entity has no such attribute or its value is null. */
+    /** Returns the value of an attribute; empty if it is missing or null. */
     public Optional<JsonNode> value(String attribute) {
         JsonNode value = json.path(attribute).path("value");
         return value.isMissingNode() || value.isNull() || NOT_ATTRIBUTES.contains(attribute)
@@ -85,7 +85,7 @@ public record Entity(ObjectNode json) {
                 : Optional.of(value);
     }
 
-    /** The value of an attribute as text; empty if it is missing, blank or no text. */
+    /** Returns the value of an attribute as text; empty if it is missing, blank or not text. */
     public Optional<String> text(String attribute) {
         return value(attribute)
                 .filter(JsonNode::isTextual)
@@ -93,12 +93,12 @@ public record Entity(ObjectNode json) {
                 .filter(text -> !text.isBlank());
     }
 
-    /** The value of an attribute as a finite number, also where a device sent it as text; else empty. */
+    /** Returns the value of an attribute as a finite number, also if it was sent as text; otherwise empty. */
     public Optional<Double> number(String attribute) {
         return value(attribute).flatMap(Numbers::finite);
     }
 
-    /** The attributes, built-ins included, in the order in which they were reported; a list of the caller's own. */
+    /** Returns the attributes, including built-ins, in the reported order, as a new list. */
     public List<Map.Entry<String, JsonNode>> attributes() {
         List<Map.Entry<String, JsonNode>> attributes = new ArrayList<>(json.size());
         for (Map.Entry<String, JsonNode> member : json.properties()) {
@@ -110,14 +110,14 @@ public record Entity(ObjectNode json) {
     }
 
     /**
-     * Whether this is the report that the entity was deleted: what it held last, with {@code alterationType} (and
-     * {@code deletedAt} if the context broker reports the time).
+     * Returns whether this reports the deletion of the entity: its last content with {@code alterationType} (and {@code
+     * deletedAt} if the context broker reports the time).
      */
     public boolean isDeleted() {
         return text("alterationType").filter("entityDelete"::equals).isPresent();
     }
 
-    /** UTF-8 JSON. */
+    /** Returns the entity as UTF-8 JSON. */
     public byte[] toBytes() {
         return NgsiJson.write(json);
     }

@@ -11,8 +11,8 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * Builds an {@link Entity} attribute by attribute, with the attribute types that WeLASER's programs know. What is only to be
- * written need not become an entity first: see {@link #toBytes}.
+ * Builds an {@link Entity} with the attribute types of the WeLASER platform; {@link #toBytes} writes it without
+ * building a tree.
  */
 public final class EntityBuilder {
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
@@ -21,7 +21,7 @@ public final class EntityBuilder {
     private final String type;
     private final Map<String, Attribute> attributes = new LinkedHashMap<>();
 
-    /** What an attribute is in normalized form; it has no metadata. */
+    /** An attribute in normalized form, without metadata. */
     public record Attribute(String name, String type, JsonNode value) {}
 
     EntityBuilder(String id, String type) {
@@ -29,13 +29,16 @@ public final class EntityBuilder {
         this.type = type;
     }
 
-    /** An attribute of type {@code String}. The context broker rejects a value with one of {@code < > " ' = ; ( )}. */
+    /**
+     * Adds an attribute of type {@code String}. The context broker rejects values with one of {@code < > " ' = ; ( )}.
+     */
     public EntityBuilder text(String name, String value) {
         return attribute(name, "String", NODES.textNode(value));
     }
 
     /**
-     * An attribute of type {@code TextUnrestricted}, of which the context broker accepts any text: names that people give.
+     * Adds an attribute of type {@code TextUnrestricted}, for which the context broker accepts any text, such as names
+     * from users.
      *
      * @param value null for none
      */
@@ -44,9 +47,9 @@ public final class EntityBuilder {
     }
 
     /**
-     * An attribute of type {@code Float}.
+     * Adds an attribute of type {@code Float}.
      *
-     * @throws IllegalArgumentException if the value is not finite: JSON has no form for it
+     * @throws IllegalArgumentException if the value is not finite, which JSON cannot express
      */
     public EntityBuilder number(String name, double value) {
         if (!Double.isFinite(value)) {
@@ -55,17 +58,17 @@ public final class EntityBuilder {
         return attribute(name, "Float", NODES.numberNode(value));
     }
 
-    /** An attribute of type {@code Integer}; times are epoch milliseconds. */
+    /** Adds an attribute of type {@code Integer}; times are epoch milliseconds. */
     public EntityBuilder integer(String name, long value) {
         return attribute(name, "Integer", NODES.numberNode(value));
     }
 
-    /** An attribute of type {@code Boolean}. */
+    /** Adds an attribute of type {@code Boolean}. */
     public EntityBuilder bool(String name, boolean value) {
         return attribute(name, "Boolean", NODES.booleanNode(value));
     }
 
-    /** An attribute of type {@code StructuredValue}: a list of texts. */
+    /** Adds an attribute of type {@code StructuredValue} with a list of texts. */
     public EntityBuilder texts(String name, Collection<String> values) {
         var array = NODES.arrayNode();
         values.forEach(array::add);
@@ -73,9 +76,9 @@ public final class EntityBuilder {
     }
 
     /**
-     * An attribute of any type and value.
+     * Adds an attribute of any type and value.
      *
-     * @throws IllegalArgumentException if the name is {@code id} or {@code type}, which are no attributes
+     * @throws IllegalArgumentException if the name is {@code id} or {@code type}, which are not attributes
      */
     public EntityBuilder attribute(String name, String type, JsonNode value) {
         if (name.equals("id") || name.equals("type")) {
@@ -93,7 +96,7 @@ public final class EntityBuilder {
         return type;
     }
 
-    /** In the order in which they were given. */
+    /** Returns the attributes in the order of their addition. */
     public List<Attribute> attributes() {
         return new ArrayList<>(attributes.values());
     }
@@ -108,7 +111,7 @@ public final class EntityBuilder {
         return new Entity(json);
     }
 
-    /** UTF-8 JSON, byte by byte that of the entity. */
+    /** Returns the same UTF-8 JSON as the built entity. */
     public byte[] toBytes() {
         return NgsiJson.write(this);
     }

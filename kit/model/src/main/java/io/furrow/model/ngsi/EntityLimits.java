@@ -5,12 +5,12 @@ import java.math.BigDecimal;
 import com.fasterxml.jackson.databind.JsonNode;
 
 /**
- * What an entity must keep to, so that every later reader can take what one reader took: its normalized form is nested at
- * most {@link NgsiJson#MAX_NESTING}, its texts are Unicode, its numbers have no more than {@value #MAX_EXPONENT} digits on
- * either side of the point.
+ * Checks limits of entities, so that all later readers accept them: the normalized form is nested at most {@link
+ * NgsiJson#MAX_NESTING} levels, texts are valid Unicode, numbers have at most {@value #MAX_EXPONENT} digits on either
+ * side of the point.
  */
 final class EntityLimits {
-    /** Far beyond a double's 308; a number of 10⁹ digits, short to write, would fill the memory of whoever asks for it. */
+    /** Far above a double's 308. A number of 10⁹ digits has a short notation but would fill the memory of readers. */
     static final int MAX_EXPONENT = 1000;
 
     private EntityLimits() {}
@@ -41,7 +41,10 @@ final class EntityLimits {
         }
     }
 
-    /** Half of a surrogate pair has no UTF-8 form: as a record key or in a hash it would become a question mark. */
+    /**
+     * Rejects half of a surrogate pair, which has no UTF-8 form and would become a question mark in record keys and
+     * hashes.
+     */
     static void checkText(String text) throws UnreadableException {
         for (int i = 0; i < text.length(); i++) {
             if (Character.isSurrogate(text.charAt(i))) {

@@ -11,13 +11,13 @@ import com.fasterxml.jackson.databind.JsonMappingException;
 
 import io.furrow.model.text.FailureText;
 
-/** What is wrong with JSON, in words for people: Jackson's name its classes and constants. */
+/** Describes what is wrong with JSON for people, without Jackson's classes and constants. */
 public final class JsonProblem {
     private static final Pattern END =
             Pattern.compile("^(Unexpected end-of-input|No content to map).*", Pattern.DOTALL);
     private static final Pattern TRAILING = Pattern.compile("^Trailing token.*", Pattern.DOTALL);
     private static final Pattern NO_NUMBER = Pattern.compile("^Non-standard token '([^']*)'.*", Pattern.DOTALL);
-    /** What Jackson offers a programmer: where it was told so, and which constant would allow it. */
+    /** Parts of Jackson's messages for programmers: source locations and features that would allow the input. */
     private static final Pattern FOR_PROGRAMMERS = Pattern.compile(
             ", from `[^`]*`|: enable `.*|,? ?\\(?start marker at .*|\\R? at \\[Source.*"
                     + "| \\(for (?:Array|Object) starting at .*| ?\\(not recognized as one since Feature .*",
@@ -25,7 +25,7 @@ public final class JsonProblem {
 
     private JsonProblem() {}
 
-    /** For instance {@code unexpected end of input at line 1, column 17}. */
+    /** Returns for instance {@code unexpected end of input at line 1, column 17}. */
     public static String of(IOException failure) {
         if (!(failure instanceof JsonProcessingException json)) {
             return FailureText.of(failure); // bytes that are not UTF-8
@@ -37,7 +37,7 @@ public final class JsonProblem {
                 + (at == null ? "" : " at line " + at.getLineNr() + ", column " + at.getColumnNr());
     }
 
-    /** The same as a sentence, without the place. */
+    /** Returns the description as a sentence, without the location. */
     public static String words(JsonProcessingException failure) {
         if (failure instanceof JsonMappingException mapping
                 && !mapping.getPath().isEmpty()) {

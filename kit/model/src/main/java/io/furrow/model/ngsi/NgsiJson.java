@@ -25,8 +25,8 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.model.text.Utf8;
 
 /**
- * The one JSON reader and writer: strict RFC 8259 (UTF-8, one document, no duplicate names, no NaN), nesting at most
- * {@value #MAX_NESTING}, strings at most 8 MiB, numbers at most 1000 characters, decimal numbers kept digit for digit.
+ * Reads and writes all JSON: strict RFC 8259 (UTF-8, one document, no duplicate names, no NaN), nesting at most {@value
+ * #MAX_NESTING}, strings at most 8 MiB, numbers at most 1000 characters, decimal numbers without loss of digits.
  */
 public final class NgsiJson {
     public static final int MAX_NESTING = 64;
@@ -55,17 +55,17 @@ public final class NgsiJson {
 
     private NgsiJson() {}
 
-    /** The mapper behind it, for what is not a notification (configuration, REST bodies). */
+    /** Returns the mapper, for other JSON than notifications (configuration, REST bodies). */
     public static ObjectMapper mapper() {
         return MAPPER;
     }
 
-    /** A new object without members. */
+    /** Returns a new object without members. */
     public static ObjectNode object() {
         return JsonNodeFactory.instance.objectNode();
     }
 
-    /** A new array without elements. */
+    /** Returns a new array without elements. */
     public static ArrayNode array() {
         return JsonNodeFactory.instance.arrayNode();
     }
@@ -85,7 +85,7 @@ public final class NgsiJson {
         });
     }
 
-    /** The same of a file, which may begin with a byte order mark, as editors on Windows write it. */
+    /** Reads the document of a file, which may begin with a byte order mark, as editors on Windows write it. */
     public static JsonNode readFile(byte[] bytes) throws UnreadableException {
         return read(hasMark(bytes) ? Arrays.copyOfRange(bytes, BYTE_ORDER_MARK.length, bytes.length) : bytes);
     }
@@ -99,7 +99,7 @@ public final class NgsiJson {
         Reason.NOT_JSON.refuseIf(hasMark(bytes), "the text begins with a byte order mark (EF BB BF); send it without");
     }
 
-    /** Jackson's own decoder is too lenient, and looks only at what it is asked for. */
+    /** Checks the whole text, because Jackson's decoder is too lenient and checks only values that are read. */
     static void checkUtf8(byte[] bytes) throws UnreadableException {
         int wrong = Utf8.firstWrong(bytes);
         if (wrong >= 0) {
@@ -107,34 +107,34 @@ public final class NgsiJson {
         }
     }
 
-    /** Reads what was written here, or was read before. */
+    /** Reads JSON that was written by this class or read before. */
     public static <T> T own(Reading<T> reading) {
         try {
             return reading.read();
         } catch (IOException | UnreadableException e) {
-            throw new IllegalStateException("what was written here cannot be read", e);
+            throw new IllegalStateException("JSON of this program cannot be read", e);
         }
     }
 
-    /** Something that Jackson does with input. */
+    /** Reads input with Jackson. */
     public interface Reading<T> {
         T read() throws IOException, UnreadableException;
     }
 
-    /** Does it, and says what is wrong with the input where Jackson cannot. */
+    /** Reads input and converts Jackson's failures. */
     static <T> T understand(Reading<T> reading) throws UnreadableException {
         try {
             return reading.read();
         } catch (StreamConstraintsException e) {
             throw new UnreadableException(Reason.TOO_DEEP, JsonProblem.of(e), e);
-        } catch (NumberFormatException e) { // Jackson's answer to an exponent beyond that of a BigDecimal
+        } catch (NumberFormatException e) { // thrown for exponents beyond that of a BigDecimal
             throw new UnreadableException(Reason.TOO_DEEP, "a number's exponent is out of range", e);
         } catch (IOException e) {
             throw new UnreadableException(Reason.NOT_JSON, JsonProblem.of(e), e);
         }
     }
 
-    /** The entity as UTF-8 JSON without white space. */
+    /** Returns the entity as UTF-8 JSON without white space. */
     static byte[] write(EntityBuilder entity) {
         ByteArrayBuilder bytes = new ByteArrayBuilder(TYPICAL_ENTITY);
         try (JsonGenerator json = MAPPER.createGenerator(bytes)) {
@@ -172,7 +172,7 @@ public final class NgsiJson {
         }
     }
 
-    /** The node as UTF-8 JSON without white space. */
+    /** Returns the node as UTF-8 JSON without white space. */
     public static byte[] write(JsonNode node) {
         try {
             return MAPPER.writeValueAsBytes(node);

@@ -9,11 +9,11 @@ import com.fasterxml.jackson.databind.node.NullNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * One attribute of an NGSI-LD entity as the NGSI-v2 attribute {@code {type, value, metadata}}.
+ * Converts an attribute of an NGSI-LD entity to the NGSI-v2 attribute {@code {type, value, metadata}}.
  *
  * <table>
- * <caption>Kinds, detected by {@code type} or, in concise form, from the member that holds the value</caption>
- * <tr><td>{@code Property}</td><td>type as NGSI-v2 gives it to such a value ({@code Number}, {@code Text}, {@code Boolean},
+ * <caption>Kinds, detected by {@code type} or, in concise form, from the member with the value</caption>
+ * <tr><td>{@code Property}</td><td>type as NGSI-v2 assigns it to such a value ({@code Number}, {@code Text}, {@code Boolean},
  *     {@code StructuredValue}, {@code geo:json}, {@code None}); {@code {"@type": T, "@value": V}} becomes type T, value V</td></tr>
  * <tr><td>{@code GeoProperty}</td><td>type {@code geo:json}, value the geometry</td></tr>
  * <tr><td>{@code Relationship}</td><td>type {@code Relationship}, value of {@code object}</td></tr>
@@ -23,14 +23,14 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  * <tr><td>a bare value</td><td>{@code GeoProperty} if it is GeoJSON, else {@code Property}</td></tr>
  * </table>
  *
- * <p>{@code urn:ngsi-ld:null}, which says that the attribute was deleted, becomes the value null. {@code observedAt} becomes
- * the metadata {@code TimeInstant}, {@code createdAt} and {@code modifiedAt} {@code dateCreated} and {@code dateModified}
+ * <p>{@code urn:ngsi-ld:null}, which marks a deleted attribute, becomes the value null. {@code observedAt} becomes the
+ * metadata {@code TimeInstant}, {@code createdAt} and {@code modifiedAt} {@code dateCreated} and {@code dateModified}
  * (all {@code DateTime}), {@code unitCode} and {@code datasetId} themselves ({@code Text}). Any other member is a
  * sub-attribute: a metadata of its kind and value, or, if it has members of its own beside the value, a
  * {@code StructuredValue} with all of it as reported.
  */
 final class NgsiLdAttribute {
-    /** The member that holds the value of each kind. */
+    /** The member with the value of each kind. */
     private static final Map<String, String> VALUE_OF = Map.of(
             "Property", "value",
             "GeoProperty", "value",
@@ -60,14 +60,14 @@ final class NgsiLdAttribute {
 
     private NgsiLdAttribute() {}
 
-    /** Whether it says itself of which kind it is, and has the value that the kind must have. */
+    /** Returns whether the attribute names its kind and has the value of that kind. */
     static boolean isNormalized(JsonNode attribute) {
         String kind = attribute.path("type").textValue();
         return kind != null && VALUE_OF.containsKey(kind) && attribute.has(VALUE_OF.get(kind));
     }
 
-    /** Whether it is a list of instances of one attribute, and not a list that is the value. */
-    static boolean isSeveral(JsonNode reported) {
+    /** Returns whether it is a list of instances of one attribute, and not a list as the value. */
+    static boolean isMultiInstance(JsonNode reported) {
         return reported.isArray()
                 && !reported.isEmpty()
                 && reported.valueStream().allMatch(each -> kindOf(each).isPresent())
@@ -92,7 +92,7 @@ final class NgsiLdAttribute {
         return attribute;
     }
 
-    /** An attribute without metadata. */
+    /** Returns an attribute without metadata. */
     static ObjectNode plain(String type, JsonNode value) {
         ObjectNode attribute = JsonNodeFactory.instance.objectNode().put("type", type);
         attribute.set("value", value);
@@ -100,7 +100,7 @@ final class NgsiLdAttribute {
         return attribute;
     }
 
-    /** Empty for a bare value. */
+    /** Returns the kind; empty for a bare value. */
     private static Optional<String> kindOf(JsonNode reported) {
         if (isNormalized(reported)) {
             return Optional.of(reported.get("type").textValue());

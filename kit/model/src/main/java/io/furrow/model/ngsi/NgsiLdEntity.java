@@ -16,12 +16,12 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.model.time.Instants;
 
 /**
- * An NGSI-LD entity, normalized, concise or simplified, as the NGSI-v2 normalized entity that Furrow carries.
+ * Converts an NGSI-LD entity, normalized, concise or simplified, to an NGSI-v2 normalized entity.
  *
  * <table>
  * <caption>Members of the entity</caption>
  * <tr><td>{@code id}, {@code type}</td><td>the same; several types become one text, joined by commas</td></tr>
- * <tr><td>{@code @context}</td><td>left out: names stay as the context broker compacted them</td></tr>
+ * <tr><td>{@code @context}</td><td>dropped: names stay as the context broker compacted them</td></tr>
  * <tr><td>{@code createdAt}, {@code modifiedAt}, {@code expiresAt}</td>
  *     <td>{@code dateCreated}, {@code dateModified}, {@code dateExpires}, type {@code DateTime}</td></tr>
  * <tr><td>{@code deletedAt}</td><td>the same, type {@code DateTime}, and {@code alterationType} = {@code entityDelete}</td></tr>
@@ -32,8 +32,8 @@ import io.furrow.model.time.Instants;
  *     {@code modifiedAt}</td></tr>
  * </table>
  *
- * <p>Where the entity has none of {@code Time}, {@code TimeInstant}, {@code dateObserved}, {@code timestamp}, the newest
- * {@code observedAt} of its attributes becomes its attribute {@code TimeInstant}, which is where an IoT Agent puts it.
+ * <p>If the entity has none of {@code Time}, {@code TimeInstant}, {@code dateObserved}, {@code timestamp}, the newest
+ * {@code observedAt} of its attributes becomes its attribute {@code TimeInstant}, as an IoT Agent sets it.
  */
 final class NgsiLdEntity {
     private static final Map<String, String> BUILT_INS = Map.of(
@@ -48,7 +48,10 @@ final class NgsiLdEntity {
 
     private NgsiLdEntity() {}
 
-    /** Whether a bare entity is NGSI-LD by its shape: it has a context, or an attribute of a kind without NGSI-v2's metadata. */
+    /**
+     * Returns whether a bare entity is NGSI-LD by its shape: it has a context, or an attribute of a kind without
+     * NGSI-v2's metadata.
+     */
     static boolean looksLike(JsonNode entity) {
         return entity.isObject()
                 && (entity.has("@context")
@@ -76,7 +79,7 @@ final class NgsiLdEntity {
         return new Entity(entity.normalized);
     }
 
-    /** A feature of a GeoJSON notification: the entity's members are in its properties. */
+    /** Returns the entity of a feature of a GeoJSON notification, whose properties contain the entity's members. */
     static JsonNode ofFeature(JsonNode feature) {
         if (!feature.path("properties").isObject()) {
             return feature;
@@ -106,7 +109,7 @@ final class NgsiLdEntity {
             if (name.equals("deletedAt")) {
                 put("alterationType", NgsiLdAttribute.plain("Text", JsonNodeFactory.instance.textNode("entityDelete")));
             }
-        } else if (NgsiLdAttribute.isSeveral(reported)) {
+        } else if (NgsiLdAttribute.isMultiInstance(reported)) {
             Map<String, JsonNode> newest = new LinkedHashMap<>();
             for (JsonNode instance : reported) {
                 newest.merge(instance.path("datasetId").asText(""), instance, NgsiLdEntity::newer);
@@ -118,7 +121,7 @@ final class NgsiLdEntity {
         }
     }
 
-    /** Of two instances the one that was observed, or else modified, last; the second where nothing says so. */
+    /** Returns the instance with the later observation, or else modification; the second if there is no time. */
     private static JsonNode newer(JsonNode first, JsonNode second) {
         return timeOf(second).isBefore(timeOf(first)) ? first : second;
     }
@@ -130,7 +133,7 @@ final class NgsiLdEntity {
                 .orElse(Instant.MIN);
     }
 
-    /** Built-ins come first or last, as the context broker likes: an attribute of the thing never gives way to one. */
+    /** Puts an attribute. Built-ins may come first or last, and never replace an attribute of the thing. */
     private void put(String name, ObjectNode attribute) {
         boolean builtIn = BUILT_INS.containsValue(name);
         if (!builtIn || !normalized.has(name)) {
@@ -158,7 +161,7 @@ final class NgsiLdEntity {
         }
     }
 
-    /** The features of a collection, or the elements of a list; empty if it is neither. */
+    /** Returns the features of a collection or the elements of a list; empty if it is neither. */
     static Optional<List<JsonNode>> members(JsonNode data) {
         if (data.isArray()) {
             return Optional.of(data.valueStream().toList());

@@ -7,7 +7,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-/** The two forms in which NGSI-v2 writes an entity, and how each becomes the normalized one. */
+/** The two NGSI-v2 representations of an entity, with their conversion to the normalized one. */
 enum NgsiV2Representation {
     /** {@code {"id": …, "type": …, "speed": {"type": "Number", "value": 3, "metadata": {}}}}. */
     NORMALIZED {
@@ -39,7 +39,7 @@ enum NgsiV2Representation {
 
     abstract ObjectNode attribute(String name, JsonNode reported) throws UnreadableException;
 
-    /** The form of an entity whose sender did not say: normalized where every attribute has that shape. */
+    /** Detects the representation of an entity: normalized if every attribute has that shape. */
     static NgsiV2Representation of(JsonNode entity) {
         for (Map.Entry<String, JsonNode> member : entity.properties()) {
             boolean plain = member.getKey().equals("id") || member.getKey().equals("type");
@@ -50,7 +50,10 @@ enum NgsiV2Representation {
         return NORMALIZED;
     }
 
-    /** An object of the device's own, for instance {@code {"value": 3, "unit": "C"}}, has a member that no attribute has. */
+    /**
+     * Returns whether a value has the shape of a normalized attribute; a device's own object, for instance {@code
+     * {"value": 3, "unit": "C"}}, has another member.
+     */
     private static boolean looksNormalized(JsonNode attribute) {
         return attribute.has("value")
                 && attribute.properties().stream().map(Map.Entry::getKey).allMatch(ATTRIBUTE_MEMBERS::contains);
@@ -90,7 +93,10 @@ enum NgsiV2Representation {
         return attribute;
     }
 
-    /** The type that the context broker gives to an attribute that comes without one (NGSI-v2, "Partial Representations"). */
+    /**
+     * Returns the type that the context broker assigns to an attribute without one (NGSI-v2, "Partial
+     * Representations").
+     */
     static String typeOf(JsonNode value) {
         return switch (value.getNodeType()) {
             case STRING -> "Text";

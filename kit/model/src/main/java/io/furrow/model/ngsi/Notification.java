@@ -7,30 +7,33 @@ import java.util.Optional;
 import com.fasterxml.jackson.databind.JsonNode;
 
 /**
- * What a context broker sent in one piece: the entities that could be read, and why the others could not.
+ * A notification of a context broker: the readable entities, and why the others were rejected.
  *
- * @param subscriptionId empty if the form does not name it
+ * @param subscriptionId empty if the representation does not contain it
  * @param entities in the order of the notification
- * @param places of the entities among all that were reported, unreadable ones included, from 0
- * @param rejected one per unreadable entity, at most {@value #MAX_REJECTED}; the others of the same notification are not harmed
+ * @param places positions of the entities among all reported ones, including unreadable ones, from 0
+ * @param rejected one per unreadable entity, at most {@value #MAX_REJECTED}; the others of the notification are
+ * accepted
  */
 public record Notification(
         Optional<String> subscriptionId, List<Entity> entities, List<Integer> places, List<Rejected> rejected) {
     /** A notification with more unreadable entities than this is unreadable as a whole. */
     static final int MAX_REJECTED = 1000;
 
-    /** One unreadable entity as it was reported, and why it could not be read. */
+    /** An unreadable entity as reported, and the reason. */
     public record Rejected(JsonNode reported, Reason reason, String message) {}
 
     /**
-     * Reads a notification in any form that names its attributes. NGSI-v2: {@code normalized} and {@code keyValues}
-     * ({@code {subscriptionId, data: [entity…]}}), {@code simplifiedNormalized} and {@code simplifiedKeyValues} (the bare
-     * entity). NGSI-LD: {@code {"type": "Notification", subscriptionId, data}}, where data is a list of entities or a GeoJSON
-     * {@code FeatureCollection}, or the bare entity; normalized, concise or simplified, see {@link NgsiLdEntity}.
+     * Reads a notification in any representation that names its attributes. NGSI-v2: {@code normalized} and {@code
+     * keyValues} ({@code {subscriptionId, data: [entity…]}}), {@code simplifiedNormalized} and {@code
+     * simplifiedKeyValues} (the bare entity). NGSI-LD: {@code {"type": "Notification", subscriptionId, data}}, where
+     * data is a list of entities or a GeoJSON {@code FeatureCollection}, or the bare entity; normalized, concise or
+     * simplified, see {@link NgsiLdEntity}.
      *
-     * @param attrsFormat header {@code Ngsiv2-AttrsFormat}, which NGSI-LD has not, or null: then the form is reported from the
-     *     shape
-     * @throws UnreadableException if nothing in the body can be understood, or more than {@value #MAX_REJECTED} of its entities cannot
+     * @param attrsFormat header {@code Ngsiv2-AttrsFormat}, which NGSI-LD does not have; null to detect the
+     * representation by its shape
+     * @throws UnreadableException if the body as a whole is unreadable, or more than {@value #MAX_REJECTED} of its
+     * entities are
      */
     public static Notification read(byte[] body, String attrsFormat) throws UnreadableException {
         JsonNode root = NgsiJson.read(body);
@@ -54,12 +57,15 @@ public record Notification(
         return readAll(subscription, root.get("data"), entity -> readEntity(entity, attrsFormat));
     }
 
-    /** How many entities were reported, unreadable ones included. */
+    /** Returns the number of reported entities, including unreadable ones. */
     public int size() {
         return entities.size() + rejected.size();
     }
 
-    /** An NGSI-v2 entity may be called Notification too, but it has no list called data. */
+    /**
+     * Returns whether it is an NGSI-LD notification. An NGSI-v2 entity may have the type Notification, too, but not a
+     * list as data.
+     */
     private static boolean isLinkedData(JsonNode root) {
         return "Notification".equals(root.path("type").textValue())
                 && NgsiLdEntity.members(root.path("data")).isPresent();
@@ -72,7 +78,7 @@ public record Notification(
         return readAll(subscription, data, NgsiLdEntity::read);
     }
 
-    /** How one entity of a notification is read. */
+    /** Reads one entity of a notification. */
     private interface EntityReader {
         Entity read(JsonNode reported) throws UnreadableException;
     }

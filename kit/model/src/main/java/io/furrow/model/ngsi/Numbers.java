@@ -5,14 +5,14 @@ import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-/** Numbers as devices send them: JSON numbers, or their text. */
+/** Reads numbers of devices: JSON numbers, or their text. */
 public final class Numbers {
     private static final Pattern DECIMAL =
             Pattern.compile("[+-]?(\\d{1,40}(\\.\\d{0,40})?|\\.\\d{1,40})([eE][+-]?\\d{1,3})?");
 
     private Numbers() {}
 
-    /** The value as a finite number; empty for NaN, infinities and everything that is not a number. */
+    /** Returns the value as a finite number; empty for NaN, infinities and other values. */
     public static Optional<Double> finite(JsonNode value) {
         if (value.isNumber()) {
             return Optional.of(value.doubleValue()).filter(Double::isFinite);
@@ -21,7 +21,7 @@ public final class Numbers {
         return Double.isNaN(number) ? Optional.empty() : Optional.of(number);
     }
 
-    /** The finite number that a text names; NaN for every other text. */
+    /** Returns the finite number of a text; NaN for any other text. */
     public static double finite(String untrimmed) {
         String text = untrimmed.trim();
         double number = DECIMAL.matcher(text).matches() ? Double.parseDouble(text) : Double.NaN;

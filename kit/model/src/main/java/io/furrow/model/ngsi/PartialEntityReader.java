@@ -11,11 +11,11 @@ import com.fasterxml.jackson.databind.ObjectReader;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * Reads the wanted attributes of a normalized entity in one pass; the others are skipped without becoming objects. Refuses
- * what a reading of the whole entity would refuse, so that nothing passes here at which a later reader would fail.
+ * Reads the desired attributes of a normalized entity in one pass and skips the others without creating objects. It
+ * rejects the same input as a reader of the whole entity, so that later readers do not fail.
  */
 final class PartialEntityReader {
-    /** Reads a value where it stands: what follows it belongs to the entity. */
+    /** Reads a value within the entity, which continues behind it. */
     private static final ObjectReader VALUES =
             NgsiJson.mapper().reader().without(DeserializationFeature.FAIL_ON_TRAILING_TOKENS);
 
@@ -23,17 +23,17 @@ final class PartialEntityReader {
 
     static Entity read(byte[] normalized, Set<String> desired) throws UnreadableException {
         NgsiJson.checkUtf8(normalized);
-        boolean textsMatter = normalized.length > NgsiJson.MAX_STRING || holdsEscapedSign(normalized);
+        boolean checkTexts = normalized.length > NgsiJson.MAX_STRING || hasUnicodeEscape(normalized);
         JsonNode excerpt = NgsiJson.understand(() -> {
             try (JsonParser parser = NgsiJson.mapper().createParser(normalized)) {
-                return excerpt(parser, desired, textsMatter);
+                return excerpt(parser, desired, checkTexts);
             }
         });
         return NgsiV2Representation.NORMALIZED.read(excerpt);
     }
 
-    /** Whether there is a backslash with a u: in UTF-8 nothing else can be half of a surrogate pair. */
-    private static boolean holdsEscapedSign(byte[] json) {
+    /** Returns whether the text has a Unicode escape: in UTF-8 only an escape can be half of a surrogate pair. */
+    private static boolean hasUnicodeEscape(byte[] json) {
         for (int i = 1; i < json.length; i++) {
             if (json[i] == 'u' && json[i - 1] == '\\') {
                 return true;
@@ -42,7 +42,7 @@ final class PartialEntityReader {
         return false;
     }
 
-    private static ObjectNode excerpt(JsonParser parser, Set<String> desired, boolean textsMatter)
+    private static ObjectNode excerpt(JsonParser parser, Set<String> desired, boolean checkTexts)
             throws IOException, UnreadableException {
         JsonToken first = parser.nextToken();
         if (first != JsonToken.START_OBJECT) {
@@ -56,9 +56,9 @@ final class PartialEntityReader {
             JsonToken value = parser.nextToken();
             if (name.equals("id") || name.equals("type") || desired.contains(name)) {
                 excerpt.set(name, VALUES.readTree(parser));
-            } else if (value != JsonToken.START_OBJECT || !passOver(parser, textsMatter)) {
+            } else if (value != JsonToken.START_OBJECT || !skip(parser, checkTexts)) {
                 throw NgsiV2Representation.noAttribute(name);
-            } else if (textsMatter) {
+            } else if (checkTexts) {
                 EntityLimits.checkText(name);
             }
         }
@@ -66,8 +66,8 @@ final class PartialEntityReader {
         return excerpt;
     }
 
-    /** Skips the attribute that begins here; answers whether it has a member {@code value}. */
-    private static boolean passOver(JsonParser parser, boolean textsMatter) throws IOException, UnreadableException {
+    /** Skips the attribute that begins here and returns whether it has a member {@code value}. */
+    private static boolean skip(JsonParser parser, boolean checkTexts) throws IOException, UnreadableException {
         boolean hasValue = false;
         for (int depth = 1; depth > 0; ) {
             JsonToken token = parser.nextToken();
@@ -76,18 +76,18 @@ final class PartialEntityReader {
                 case END_OBJECT, END_ARRAY -> depth--;
                 case FIELD_NAME ->
                     hasValue |= depth == 1 && parser.currentName().equals("value");
-                case VALUE_NUMBER_INT -> parser.getTextLength(); // as a reader would, for the limit of its length
+                case VALUE_NUMBER_INT -> parser.getTextLength(); // checks the limit of its length
                 case VALUE_NUMBER_FLOAT -> checkNumber(parser);
-                default -> {} // a text is looked at below, the rest cannot be wrong
+                default -> {} // texts are checked below, other tokens are always valid
             }
-            if (textsMatter && (token == JsonToken.FIELD_NAME || token == JsonToken.VALUE_STRING)) {
+            if (checkTexts && (token == JsonToken.FIELD_NAME || token == JsonToken.VALUE_STRING)) {
                 EntityLimits.checkText(parser.getText());
             }
         }
         return hasValue;
     }
 
-    /** Becomes a number only where it has an exponent, which is rare. */
+    /** Checks a number; it is parsed only if it has an exponent, which is rare. */
     private static void checkNumber(JsonParser parser) throws IOException, UnreadableException {
         char[] text = parser.getTextCharacters();
         int end = parser.getTextOffset() + parser.getTextLength();

@@ -2,29 +2,32 @@ package io.furrow.model.ngsi;
 
 import io.furrow.model.text.Coded;
 
-/** Why input was set aside; the code stands in the header {@code dead-reason} of the dead letter. */
+/** Why input was rejected; the code is the header {@code dead-reason} of the dead letter. */
 public enum Reason implements Coded {
-    /** Not one well-formed JSON document in UTF-8. */
+    /** The input is not a well-formed JSON document in UTF-8. */
     NOT_JSON,
-    /** Nested deeper, or a string or number longer, than {@link NgsiJson} takes. */
+    /** Nesting, strings or numbers exceed the limits of {@link NgsiJson}. */
     TOO_DEEP,
-    /** More bytes than the receiver takes. */
+    /** The input exceeds the receiver's limit. */
     TOO_LARGE,
-    /** JSON, but no NGSI entity: no object, no id, or attributes of a shape no form has. */
+    /** The input is JSON but not an NGSI entity: not an object, no id, or attributes of an unknown shape. */
     NOT_AN_ENTITY,
-    /** A notification form that does not name its attributes, so that nothing can be made of it, or that of NGSIv1. */
+    /** A notification without the names of its attributes, or of NGSIv1. */
     UNSUPPORTED_FORM,
-    /** A record on a topic that lacks what the reader needs, for instance a value where none may be missing. */
+    /** A record without a part that the reader needs, for instance a value. */
     NOT_AN_EVENT,
-    /** An image attribute that holds no base64, or neither PNG nor JPEG, or only a part of one. */
+    /** An image attribute that is not base64, neither PNG nor JPEG, or truncated. */
     NOT_AN_IMAGE,
-    /** Of a time so long after it was received that a clock must be wrong. */
+    /** The event time is so long after the receipt that a clock must be wrong. */
     FROM_THE_FUTURE,
-    /** Of a mission or domain that nobody knows, beyond what is taken of such, or of a mission of another domain. */
+    /**
+     * The mission or domain is unknown and the limit of unknown ones is reached, or the mission belongs to another
+     * domain.
+     */
     UNKNOWN_MISSION,
-    /** Written, but refused by the server it was written to. */
+    /** The target server rejected it. */
     REFUSED,
-    /** The reader failed at it: a fault of the program, which the log describes. */
+    /** The reader failed because of a defect, which the log describes. */
     FAILED;
 
     /** @param message why it cannot be read, a sentence */

@@ -13,9 +13,9 @@ import com.fasterxml.jackson.databind.ObjectReader;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * An entity whose attributes are the JSON that they were read from, for readers that hand them on: they need no tree.
+ * An entity whose attributes are slices of its JSON, for readers that emit them without building a tree.
  *
- * @param type {@code Thing} where none was reported
+ * @param type {@code Thing} if none was reported
  */
 public record SlicedEntity(String type, List<Slice> attributes) {
     private static final ObjectReader READER =
@@ -25,14 +25,14 @@ public record SlicedEntity(String type, List<Slice> attributes) {
     /**
      * An attribute.
      *
-     * @param json normalized; as it was reported if it was so then
-     * @param type as reported, or as the context broker gives it
-     * @param unit metadata {@code unitCode}, else {@code unit}; empty without
-     * @param value its first token: a container's begin, or the value
-     * @param number the value as a double, possibly infinite; NaN of what is not a number
+     * @param json normalized; the reported text if that was normalized
+     * @param type as reported, or the context broker's default
+     * @param unit metadata {@code unitCode}, else {@code unit}; empty if there is none
+     * @param value its first token: the start of a container, or the value
+     * @param number the value as a double, possibly infinite; NaN if it is not a number
      */
     public record Slice(String name, String json, String type, String unit, JsonToken value, double number) {
-        /** The value as a tree. */
+        /** Returns the value as a tree. */
         public JsonNode tree() throws UnreadableException {
             return NgsiJson.read(json.getBytes(StandardCharsets.UTF_8)).path("value");
         }
@@ -49,9 +49,9 @@ public record SlicedEntity(String type, List<Slice> attributes) {
     }
 
     /**
-     * Reads what was read as an entity before, and does not look again for what would be refused.
+     * Reads an entity that was validated before, without repeating the checks.
      *
-     * @param normalized which {@link Entity#parse} takes, with whichever attributes
+     * @param normalized accepted by {@link Entity#parse} with any attributes
      */
     public static SlicedEntity ofChecked(byte[] normalized) throws UnreadableException {
         return NgsiJson.understand(() -> {
@@ -112,7 +112,7 @@ public record SlicedEntity(String type, List<Slice> attributes) {
                 name, json, type, units[0] == null ? units[1] == null ? "" : units[1] : units[0], value, number);
     }
 
-    /** @param units gets the text of {@code unitCode}, and what {@code unit} says */
+    /** @param units receives the text of {@code unitCode} and the value of {@code unit} */
     private static void readUnits(JsonParser parser, String[] units) throws IOException {
         while (parser.nextToken() == JsonToken.FIELD_NAME) {
             String name = parser.currentName();
@@ -124,9 +124,9 @@ public record SlicedEntity(String type, List<Slice> attributes) {
             while (parser.nextToken() == JsonToken.FIELD_NAME) {
                 boolean isValue = parser.currentName().equals("value");
                 JsonToken token = parser.nextToken();
-                boolean isTaken = token == JsonToken.VALUE_STRING
+                boolean isUsable = token == JsonToken.VALUE_STRING
                         || which == 1 && token.isScalarValue() && token != JsonToken.VALUE_NULL;
-                if (isValue && isTaken) {
+                if (isValue && isUsable) {
                     units[which] = parser.getText();
                 }
                 parser.skipChildren();

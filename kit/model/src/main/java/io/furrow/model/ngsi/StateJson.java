@@ -13,8 +13,8 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.fasterxml.jackson.databind.ser.std.ToStringSerializer;
 
 /**
- * Records of plain members as JSON, times and durations in ISO 8601. What is null is left out; members that a later version has are
- * skipped, so that one can go back.
+ * Converts records to JSON, with times and durations in ISO 8601. Nulls are omitted; members of later versions are
+ * ignored, so that a downgrade is possible.
  */
 public final class StateJson {
     private static final ObjectMapper MAPPER = NgsiJson.mapper()
@@ -35,12 +35,12 @@ public final class StateJson {
         }
     }
 
-    /** The members of a record. */
+    /** Returns the members of a record. */
     public static ObjectNode tree(Object record) {
         return MAPPER.valueToTree(record);
     }
 
-    /** Reads the value of a record that another process wrote. */
+    /** Reads the value of a record of another process. */
     public static <T> T readRecord(byte[] value, Class<T> type) throws UnreadableException {
         try {
             return MAPPER.readValue(value, type);

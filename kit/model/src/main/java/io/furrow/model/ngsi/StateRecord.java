@@ -1,8 +1,8 @@
 package io.furrow.model.ngsi;
 
-/** What a topic or a store holds as JSON of its members. */
+/** A record that topics and stores contain as JSON. */
 public interface StateRecord {
-    /** UTF-8 JSON; members without a value are left out. */
+    /** Returns UTF-8 JSON without nulls. */
     default byte[] toBytes() {
         return StateJson.write(this);
     }

@@ -3,8 +3,8 @@ package io.furrow.model.ngsi;
 import java.util.Objects;
 
 /**
- * Input that cannot be understood: it becomes a dead letter and is never tried again. It has no stack trace: it is about the
- * input, of which there may be much, not about the program.
+ * Thrown if input is unreadable: it becomes a dead letter and is never retried. It has no stack trace, because it
+ * concerns the input, of which there may be much, not the program.
  */
 public class UnreadableException extends Exception {
     private static final long serialVersionUID = 1L;

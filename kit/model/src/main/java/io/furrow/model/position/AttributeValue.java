@@ -7,10 +7,10 @@ import com.fasterxml.jackson.core.JsonToken;
 
 import io.furrow.model.ngsi.Numbers;
 
-/** The value of one wanted attribute as far as it is a text or a number; overwritten by each entity. */
+/** Reads the value of a desired attribute if it is a text or a number; each entity overwrites it. */
 class AttributeValue {
     private enum Kind {
-        /** No such attribute, or its value is null. */
+        /** The attribute is missing or null. */
         ABSENT,
         TEXT,
         NUMBER,
@@ -29,8 +29,8 @@ class AttributeValue {
         unit = "";
     }
 
-    /** Takes the value that the parser stands at; false if it is wrong or rare. */
-    boolean take(StrictTokens tokens, JsonParser parser) throws IOException {
+    /** Reads the current value; returns false if it is invalid or rare. */
+    boolean read(StrictTokens tokens, JsonParser parser) throws IOException {
         switch (parser.currentToken()) {
             case VALUE_NULL -> kind = Kind.ABSENT;
             case VALUE_STRING -> {
@@ -38,7 +38,7 @@ class AttributeValue {
                     return false;
                 }
                 kind = Kind.TEXT;
-                // The mission of a device is the same from report to report: then no new text is made.
+                // Reuses the previous text if it is the same, as for a device's mission.
                 text = tokens.isText(text) ? text : parser.getText();
             }
             case VALUE_NUMBER_INT, VALUE_NUMBER_FLOAT -> {
@@ -48,25 +48,25 @@ class AttributeValue {
             }
             default -> {
                 kind = Kind.OTHER;
-                return takeOther(tokens, parser);
+                return readOther(tokens, parser);
             }
         }
         return true;
     }
 
-    /** Takes the unit from the metadata that the parser stands at; false if they are wrong or rare. */
-    boolean takeMetadata(StrictTokens tokens, JsonParser parser) throws IOException {
+    /** Reads the unit from the current metadata; returns false if they are invalid or rare. */
+    boolean readMetadata(StrictTokens tokens, JsonParser parser) throws IOException {
         if (parser.currentToken() != JsonToken.START_OBJECT) {
             return tokens.skipWithinLimits();
         }
         while (tokens.next() == JsonToken.FIELD_NAME) {
             boolean isCode = tokens.isText("unitCode");
             boolean isUnit = isCode || tokens.isText("unit");
-            boolean taken = tokens.isPlainText()
+            boolean isRead = tokens.isPlainText()
                     && (isUnit && tokens.next() == JsonToken.START_OBJECT
-                            ? takeUnit(isCode, tokens, parser)
+                            ? readUnit(isCode, tokens, parser)
                             : skipValue(tokens, parser));
-            if (!taken) {
+            if (!isRead) {
                 return false;
             }
         }
@@ -80,7 +80,7 @@ class AttributeValue {
         return tokens.skipWithinLimits();
     }
 
-    private boolean takeUnit(boolean isCode, StrictTokens tokens, JsonParser parser) throws IOException {
+    private boolean readUnit(boolean isCode, StrictTokens tokens, JsonParser parser) throws IOException {
         while (tokens.next() == JsonToken.FIELD_NAME) {
             boolean isValue = tokens.isText("value");
             if (!tokens.isPlainText()) {
@@ -98,21 +98,21 @@ class AttributeValue {
         return parser.currentToken() == JsonToken.END_OBJECT;
     }
 
-    /** Metadata {@code unitCode}, else {@code unit}; empty if there is none. */
+    /** Returns metadata {@code unitCode}, else {@code unit}; empty if there is none. */
     String unit() {
         return unitCode.isEmpty() ? unit : unitCode;
     }
 
-    public boolean takeOther(StrictTokens tokens, JsonParser parser) throws IOException {
+    public boolean readOther(StrictTokens tokens, JsonParser parser) throws IOException {
         return tokens.skipWithinLimits();
     }
 
-    /** The number that the parser stands at; no negative zero, which a decimal number does not know. */
+    /** Returns the current number, with negative zero as zero, as decimal numbers have it. */
     static double number(JsonParser parser) throws IOException {
         return parser.getDoubleValue() + 0.0;
     }
 
-    /** The finite number at which the parser stands, or that its text names; NaN for everything else. */
+    /** Returns the current finite number or that of a text; NaN for other values. */
     static double numberOrNaN(JsonParser parser) throws IOException {
         JsonToken token = parser.currentToken();
         if (token.isNumeric()) {
@@ -126,12 +126,12 @@ class AttributeValue {
         return kind != Kind.ABSENT;
     }
 
-    /** The text as it is; null for everything else. */
+    /** Returns the text; null for other values. */
     String textOrNull() {
         return kind == Kind.TEXT ? text : null;
     }
 
-    /** The finite number, also where a device sent it as text; else NaN. */
+    /** Returns the finite number, also if it was sent as text; otherwise NaN. */
     double finite() {
         return switch (kind) {
             case NUMBER -> Double.isFinite(number) ? number : Double.NaN;

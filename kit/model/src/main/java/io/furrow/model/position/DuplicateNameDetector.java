@@ -7,17 +7,17 @@ import java.util.Set;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * The names seen so far in the objects of a document that are open, so that a name that comes twice shows. Kept from document
- * to document; takes no memory of its own but for objects with many members.
+ * Detects duplicate names in the open objects of a document. Reusable for several documents; allocates memory only for
+ * objects with many members.
  */
 final class DuplicateNameDetector {
-    /** Up to this many members a look at each costs less than a set. */
+    /** Up to this many members a linear search is cheaper than a set. */
     private static final int FEW = 32;
 
     private static final int DEPTHS = NgsiJson.MAX_NESTING + 2;
 
     private final int[] starts = new int[DEPTHS];
-    /** One bit per name, by its hash: while a bit is new, so is the name. */
+    /** One bit per name, by its hash: a name with a new bit is new. */
     private final long[] bits = new long[DEPTHS];
 
     private final Set<?>[] many = new Set<?>[DEPTHS];
@@ -25,7 +25,7 @@ final class DuplicateNameDetector {
     private int count;
     private int depth;
 
-    /** Forgets everything, for the next document. */
+    /** Clears all names for the next document. */
     void clear() {
         Arrays.fill(many, null);
         count = 0;
@@ -44,7 +44,7 @@ final class DuplicateNameDetector {
         depth--;
     }
 
-    /** Whether the innermost object has no such name yet; it has from now on. */
+    /** Adds a name to the innermost object; returns false if it is a duplicate. */
     boolean add(String name) {
         long bit = 1L << (name.hashCode() * 0x9E3779B9 >>> 26);
         if ((bits[depth] & bit) != 0 && contains(name)) {

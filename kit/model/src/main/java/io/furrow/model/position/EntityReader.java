@@ -15,10 +15,10 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.Utf8;
 
 /**
- * Reads id, type, position and the requested attributes from the bytes of a normalized entity, without a tree and
- * without a copy; skips everything else. It answers as {@link Entity#parse(byte[], Set)} and {@link
- * PositionReading#of} do, to the last case: what is wrong, and what is so rare that it is not worth a line here, is
- * read by them. One reader reads one entity after the other; the answers are about the newest. Not safe for threads.
+ * Reads id, type, position and the desired attributes from the bytes of a normalized entity, without a tree or a copy,
+ * and skips everything else. Its results equal those of {@link Entity#parse(byte[], Set)} and {@link
+ * PositionReading#of}, which read invalid and rare input. A reader is reused for many entities; getters return the
+ * newest. Not thread-safe.
  */
 public final class EntityReader {
     private final Set<String> desired;
@@ -29,10 +29,10 @@ public final class EntityReader {
 
     private String id;
     private String type = "";
-    /** The whole of what is requested, where it was read as a tree; else null. */
+    /** The desired attributes if the entity was read as a tree; otherwise null. */
     private Entity tree;
 
-    /** Reads these attributes beside those of the position. */
+    /** Creates a reader of these attributes and those of the position. */
     public EntityReader(Set<String> attributes) {
         values.put("location", location);
         PositionReading.ATTRIBUTES.forEach(name -> values.computeIfAbsent(name, any -> new AttributeValue()));
@@ -41,7 +41,7 @@ public final class EntityReader {
     }
 
     /**
-     * Reads an entity; the former one is forgotten, also when this one cannot be read.
+     * Reads an entity and clears the previous one, even if this one is unreadable.
      *
      * @throws UnreadableException as {@link Entity#parse(byte[], Set)}
      */
@@ -52,18 +52,18 @@ public final class EntityReader {
         }
     }
 
-    /** Whether the entity could be read so; where not, something in it is wrong or rare. */
+    /** Reads an entity without a tree; returns false if it is invalid or rare. */
     boolean readTokens(byte[] normalized) {
         id = null;
         values.values().forEach(AttributeValue::clear);
         try (JsonParser parser = tokens.open(normalized, normalized.length)) {
-            return Utf8.firstWrong(normalized) < 0 && takeEntity(parser);
-        } catch (IOException | NumberFormatException e) { // the reader of trees meets it again and says what it is
+            return Utf8.firstWrong(normalized) < 0 && readEntity(parser);
+        } catch (IOException | NumberFormatException e) { // the tree reader reports the cause
             return false;
         }
     }
 
-    private boolean takeEntity(JsonParser parser) throws IOException {
+    private boolean readEntity(JsonParser parser) throws IOException {
         if (tokens.next() != JsonToken.START_OBJECT) {
             return false;
         }
@@ -71,15 +71,15 @@ public final class EntityReader {
         while (tokens.next() == JsonToken.FIELD_NAME) {
             String name = parser.currentName();
             JsonToken value = tokens.next();
-            boolean taken;
+            boolean isRead;
             if (name.equals("id") || name.equals("type")) {
-                taken = value == JsonToken.VALUE_STRING && tokens.isPlainText();
+                isRead = value == JsonToken.VALUE_STRING && tokens.isPlainText();
                 typed |= name.equals("type");
-                takeName(name, parser);
+                readName(name, parser);
             } else {
-                taken = value == JsonToken.START_OBJECT && isPlain(name) && takeAttribute(values.get(name), parser);
+                isRead = value == JsonToken.START_OBJECT && isPlain(name) && readAttribute(values.get(name), parser);
             }
-            if (!taken) {
+            if (!isRead) {
                 return false;
             }
         }
@@ -88,7 +88,7 @@ public final class EntityReader {
         return complete && id != null && !id.isBlank();
     }
 
-    private void takeName(String name, JsonParser parser) throws IOException {
+    private void readName(String name, JsonParser parser) throws IOException {
         if (name.equals("id")) {
             id = parser.getText();
         } else {
@@ -106,22 +106,23 @@ public final class EntityReader {
     }
 
     /**
-     * Takes the attribute whose object has just begun; {@code attribute} is null if it is not wanted: then it is only
-     * looked at, because what is refused anywhere is refused here.
+     * Reads the current attribute.
+     *
+     * @param attribute null if it is not desired: it is then only checked, because all invalid input is rejected
      */
-    private boolean takeAttribute(AttributeValue attribute, JsonParser parser) throws IOException {
+    private boolean readAttribute(AttributeValue attribute, JsonParser parser) throws IOException {
         boolean valued = false;
         while (tokens.next() == JsonToken.FIELD_NAME) {
             boolean value = parser.currentName().equals("value");
             boolean metadata = !value && parser.currentName().equals("metadata");
             valued |= value;
             tokens.next();
-            boolean taken = attribute != null && value
-                    ? attribute.take(tokens, parser)
+            boolean isRead = attribute != null && value
+                    ? attribute.read(tokens, parser)
                     : attribute != null && metadata
-                            ? attribute.takeMetadata(tokens, parser)
+                            ? attribute.readMetadata(tokens, parser)
                             : tokens.skipWithinLimits();
-            if (!taken) {
+            if (!isRead) {
                 return false;
             }
         }
@@ -132,7 +133,7 @@ public final class EntityReader {
         return tree == null ? id : tree.id();
     }
 
-    /** The type; {@code Thing} where none was reported. */
+    /** Returns the type; {@code Thing} if none was reported. */
     public String type() {
         return tree == null ? type : tree.type();
     }
@@ -155,26 +156,29 @@ public final class EntityReader {
         return message == null ? new PositionReading.Absent() : firos.read(message);
     }
 
-    /** Whether the entity has the attribute and its value is not null. */
+    /** Returns whether the entity has the attribute with a value other than null. */
     public boolean has(String attribute) {
         return tree == null
                 ? value(attribute).isPresent()
                 : tree.value(attribute).isPresent();
     }
 
-    /** The value of a wanted attribute as text; empty if it is missing, blank or no text. */
+    /** Returns the value of a desired attribute as text; empty if it is missing, blank or not text. */
     public Optional<String> text(String attribute) {
         return tree == null
                 ? Optional.ofNullable(value(attribute).textOrNull()).filter(text -> !text.isBlank())
                 : tree.text(attribute);
     }
 
-    /** The value of a wanted attribute as a finite number, also where a device sent it as text; else NaN. */
+    /** Returns the value of a desired attribute as a finite number, also if it was sent as text; otherwise NaN. */
     public double number(String attribute) {
         return tree == null ? value(attribute).finite() : tree.number(attribute).orElse(Double.NaN);
     }
 
-    /** The value of a wanted attribute as a quantity, in its unit; NaN if it is not a number, or in an unknown unit. */
+    /**
+     * Returns the value of a desired attribute as a quantity, in its unit; NaN if it is not a number, or in an unknown
+     * unit.
+     */
     public double number(String attribute, Quantity quantity) {
         return tree == null
                 ? quantity.read(value(attribute).finite(), value(attribute).unit())

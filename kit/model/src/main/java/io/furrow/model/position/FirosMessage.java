@@ -6,7 +6,7 @@ import java.util.Arrays;
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
 
-/** Reads the position out of FIROS' text, JSON whose quotes are written {@code %27}, without a tree. */
+/** Reads the position from FIROS' text, JSON with quotes escaped as {@code %27}, without a tree. */
 final class FirosMessage {
     private static final String QUOTE = "%27";
 
@@ -19,7 +19,7 @@ final class FirosMessage {
         return readTokens(escaped) ? PositionParser.of(latitude, longitude) : PositionParser.ofFiros(escaped);
     }
 
-    /** Whether the text could be read so; where not, something in it is wrong or rare. */
+    /** Reads a text without a tree; returns false if it is invalid or rare. */
     boolean readTokens(String escaped) {
         latitude = Double.NaN;
         longitude = Double.NaN;
@@ -28,13 +28,13 @@ final class FirosMessage {
             return false;
         }
         try (JsonParser parser = tokens.open(json, length)) {
-            return takeMessage(parser);
-        } catch (IOException | NumberFormatException e) { // the reader of trees meets it again and says what it is
+            return readMessage(parser);
+        } catch (IOException | NumberFormatException e) { // the tree reader reports the cause
             return false;
         }
     }
 
-    private boolean takeMessage(JsonParser parser) throws IOException {
+    private boolean readMessage(JsonParser parser) throws IOException {
         if (tokens.next() != JsonToken.START_OBJECT) {
             return false;
         }
@@ -53,7 +53,7 @@ final class FirosMessage {
         return parser.currentToken() == JsonToken.END_OBJECT && tokens.next() == null;
     }
 
-    /** How many bytes the JSON has; −1 where a character is none of ASCII. */
+    /** Unescapes the text; returns the number of bytes, −1 if a character is not ASCII. */
     private int unescape(String escaped) {
         if (json.length < escaped.length()) {
             json = Arrays.copyOf(json, Math.max(escaped.length(), 2 * json.length));

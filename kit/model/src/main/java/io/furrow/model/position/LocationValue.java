@@ -5,7 +5,7 @@ import java.io.IOException;
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
 
-/** The value of {@code location}: a geo:point's text, or an object that may be a GeoJSON Point. */
+/** Reads the value of {@code location}: the text of a geo:point, or an object that may be a GeoJSON Point. */
 final class LocationValue extends AttributeValue {
     private boolean typeIsPoint;
     private int coordinates;
@@ -20,25 +20,25 @@ final class LocationValue extends AttributeValue {
     }
 
     @Override
-    public boolean takeOther(StrictTokens tokens, JsonParser parser) throws IOException {
+    public boolean readOther(StrictTokens tokens, JsonParser parser) throws IOException {
         if (parser.currentToken() != JsonToken.START_OBJECT) {
             return tokens.skipWithinLimits();
         }
         while (tokens.next() == JsonToken.FIELD_NAME) {
             String name = parser.currentName();
-            boolean taken = tokens.isPlainText() && takeMember(name, tokens, parser);
-            if (!taken) {
+            boolean isRead = tokens.isPlainText() && readMember(name, tokens, parser);
+            if (!isRead) {
                 return false;
             }
         }
         return parser.currentToken() == JsonToken.END_OBJECT;
     }
 
-    private boolean takeMember(String name, StrictTokens tokens, JsonParser parser) throws IOException {
+    private boolean readMember(String name, StrictTokens tokens, JsonParser parser) throws IOException {
         JsonToken value = tokens.next();
         if (name.equals("coordinates") && value == JsonToken.START_ARRAY) {
             while (tokens.next() != JsonToken.END_ARRAY) {
-                if (!takeCoordinate(tokens, parser)) {
+                if (!readCoordinate(tokens, parser)) {
                     return false;
                 }
             }
@@ -50,7 +50,7 @@ final class LocationValue extends AttributeValue {
         return tokens.skipWithinLimits();
     }
 
-    private boolean takeCoordinate(StrictTokens tokens, JsonParser parser) throws IOException {
+    private boolean readCoordinate(StrictTokens tokens, JsonParser parser) throws IOException {
         double coordinate = numberOrNaN(parser);
         if (coordinates == 0) {
             longitude = coordinate;
@@ -61,7 +61,7 @@ final class LocationValue extends AttributeValue {
         return tokens.skipWithinLimits();
     }
 
-    /** Whether it is a text without a sign, which says nothing. */
+    /** Returns whether it is a blank text. */
     boolean isBlank() {
         String text = textOrNull();
         return text != null && text.isBlank();

@@ -1,7 +1,7 @@
 package io.furrow.model.position;
 
 /**
- * A place on Earth in WGS 84.
+ * A position on Earth in WGS 84.
  *
  * @param latitude degrees, −90 to 90
  * @param longitude degrees, −180 to 180

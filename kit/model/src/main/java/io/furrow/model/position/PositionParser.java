@@ -9,19 +9,19 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Numbers;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** The result of each form of a position, for {@link PositionReading}. */
+/** Parses each form of a position for {@link PositionReading}. */
 final class PositionParser {
-    /** Attributes that together are a position, in the order in which they are looked for. */
+    /** Pairs of attributes that are a position, in the order of precedence. */
     static final List<Pair> PAIRS = List.of(new Pair("Latitude", "Longitude"), new Pair("latitude", "longitude"));
 
     static final PositionReading NO_POINT = new PositionReading.Faulty("location is not a GeoJSON Point");
 
-    /** Names of two attributes. */
+    /** The names of two attributes. */
     public record Pair(String latitude, String longitude) {}
 
     private PositionParser() {}
 
-    /** Degrees; NaN if the entity has no number. */
+    /** Checks a position in degrees; NaN if the entity has no number. */
     static PositionReading of(double latitude, double longitude) {
         if (Double.isNaN(latitude) || Double.isNaN(longitude)) {
             return new PositionReading.Faulty("latitude or longitude is not a number");
@@ -34,7 +34,7 @@ final class PositionParser {
                 : new PositionReading.Located(new Position(latitude, longitude));
     }
 
-    /** The value of {@code location}. */
+    /** Parses the value of {@code location}. */
     static PositionReading ofLocation(JsonNode location) {
         if (location.isTextual()) {
             return ofGeoPoint(location.textValue());
@@ -46,7 +46,7 @@ final class PositionParser {
                 : NO_POINT;
     }
 
-    /** A geo:point, {@code "lat, lon"}. */
+    /** Parses a geo:point, {@code "lat, lon"}. */
     static PositionReading ofGeoPoint(String text) {
         String[] parts = text.split(",", -1);
         return parts.length == 2
@@ -54,7 +54,7 @@ final class PositionParser {
                 : new PositionReading.Faulty("geo:point is not 'lat, lon'");
     }
 
-    /** The text of {@code gnss} or {@code pose}. */
+    /** Parses the text of {@code gnss} or {@code pose}. */
     static PositionReading ofFiros(String escaped) {
         try {
             byte[] json = escaped.replace("%27", "\"").getBytes(StandardCharsets.UTF_8);

@@ -12,25 +12,26 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 
 /**
- * The position of an entity: {@code location} (geo:json Point in lon/lat order, or geo:point text "lat, lon"), else
- * {@code Latitude} and {@code Longitude}, else {@code latitude} and {@code longitude}, else FIROS' {@code gnss} or {@code pose} text
- * (JSON with quotes escaped as {@code %27}). The first of these that is present, and no blank text, decides. The dashboard's page reads
- * positions by the same rules, and its tests the same table of cases. Out of range, not a number, or exactly 0,0 is not a position.
+ * The result of reading an entity's position: {@code location} (geo:json Point in lon/lat order, or geo:point text
+ * "lat, lon"), else {@code Latitude} and {@code Longitude}, else {@code latitude} and {@code longitude}, else FIROS'
+ * {@code gnss} or {@code pose} text (JSON with quotes escaped as {@code %27}). The first of these that is present and
+ * not blank counts. The dashboard's page follows the same rules, and its tests use the same table of cases. Values out
+ * of range, other than numbers, or exactly 0,0 are not positions.
  */
 public sealed interface PositionReading {
-    /** The attributes that can hold a position. */
+    /** The attributes that may contain a position. */
     Set<String> ATTRIBUTES = Set.of("location", "Latitude", "Longitude", "latitude", "longitude", "gnss", "pose");
 
-    /** A position that can be used. */
+    /** A usable position. */
     record Located(Position position) implements PositionReading {}
 
-    /** The entity says nothing of its position. */
+    /** The entity has no position. */
     record Absent() implements PositionReading {}
 
-    /** The entity has a position that cannot be right; {@code fault} says why. */
+    /** The entity has an invalid position; {@code fault} says why. */
     record Faulty(String fault) implements PositionReading {}
 
-    /** Of an event with these headers: none where a part of the position is of a later time than the event. */
+    /** Reads the position of an event with these headers; absent if a part of the position is later than the event. */
     static PositionReading of(Map<String, String> headers, Supplier<PositionReading> reading) {
         String later = headers.get(HeaderNames.LATER_ATTRIBUTES);
         boolean isLater = later != null && Stream.of(later.split(",")).anyMatch(ATTRIBUTES::contains);
@@ -55,7 +56,7 @@ public sealed interface PositionReading {
         return firos.map(PositionParser::ofFiros).orElseGet(Absent::new);
     }
 
-    /** The position, if there is one that can be used. */
+    /** Returns the position if it is usable. */
     default Optional<Position> usable() {
         return this instanceof Located located ? Optional.of(located.position()) : Optional.empty();
     }

@@ -10,11 +10,11 @@ import com.fasterxml.jackson.core.StreamReadFeature;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * The tokens of one JSON document after the other, as strict as {@link NgsiJson}. A method that answers {@code false} has met
- * something that is wrong or rare; the reader of trees finds out which.
+ * Reads the tokens of JSON documents, as strict as {@link NgsiJson}. A method that returns {@code false} has found
+ * invalid or rare input; the tree reader determines which.
  */
 final class StrictTokens {
-    /** Names that come twice are found by {@link DuplicateNameDetector}, which makes no set for each object. */
+    /** {@link DuplicateNameDetector} finds duplicate names without a set for each object. */
     private static final JsonFactory FACTORY = NgsiJson.mapper()
             .getFactory()
             .rebuild()
@@ -24,10 +24,12 @@ final class StrictTokens {
 
     private final DuplicateNameDetector names = new DuplicateNameDetector();
     private JsonParser parser;
-    /** Whether no text of the document can hold a surrogate or be too long: then those that nobody wants stay undecoded. */
+    /**
+     * Whether no text of the document can contain a surrogate or be too long, so that unused texts need no decoding.
+     */
     private boolean plain;
 
-    /** Begins a document; the parser belongs to the caller, who closes it. */
+    /** Opens a document; the caller closes the parser. */
     JsonParser open(byte[] json, int length) throws IOException {
         names.clear();
         plain = length <= NgsiJson.MAX_STRING && isFreeOfSurrogates(json, length);
@@ -35,7 +37,7 @@ final class StrictTokens {
         return parser;
     }
 
-    /** The next token; null at the end of the document and where a name comes twice. */
+    /** Returns the next token; null at the end of the document and at a duplicate name. */
     JsonToken next() throws IOException {
         JsonToken token = parser.nextToken();
         if (token == JsonToken.FIELD_NAME) {
@@ -49,7 +51,7 @@ final class StrictTokens {
         return token;
     }
 
-    /** Skips the value that the parser stands at, and answers whether it certainly keeps to {@code EntityLimits}. */
+    /** Skips the current value; returns false if it may violate {@code EntityLimits}. */
     boolean skipWithinLimits() throws IOException {
         int depth = 0;
         for (JsonToken token = parser.currentToken(); token != null; token = next()) {
@@ -57,7 +59,7 @@ final class StrictTokens {
             boolean within = switch (token) {
                 case FIELD_NAME, VALUE_STRING -> isPlainText();
                 case VALUE_NUMBER_FLOAT -> isPlainNumber(parser.getDoubleValue());
-                case VALUE_NUMBER_INT -> parser.getTextLength() > 0; // thrown where it is too long
+                case VALUE_NUMBER_INT -> parser.getTextLength() > 0; // throws if it is too long
                 default -> true;
             };
             if (!within) {
@@ -70,7 +72,10 @@ final class StrictTokens {
         return false;
     }
 
-    /** In UTF-8 only four bytes make a pair of them, and only an escape a half; both are rare. */
+    /**
+     * Returns whether the text cannot contain surrogates: in UTF-8 only four-byte sequences are pairs, and only escapes
+     * are halves; both are rare.
+     */
     private static boolean isFreeOfSurrogates(byte[] json, int length) {
         for (int i = 0; i < length; i++) {
             if (json[i] == '\\' || (json[i] & 0xf8) == 0xf0) {
@@ -80,7 +85,7 @@ final class StrictTokens {
         return true;
     }
 
-    /** Whether the text holds no surrogate, neither half of a pair nor a pair, which is rare. */
+    /** Returns whether the current text has no surrogates, which are rare. */
     boolean isPlainText() throws IOException {
         if (plain) {
             return true;
@@ -95,7 +100,7 @@ final class StrictTokens {
         return true;
     }
 
-    /** Whether the text that the parser stands at is this one; makes no text to find out. */
+    /** Compares the current text without creating a string. */
     boolean isText(String expected) throws IOException {
         if (parser.getTextLength() != expected.length()) {
             return false;
@@ -110,7 +115,7 @@ final class StrictTokens {
         return true;
     }
 
-    /** Whether the number that was read as this double cannot have an exponent that is too great. */
+    /** Returns whether the current number, with this double value, has an exponent within the limits. */
     boolean isPlainNumber(double number) throws IOException {
         if (number != 0 && Double.isFinite(number) || parser.currentToken() == JsonToken.VALUE_NUMBER_INT) {
             return true;

@@ -8,7 +8,7 @@ import java.util.stream.Stream;
 
 import io.furrow.model.topic.Topics;
 
-/** The analytics jobs. Whoever lists jobs, or the topics of their results, lists them from here. */
+/** The analytics jobs, with the topics of their results. */
 public enum AnalyticsKind {
     COLLISION(Topics.COLLISION, Topics.COLLISION_LATE),
     PRESENCE(Topics.PRESENCE, Topics.PRESENCE_LATE),
@@ -22,7 +22,7 @@ public enum AnalyticsKind {
         this.lateTopic = lateTopic;
     }
 
-    /** The job of a name in lower case, such as {@code collision}. */
+    /** Returns the job of a name in lower case, such as {@code collision}. */
     public static Optional<AnalyticsKind> named(String name) {
         return Arrays.stream(values())
                 .filter(kind -> kind.jobName().equals(name))
@@ -33,17 +33,17 @@ public enum AnalyticsKind {
         return Arrays.stream(values()).map(AnalyticsKind::jobName).toList();
     }
 
-    /** Where the live jobs write their results. */
+    /** Returns the result topics of the live jobs. */
     public static List<String> topics() {
         return Arrays.stream(values()).map(kind -> kind.topic).toList();
     }
 
-    /** Where the live jobs write: results, and what came too late for them. */
+    /** Returns all topics of the live jobs: results and late records. */
     public static Stream<String> allTopics() {
         return Arrays.stream(values()).flatMap(kind -> Stream.of(kind.topic, kind.lateTopic));
     }
 
-    /** Of a job, and the last part of the topic of its results on a replay. */
+    /** Returns the name of the job, which is also the last part of its result topic for a replay. */
     public String jobName() {
         return name().toLowerCase(Locale.ROOT);
     }

@@ -1,9 +1,9 @@
 package io.furrow.model.result;
 
-/** Entities on {@code data.collision}: encounters of two devices, predictions and crossings. */
+/** Names of entities on {@code data.collision}: encounters of two devices, predictions and crossings. */
 public final class CollisionResult {
     public static final String TYPE = ResultTypes.PREFIX + "Collision";
-    /** A grid cell with more devices than are compared. */
+    /** Type for a grid cell with too many devices to compare them all. */
     public static final String OVERFLOW_TYPE = ResultTypes.PREFIX + "CollisionOverflow";
 
     /** Id of the encounter, the same in all its records. */
@@ -58,27 +58,27 @@ public final class CollisionResult {
             return id;
         }
 
-        /** Of the device's entity. */
+        /** Returns the attribute with the type of the device's entity. */
         public String type() {
             return type;
         }
 
-        /** Degrees. */
+        /** Returns the attribute with the latitude in degrees. */
         public String latitude() {
             return latitude;
         }
 
-        /** Degrees. */
+        /** Returns the attribute with the longitude in degrees. */
         public String longitude() {
             return longitude;
         }
 
-        /** Of the position, epoch ms. */
+        /** Returns the attribute with the time of the position, epoch ms. */
         public String timestamp() {
             return timestamp;
         }
 
-        /** Empty text where the device is on no mission. */
+        /** Returns the attribute with the mission; its value is empty if the device is on none. */
         public String mission() {
             return mission;
         }

@@ -3,11 +3,12 @@ package io.furrow.model.result;
 import java.util.Locale;
 
 /**
- * Entities on {@code data.temperature}: the robust average of an attribute per field and window, and devices whose values are suspect. The
- * average of {@code temperature} has the type {@code Analytics:FieldTemperature} and the attribute {@code averageTemperature}.
+ * Names of entities on {@code data.temperature}: the robust average of an attribute per field and window, and devices
+ * with suspect values. The average of {@code temperature} has the type {@code Analytics:FieldTemperature} and the
+ * attribute {@code averageTemperature}.
  */
 public final class FieldResult {
-    /** Followed by the attribute's name, its first letter in upper case. */
+    /** Prefix of types, followed by the capitalized name of the attribute. */
     public static final String TYPE_PREFIX = ResultTypes.PREFIX + "Field";
 
     public static final String TEMPERATURE_TYPE = TYPE_PREFIX + "Temperature";
@@ -16,9 +17,9 @@ public final class FieldResult {
     public static final String FIELD = "field";
     /** Number of devices that reported in the window. */
     public static final String DEVICES = "devices";
-    /** Ids of the devices whose values were left out. */
+    /** Ids of the devices whose values were excluded. */
     public static final String SUSPECTS = "suspects";
-    /** Types of the entities of {@link #SUSPECTS}, in their order; empty where it is not known. */
+    /** Types of the entities of {@link #SUSPECTS}, in their order; empty if unknown. */
     public static final String SUSPECT_TYPES = "suspectTypes";
     /** Epoch ms, inclusive. */
     public static final String WINDOW_START = "windowStart";
@@ -40,7 +41,7 @@ public final class FieldResult {
         return attribute.substring(0, 1).toUpperCase(Locale.ROOT) + attribute.substring(1);
     }
 
-    /** @param title of {@link #title(String)} */
+    /** @param title result of {@link #title(String)} */
     public static String average(String title) {
         return "average" + title;
     }

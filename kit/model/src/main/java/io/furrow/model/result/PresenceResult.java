@@ -1,6 +1,6 @@
 package io.furrow.model.result;
 
-/** Entities on {@code data.presence}: a device entered a field or left it. */
+/** Names of entities on {@code data.presence}: a device entered a field or left it. */
 public final class PresenceResult {
     public static final String TYPE = ResultTypes.PREFIX + "Presence";
 
@@ -10,13 +10,13 @@ public final class PresenceResult {
     public static final String DEVICE_TYPE = "deviceType";
     /** Id of the field. */
     public static final String FIELD = "field";
-    /** Name of the field, where it has one. */
+    /** Name of the field, if it has one. */
     public static final String FIELD_NAME = "fieldName";
     /** {@code entered} or {@link #LEFT}. */
     public static final String PHASE = "phase";
 
     public static final String LEFT = "left";
-    /** Why the device is in the field or outside of it from then on. */
+    /** Why the device is inside or outside of the field from then on. */
     public static final String CAUSE = "cause";
     /** Epoch ms. */
     public static final String TIME = "time";

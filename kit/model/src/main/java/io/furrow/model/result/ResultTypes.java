@@ -1,10 +1,13 @@
 package io.furrow.model.result;
 
-/** What the types of all result entities have in common. */
+/** Common parts of the types of result entities. */
 public final class ResultTypes {
-    /** Begins the type and the id of each result entity; jobs skip these entities when they return through the context broker. */
+    /**
+     * Prefix of the type and the id of each result entity; jobs skip these entities when they return through the
+     * context broker.
+     */
     public static final String PREFIX = "Analytics:";
-    /** A position that arrived too late for an analysis. */
+    /** Type for a position that arrived too late for an analysis. */
     public static final String LATE_POSITION = PREFIX + "LatePosition";
 
     private ResultTypes() {}

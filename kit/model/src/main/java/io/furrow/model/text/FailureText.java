@@ -7,17 +7,17 @@ import java.util.concurrent.CompletionException;
 import java.util.concurrent.ExecutionException;
 import java.util.regex.Pattern;
 
-/** Why something failed, in words for people: what libraries say, without the names of their classes. */
+/** Describes failures for people: the messages of libraries without class names. */
 public final class FailureText {
     private static final Pattern CLASS = Pattern.compile("\\b(?:[a-z_][\\w]*\\.){2,}[A-Z][\\w$]*(?:: )?");
-    /** The state of MongoDB's driver as it prints it. */
+    /** The state that MongoDB's driver adds to its messages. */
     private static final Pattern STATE = Pattern.compile("\\. Client view of cluster state is .*", Pattern.DOTALL);
 
     private static final String CAUSE = "Caused by: ";
 
     private FailureText() {}
 
-    /** A part of a sentence, for instance {@code connection refused}. */
+    /** Returns a part of a sentence, for instance {@code connection refused}. */
     public static String of(Throwable failure) {
         Throwable cause = failure;
         while (cause.getCause() != null && isWrapper(cause)) {
@@ -35,7 +35,7 @@ public final class FailureText {
         return cause instanceof Error ? words(cause.getClass().getSimpleName()) + ": " + text : text;
     }
 
-    /** The same of a stack trace as it is printed: the first line of its deepest cause. */
+    /** Returns the description of a printed stack trace: the first line of its deepest cause. */
     public static String ofTrace(String trace) {
         String cause = trace.lines()
                 .filter(line -> line.startsWith(CAUSE))
@@ -47,7 +47,7 @@ public final class FailureText {
     }
 
     private static boolean isWrapper(Throwable failure) {
-        if (failure instanceof ConnectException) { // the client of Java has the reason itself for a cause
+        if (failure instanceof ConnectException) { // Java's HTTP client adds the same exception as the cause
             return false;
         }
         return failure instanceof ExecutionException
@@ -56,7 +56,7 @@ public final class FailureText {
                 || failure.getCause().toString().equals(failure.getMessage());
     }
 
-    /** What its class is called, as words: {@code closed channel}. */
+    /** Returns the name of a class as words: {@code closed channel}. */
     private static String words(String type) {
         return type.replaceFirst("(Exception|Error)$", "")
                 .replaceAll("(?<=[a-z])(?=[A-Z])", " ")

@@ -5,13 +5,13 @@ import java.security.MessageDigest;
 import java.security.NoSuchAlgorithmException;
 import java.util.HexFormat;
 
-/** SHA-256, which every Java platform has. */
+/** Computes SHA-256 hashes. */
 public final class Sha256 {
-    private static final MessageDigest FRESH = fresh();
+    private static final MessageDigest PROTOTYPE = create();
 
     private Sha256() {}
 
-    private static MessageDigest fresh() {
+    private static MessageDigest create() {
         try {
             return MessageDigest.getInstance("SHA-256");
         } catch (NoSuchAlgorithmException e) {
@@ -19,21 +19,21 @@ public final class Sha256 {
         }
     }
 
-    /** A copy costs a fraction of the search for the algorithm's provider. */
+    /** Returns the hash. It clones a digest, which is much cheaper than finding the algorithm's provider. */
     public static byte[] of(byte[] bytes) {
         try {
-            return ((MessageDigest) FRESH.clone()).digest(bytes);
+            return ((MessageDigest) PROTOTYPE.clone()).digest(bytes);
         } catch (CloneNotSupportedException e) {
-            throw new IllegalStateException("the platform's SHA-256 can be copied", e);
+            throw new IllegalStateException("cannot clone the platform's SHA-256", e);
         }
     }
 
-    /** In lower-case hexadecimal. */
+    /** Returns the hash in lower-case hexadecimal. */
     public static String hex(byte[] bytes) {
         return HexFormat.of().formatHex(of(bytes));
     }
 
-    /** Of a text in UTF-8, in lower-case hexadecimal. */
+    /** Returns the hash of a text in UTF-8, in lower-case hexadecimal. */
     public static String hex(String text) {
         return hex(text.getBytes(StandardCharsets.UTF_8));
     }

@@ -1,10 +1,10 @@
 package io.furrow.model.text;
 
-/** Whether bytes are UTF-8 (RFC 3629). Jackson's own decoder takes overlong forms and code points beyond U+10FFFF. */
+/** Validates UTF-8 (RFC 3629), because Jackson's decoder accepts overlong forms and code points beyond U+10FFFF. */
 public final class Utf8 {
     private Utf8() {}
 
-    /** The position of the first byte that is not part of a UTF-8 sequence; -1 where all are. */
+    /** Returns the position of the first byte that is not part of a UTF-8 sequence; -1 if there is none. */
     public static int firstWrong(byte[] bytes) {
         int i = 0;
         while (i < bytes.length) {
@@ -21,16 +21,16 @@ public final class Utf8 {
         return -1;
     }
 
-    /** How many bytes the sequence of more than one byte that begins here has; 0 where none does. */
+    /** Returns the length of the multi-byte sequence that begins here; 0 if none does. */
     private static int length(byte[] bytes, int at) {
         int first = bytes[at] & 0xff;
         int second = at + 1 < bytes.length ? bytes[at + 1] & 0xff : 0;
         int length = first >= 0xc2 && first <= 0xdf
                 ? 2
                 : first >= 0xe0 && first <= 0xef ? 3 : first >= 0xf0 && first <= 0xf4 ? 4 : 0;
-        int lowest = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
-        int highest = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
-        if (length == 0 || at + length > bytes.length || second < lowest || second > highest) {
+        int minSecond = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
+        int maxSecond = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
+        if (length == 0 || at + length > bytes.length || second < minSecond || second > maxSecond) {
             return 0;
         }
         for (int i = at + 2; i < at + length; i++) {

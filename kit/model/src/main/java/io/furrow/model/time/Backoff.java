@@ -2,7 +2,10 @@ package io.furrow.model.time;
 
 import java.time.Duration;
 
-/** Delays between attempts: the first is {@code min}, each one after it twice as long as the one before, up to {@code max}. Not thread-safe. */
+/**
+ * Computes delays between attempts: the first is {@code min}, each further one twice the previous, up to {@code max}.
+ * Not thread-safe.
+ */
 public final class Backoff {
     private final Duration min;
     private final Duration max;
@@ -21,14 +24,14 @@ public final class Backoff {
         this.next = min;
     }
 
-    /** The delay before the next attempt. */
+    /** Returns the delay before the next attempt. */
     public Duration next() {
         Duration delay = next;
         next = delay.compareTo(max.minus(delay)) > 0 ? max : delay.multipliedBy(2);
         return delay;
     }
 
-    /** Starts over with {@code min}, after a success. */
+    /** Restarts with {@code min} after a success. */
     public void reset() {
         next = min;
     }

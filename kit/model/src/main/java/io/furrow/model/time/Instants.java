@@ -17,11 +17,12 @@ import java.util.regex.Pattern;
 import com.fasterxml.jackson.databind.JsonNode;
 
 /**
- * Instants as devices send them: a number since 1970, or its digits; a date and time of ISO 8601 (without offset it is UTC, as
- * NGSI-v2 has it) and what is written nearly so, see {@link OtherTimes}; the start of an ISO 8601 interval. Never before 1970.
+ * Parses times of devices: a number since 1970, or its digits; a date and time of ISO 8601 (UTC without an offset, as
+ * in NGSI-v2) and similar formats, see {@link OtherTimes}; the start of an ISO 8601 interval. Times before 1970 are
+ * rejected.
  *
- * <p>A number's size says its unit: of 1e9 to 1e11 it is seconds (2001 to 5138), up to 1e14 milliseconds, up to 1e17
- * microseconds, then nanoseconds; below 1e9 milliseconds.
+ * <p>The magnitude of a number determines its unit: from 1e9 to 1e11 it is seconds (2001 to 5138), up to 1e14
+ * milliseconds, up to 1e17 microseconds, then nanoseconds; below 1e9 milliseconds.
  */
 public final class Instants {
     private static final double MIN_SECONDS = 1e9;
@@ -32,7 +33,7 @@ public final class Instants {
     private static final int MILLIS_PER_SECOND = 1000;
     private static final int NANOS_PER_MILLI = 1_000_000;
 
-    /** The years up to 33658. */
+    /** The last second of the year 33658. */
     private static final long LATEST_SECOND = 999_999_999_999L;
 
     private static final Pattern FRACTION = Pattern.compile("([.]\\d{1,9})?");
@@ -46,14 +47,14 @@ public final class Instants {
 
     private Instants() {}
 
-    /** The instant that a value names; empty if it names none. */
+    /** Returns the instant of a value; empty if it has none. */
     public static Optional<Instant> of(JsonNode value) {
         return value.isTextual()
                 ? ofText(value.textValue())
                 : ofNumber(value.isNumber() ? value.doubleValue() : Double.NaN);
     }
 
-    /** The instant of a number since 1970; empty if it is NaN, negative or too large. */
+    /** Returns the instant of a number since 1970; empty if it is NaN, negative or too large. */
     public static Optional<Instant> ofNumber(double number) {
         if (!(number >= 0 && number < END_OF_NANOS)) {
             return Optional.empty();
@@ -82,7 +83,7 @@ public final class Instants {
                 .flatMap(Instants::sinceEpoch);
     }
 
-    /** Digits, at most with a fraction, that are no date. */
+    /** Returns whether the text is digits with an optional fraction and not a date. */
     private static boolean isNumber(String text) {
         int digits = 0;
         while (digits < text.length() && text.charAt(digits) >= '0' && text.charAt(digits) <= '9') {
@@ -92,7 +93,7 @@ public final class Instants {
         return digits > 0 && !isDate && FRACTION.matcher(text.substring(digits)).matches();
     }
 
-    /** A date and time of ISO 8601, seconds and offset optional; empty if it is none. */
+    /** Parses a date and time of ISO 8601 with optional seconds and offset; empty if it is invalid. */
     public static Optional<Instant> anyForm(String text) {
         try {
             TemporalAccessor time = ISO.parseBest(text, OffsetDateTime::from, LocalDateTime::from);

@@ -4,9 +4,8 @@ import java.time.Instant;
 import java.util.Optional;
 
 /**
- * Date and time in the one form in which nearly all of them come, {@code yyyy-MM-ddTHH:mm:ss[.S…][Z|±hh:mm]}, with up to nine
- * digits of a second's fraction; without an offset it is UTC. Read digit by digit, which takes a small part of the time that
- * a formatter does.
+ * Parses date and time in the most common format, {@code yyyy-MM-ddTHH:mm:ss[.S…][Z|±hh:mm]}, with up to nine digits of
+ * a second's fraction; UTC without an offset. It reads digit by digit, which is much faster than a formatter.
  */
 final class IsoTime {
     private static final int DATE_AND_TIME = "yyyy-MM-ddTHH:mm:ss".length();
@@ -17,7 +16,9 @@ final class IsoTime {
 
     private IsoTime() {}
 
-    /** The instant; empty if the text has another form, which may still be a time, or names no day or hour. */
+    /**
+     * Returns the instant; empty if the text has another format, which may still be a time, or an invalid day or hour.
+     */
     static Optional<Instant> parse(CharSequence text) {
         int length = text.length();
         if (length < DATE_AND_TIME || !hasMarks(text)) {
@@ -45,7 +46,7 @@ final class IsoTime {
                 && text.charAt(16) == ':';
     }
 
-    /** Digits only; −1 for anything else. */
+    /** Parses digits; −1 for anything else. */
     private static int number(CharSequence text, int from, int to) {
         int number = 0;
         for (int i = from; i < to; i++) {
@@ -85,7 +86,7 @@ final class IsoTime {
         return 146_097 * era + 365 * yearOfEra + yearOfEra / 4 - yearOfEra / 100 + dayOfYear - 719_468;
     }
 
-    /** Where the fraction of the second ends, or would begin; −1 for a fraction of a form of its own. */
+    /** Returns the end of the second's fraction, or its possible beginning; −1 for a fraction of another format. */
     private static int fractionEnd(CharSequence text) {
         if (text.length() == DATE_AND_TIME || text.charAt(DATE_AND_TIME) != '.') {
             return DATE_AND_TIME;
@@ -109,7 +110,7 @@ final class IsoTime {
         return nanos;
     }
 
-    /** Minutes east of Greenwich; {@link Integer#MIN_VALUE} where what follows is not an offset of this form. */
+    /** Returns minutes east of Greenwich; {@link Integer#MIN_VALUE} if the rest is not an offset of this format. */
     private static int offset(CharSequence text, int at) {
         int left = text.length() - at;
         if (at < 0 || left == 0 || left == 1 && text.charAt(at) == 'Z') {

@@ -9,8 +9,9 @@ import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 /**
- * Date and time in the forms in which databases and programs write them beside that of {@link IsoTime}: a space instead of the
- * {@code T}, a comma before the fraction, ISO 8601 in basic form, no seconds, no time of day, {@code UTC} or an offset in hours behind it.
+ * Parses date and time in other common formats of databases and programs than that of {@link IsoTime}: a space instead
+ * of the {@code T}, a comma before the fraction, ISO 8601 in basic format, no seconds, no time of day, {@code UTC} or
+ * an offset in hours.
  */
 final class OtherTimes {
     private static final Pattern TIME = Pattern.compile("(\\d{4})(-?)(\\d\\d)\\2(\\d\\d)"
@@ -26,7 +27,7 @@ final class OtherTimes {
 
     private OtherTimes() {}
 
-    /** The instant, in UTC where no offset is given; empty if the text is none. */
+    /** Returns the instant, in UTC without an offset; empty if the text is invalid. */
     static Optional<Instant> parse(String text) {
         boolean isCompact = text.length() == COMPACT && text.indexOf('-') < 0 && text.indexOf('T') < 0;
         Matcher time = TIME.matcher(isCompact ? text.substring(0, DATE) + "T" + text.substring(DATE) : text);

@@ -8,7 +8,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class AlarmRequestsTest {
     @Test
-    void readsWhatItWrites() {
+    void readsBackWrittenRequests() {
         for (AlarmCommand command : new AlarmCommand[] {
             new AlarmCommand.Acknowledge("collision-1", "ann"),
             new AlarmCommand.Close("collision-1", null),

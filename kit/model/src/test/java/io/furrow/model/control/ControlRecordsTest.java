@@ -13,7 +13,9 @@ import io.furrow.model.device.SecretFingerprints;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Records of {@code service.*} are written as they were read, member by member, whole and without what may be missing. */
+/**
+ * Checks that records of {@code service.*} are written as they were read, with all members and without optional ones.
+ */
 class ControlRecordsTest {
     @ParameterizedTest
     @CsvSource(delimiter = ';', quoteCharacter = '"', textBlock = """
@@ -38,7 +40,7 @@ class ControlRecordsTest {
             fault; {'text':'t'}
             secret; {'newest':10,'apiKeys':1,'fingerprints':{'1':'a','2':'b','10':'c'}}
             """)
-    void areWrittenAsTheyWereRead(String kind, String record) throws Exception {
+    void writesRecordsAsTheyWereRead(String kind, String record) throws Exception {
         String json = record.replace('\'', '"');
         byte[] value = json.getBytes(UTF_8);
         byte[] written = switch (kind) {

@@ -12,7 +12,7 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
-/** What the manager writes to {@code service.replays} is what whoever plays replays back reads there. */
+/** Checks that players of replays read what the manager writes to {@code service.replays}. */
 class DesiredReplayTest {
     private static final String NAME = "m.0a1b2c3d";
     private static final String TOPIC = "data.m.replay.0a1b2c3d";
@@ -22,7 +22,7 @@ class DesiredReplayTest {
     }
 
     @Test
-    void readsAllThatTheManagerSays() throws Exception {
+    void readsAllMembersOfTheManager() throws Exception {
         ReplayPlan plan = new ReplayPlan(
                 new ReplayPlan.Source("data.field", null),
                 10L,
@@ -51,7 +51,7 @@ class DesiredReplayTest {
     }
 
     @Test
-    void readsWhatTheManagerLeavesOut() throws Exception {
+    void readsRecordsWithoutOptionalMembers() throws Exception {
         DesiredReplay written =
                 started(ReplayPlan.PLAIN).at(ReplayCommand.MAX, 2).desired(ReplayStatus.State.STOPPED, 2);
 
@@ -63,7 +63,7 @@ class DesiredReplayTest {
     }
 
     @Test
-    void playsWhatPlanAndRangeHaveInCommon() {
+    void playsTheIntersectionOfPlanAndRange() {
         DesiredReplay plain = started(ReplayPlan.PLAIN);
         DesiredReplay part = started(ReplayPlan.PLAIN.between(10, 20));
 
@@ -80,7 +80,7 @@ class DesiredReplayTest {
     }
 
     @Test
-    void showsByTheClockOfItsGroupWhereItIs() {
+    void computesItsPositionFromTheClockOfItsGroup() {
         DesiredReplay once = started(ReplayPlan.PLAIN.between(1000, 2000))
                 .at(2, 2)
                 .following("01234567", new DesiredReplay.Clock(50_000, 1100));
@@ -93,7 +93,7 @@ class DesiredReplayTest {
 
     @ParameterizedTest
     @CsvSource({
-        "50000, 900", // before what is played over and over
+        "50000, 900", // before the repeated range
         "50100, 1100",
         "50549, 1998",
         "50550, 1000",
@@ -102,7 +102,7 @@ class DesiredReplayTest {
         "51050, 1000",
         "1000000050000, 1900", // 2e12 ms later
     })
-    void beginsAnewAtTheEndOfWhatIsPlayedOverAndOver(long now, long position) {
+    void restartsAtTheEndOfARepeatedRange(long now, long position) {
         DesiredReplay.Range loop = new DesiredReplay.Range(1000, 2000);
         DesiredReplay.Clock clock = new DesiredReplay.Clock(50_000, 900);
 
@@ -137,7 +137,7 @@ class DesiredReplayTest {
             "created":5          | "seek":{"to":1}     | 'sequence' must be a whole number
             "created":5          | "from":"now"        | 'from' must be a time
             """)
-    void refusesWhatNoManagerWrites(String member, String other, String reason) {
+    void rejectsInvalidRecords(String member, String other, String reason) {
         String json = new String(started(ReplayPlan.PLAIN).toBytes(), UTF_8);
         assertThat(json).contains(member);
         byte[] changed = json.replace(member, other).getBytes(UTF_8);
@@ -148,7 +148,7 @@ class DesiredReplayTest {
     }
 
     @Test
-    void refusesTheRecordOfAnother() {
+    void rejectsTheRecordOfAnotherReplay() {
         assertThatThrownBy(() -> DesiredReplay.read(
                         "m.0a1b2c3e", started(ReplayPlan.PLAIN).toBytes()))
                 .isInstanceOf(UnreadableException.class)

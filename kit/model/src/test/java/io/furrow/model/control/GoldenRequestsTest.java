@@ -13,15 +13,15 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /**
- * What managers understand and refuse, to the byte: in each file of {@code golden/request} a request, and under it the same as Furrow
- * writes it, or the refusal. Rewritten with {@code -Dgolden.renew=true}.
+ * Compares the answers of managers to the byte: each file of {@code golden/request} has requests, each followed by the
+ * same request as Furrow writes it, or by its rejection. Rewritten with {@code -Dgolden.renew=true}.
  */
 class GoldenRequestsTest {
     private static final Path FOLDER = Path.of("src/test/resources/golden/request");
 
     @ParameterizedTest
     @ValueSource(strings = {"domain", "mission", "replay", "alarm"})
-    void staysAsItIs(String manager) throws IOException {
+    void answersAsInTheGoldenFile(String manager) throws IOException {
         Path file = FOLDER.resolve(manager + ".txt");
         List<String> golden = Files.readAllLines(file);
         List<String> now = new ArrayList<>();

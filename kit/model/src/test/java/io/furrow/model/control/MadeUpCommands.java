@@ -10,7 +10,7 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-/** Commands of every kind, with and without what they may leave out. */
+/** Generates commands of all kinds, with and without optional members. */
 public record MadeUpCommands(Random random) {
     public DomainCommand domain() {
         return switch (random.nextInt(3)) {

@@ -13,7 +13,7 @@ class MissionTemplateTest {
             "faults":[{"kind":"silent","after":"PT5M"}]},"urn:ngsi-ld:AgriRobot:7"]}""";
 
     @Test
-    void isImportedAsItWasExported() throws Exception {
+    void readsBackAnExportedTemplate() throws Exception {
         MissionTemplate template = MissionTemplate.read(EXPORTED.getBytes(UTF_8));
 
         assertThat(template.key()).isEqualTo("scouting@3");
@@ -23,7 +23,7 @@ class MissionTemplateTest {
     }
 
     @Test
-    void saysWhatIsWrongWithAFile() {
+    void reportsWhatIsWrongWithAFile() {
         assertThatThrownBy(() -> MissionTemplate.read("{\"template\":\"a b\"}".getBytes(UTF_8)))
                 .isInstanceOf(RejectedException.class)
                 .hasMessageContaining("'a b' is not a name for 'template'");

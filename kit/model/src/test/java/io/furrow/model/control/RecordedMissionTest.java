@@ -12,7 +12,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class RecordedMissionTest {
     @Test
-    void comesBackAsItWasWritten() throws Exception {
+    void readsBackARecord() throws Exception {
         RecordedMission mission = new RecordedMission("weeding", 1000, 2000);
 
         assertThat(new String(mission.toBytes(), UTF_8))
@@ -23,7 +23,7 @@ class RecordedMissionTest {
     @ParameterizedTest
     @ValueSource(
             strings = {"7", "{", "{\"mission\":\"m\",\"first\":1}", "{\"mission\":\"m\",\"first\":1,\"last\":\"2\"}"})
-    void refusesWhatIsNone(String json) {
+    void rejectsInvalidRecords(String json) {
         assertThatThrownBy(() -> RecordedMission.read(json.getBytes(UTF_8))).isInstanceOf(UnreadableException.class);
     }
 }

@@ -7,7 +7,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class ReplayStatusTest {
     @Test
-    void comesBackWithItsProgress() throws Exception {
+    void readsBackAStatusWithProgress() throws Exception {
         ReplayStatus status = new ReplayStatus(
                 7,
                 ReplayStatus.State.ENDED,
@@ -19,14 +19,14 @@ class ReplayStatusTest {
     }
 
     @Test
-    void readsARecordOfBeforeThereWasProgress() throws Exception {
+    void readsARecordWithoutProgress() throws Exception {
         byte[] old = "{\"sequence\":7,\"state\":\"ended\"}".getBytes(UTF_8);
 
         assertThat(ReplayStatus.read(old)).isEqualTo(new ReplayStatus(7, ReplayStatus.State.ENDED, null, true, null));
     }
 
     @Test
-    void saysOfARunningReplayNothingOfBeingSettled() {
+    void omitsSettledForARunningReplay() {
         byte[] running = new ReplayStatus(7, ReplayStatus.State.RUNNING, null, false, null).toBytes();
 
         assertThat(new String(running, UTF_8)).isEqualTo("{\"sequence\":7,\"state\":\"running\"}");

@@ -5,10 +5,10 @@ import org.junit.jupiter.api.Test;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** By what a request is known again, and what is read of one that is not read whole. */
+/** Tests fingerprints and summaries of requests. */
 class RequestIdentityTest {
     @Test
-    void hasTheSameFingerprintWhateverTheOrderOfItsMembersAndItsId() {
+    void ignoresTheRequestIdAndTheOrderOfMembers() {
         String one = fingerprint("{'type':'request','requestId':'r-1','mission':'m','devices':[{'a':1,'b':2}]}");
         assertThat(one).matches("[0-9a-f]{32}");
         assertThat(fingerprint("{'devices':[{'b':2,'a':1}],'mission':'m','requestId':'r-2','type':'request'}"))
@@ -24,14 +24,14 @@ class RequestIdentityTest {
     }
 
     @Test
-    void hasAFingerprintThoughATextIsNoUnicode() {
+    void computesTheFingerprintOfInvalidUnicode() {
         assertThat(fingerprint("{'mission':'\\ud800'}")).hasSize(32);
         assertThat(fingerprint("{'mission':")).isEmpty();
         assertThat(fingerprint("[]")).isEmpty();
     }
 
     @Test
-    void readsWhoseARequestIsThoughTheRestIsNotRead() {
+    void readsTheSummaryOfAnUnreadRequest() {
         RequestSummary excerpt = excerpt("{'devices':[{'mission':'other'},['x']],'type':'request','mission':'m',"
                 + "'requestId':'r-1','description':'" + "x".repeat(9000) + "','domain':7,'command':'start'");
         assertThat(excerpt.json())
@@ -49,7 +49,7 @@ class RequestIdentityTest {
     }
 
     @Test
-    void cutsReasonsThatAreTooLong() {
+    void truncatesLongReasons() {
         assertThat(Limits.reason(null)).isNull();
         assertThat(Limits.reason("away")).isEqualTo("away");
         assertThat(Limits.reason("\ud800x")).isEqualTo("\ufffdx");

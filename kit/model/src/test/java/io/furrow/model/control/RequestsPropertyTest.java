@@ -17,7 +17,7 @@ class RequestsPropertyTest {
     };
 
     @Test
-    void readsEveryCommandAsItWasWritten() {
+    void readsBackEveryCommand() {
         long seed = System.nanoTime();
         MadeUpCommands made = new MadeUpCommands(new Random(seed));
         for (int i = 0; i < CASES; i++) {
@@ -39,34 +39,34 @@ class RequestsPropertyTest {
     }
 
     @Test
-    void answersWhateverIsBrokenWithACodeAndASentence() throws Exception {
+    void answersBrokenRequestsWithACodeAndASentence() throws Exception {
         long seed = System.nanoTime();
         Random random = new Random(seed);
         MadeUpCommands made = new MadeUpCommands(random);
-        int refused = 0;
+        int rejected = 0;
         for (int i = 0; i < CASES; i++) {
-            refused += refusals(broken(Requests.write("r", made.domain()), random), Requests::domain, seed);
-            refused += refusals(broken(Requests.write("r", made.mission()), random), Requests::mission, seed);
-            refused += refusals(broken(Requests.write("r", made.replay()), random), Requests::replay, seed);
+            rejected += refusals(broken(Requests.write("r", made.domain()), random), Requests::domain, seed);
+            rejected += refusals(broken(Requests.write("r", made.mission()), random), Requests::mission, seed);
+            rejected += refusals(broken(Requests.write("r", made.replay()), random), Requests::replay, seed);
         }
-        assertThat(refused).isGreaterThan(CASES);
+        assertThat(rejected).isGreaterThan(CASES);
     }
 
-    /** Whatever is understood can be written and read again; whatever is not has an answer that can be read. */
+    /** Checks that a valid request can be written and read again, and that an invalid one has a readable answer. */
     private static <C extends Command> int refusals(
             byte[] request, Function<byte[], ParsedRequest<C>> reader, long seed) throws Exception {
         ParsedRequest<C> parsedRequest = reader.apply(request);
-        String said = "seed %d: %s".formatted(seed, new String(request, UTF_8));
+        String description = "seed %d: %s".formatted(seed, new String(request, UTF_8));
         if (parsedRequest instanceof ParsedRequest.Request<C> understood) {
             assertThat(reader.apply(Requests.write(understood.requestId(), understood.command())))
-                    .as(said)
+                    .as(description)
                     .isEqualTo(parsedRequest);
-        } else if (parsedRequest instanceof ParsedRequest.Refused<C> refused) {
-            var answer =
-                    CommandResult.read(refused.answer().to(refused.requestId()).toBytes());
-            assertThat(answer.status()).as(said).isEqualTo("error");
-            assertThat(answer.error()).as(said).isPresent();
-            assertThat(answer.json().path("reason").asText()).as(said).isNotBlank();
+        } else if (parsedRequest instanceof ParsedRequest.Refused<C> rejected) {
+            var answer = CommandResult.read(
+                    rejected.answer().to(rejected.requestId()).toBytes());
+            assertThat(answer.status()).as(description).isEqualTo("error");
+            assertThat(answer.error()).as(description).isPresent();
+            assertThat(answer.json().path("reason").asText()).as(description).isNotBlank();
             return 1;
         }
         return 0;
@@ -84,7 +84,7 @@ class RequestsPropertyTest {
         return text.getBytes(UTF_8);
     }
 
-    /** Puts another value in the place of a plain one. */
+    /** Replaces a scalar value. */
     private static String spliced(String text, int from, String value) {
         int end = from;
         while (end < text.length() && ",}]".indexOf(text.charAt(end)) < 0) {

@@ -11,15 +11,15 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class RequestsTest {
-    /** As the WeLASER dashboard sends it. */
+    /** The WeLASER dashboard sends this. */
     @Test
-    void takesARequestWithoutCommandForANewDomain() {
+    void readsARequestWithoutCommandAsANewDomain() {
         assertThat(Requests.domain(json("{'type':'request','domain':'canary'}")))
                 .isEqualTo(new ParsedRequest.Request<>(null, new DomainCommand.Create("canary", DomainDetails.NONE)));
     }
 
     @Test
-    void takesTheOriginalRequestsForMissionsAndReplays() {
+    void readsTheOriginalRequestsForMissionsAndReplays() {
         assertThat(Requests.mission(json("{'type':'request','command':'start','mission':'m','domain':'d'}")))
                 .isEqualTo(new ParsedRequest.Request<>(
                         null, new MissionCommand.Start("m", "d", new MissionPlan.Unspecified(), null, null)));
@@ -61,16 +61,16 @@ class RequestsTest {
     }
 
     @Test
-    void passesOverResponsesAndRecordsWithoutAValue() {
+    void ignoresResponsesAndRecordsWithoutAValue() {
         assertThat(Requests.domain(null)).isEqualTo(new ParsedRequest.Passed<>());
         assertThat(Requests.domain(CommandResult.of("created").to("r").toBytes()))
                 .isEqualTo(new ParsedRequest.Passed<>());
         assertThat(Requests.domain(json("{'type':'response'}"))).isEqualTo(new ParsedRequest.Passed<>());
     }
 
-    /** A host has them for each device: two hundred bytes may ask for a gigabyte. */
+    /** A host stores the settings for each device, so two hundred bytes may expand to a gigabyte. */
     @Test
-    void refusesSettingsThatAreTooLargeForSoManyDevices() {
+    void rejectsSettingsTooLargeForManyDevices() {
         String request = "{'type':'request','command':'create','mission':'m','domain':'d','devices':"
                 + "[{'type':'Robot','count':%d,'parameters':{'note':'" + "x".repeat(1000) + "'}}]}";
 
@@ -79,13 +79,13 @@ class RequestsTest {
     }
 
     @Test
-    void answersAnErrorWithTheIdAndWhatItIsAbout() {
+    void answersAnErrorWithTheIdAndTheSubject() {
         ParsedRequest<MissionCommand> parsedRequest = Requests.mission(
                 json("{'type':'request','requestId':'r','command':'launch','mission':'m','domain':'a.b'}"));
 
-        assertThat(parsedRequest).isInstanceOfSatisfying(ParsedRequest.Refused.class, refused -> {
-            assertThat(refused.requestId()).isEqualTo("r");
-            assertThat(new String(refused.answer().toBytes(), UTF_8))
+        assertThat(parsedRequest).isInstanceOfSatisfying(ParsedRequest.Refused.class, rejected -> {
+            assertThat(rejected.requestId()).isEqualTo("r");
+            assertThat(new String(rejected.answer().toBytes(), UTF_8))
                     .isEqualTo(
                             "{'type':'response','status':'error','error':'unknown-command','reason':\"there is no command "
                                             .replace('\'', '"')

@@ -16,7 +16,7 @@ class DesiredDeviceTest {
             new DeviceVersion("urn:Camera:m-1", "farm", "/", "d", "m", 5, 9L, 7, "urn:Robot:m-1");
 
     @Test
-    void isReadByJobsAsTheVersionThatItHolds() throws Exception {
+    void isReadByJobsAsItsVersion() throws Exception {
         DesiredDevice camera = DesiredDevice.simulated(
                 VERSION,
                 "Camera",
@@ -34,7 +34,7 @@ class DesiredDeviceTest {
     }
 
     @Test
-    void carriesHowOftenItsCredentialsWereRotatedAndReadsRecordsThatDoNot() throws Exception {
+    void readsRecordsWithAndWithoutAGeneration() throws Exception {
         DesiredDevice rotated = DesiredDevice.read(VERSION.toBytes()).withGeneration(3);
 
         assertThat(DesiredDevice.read(rotated.toBytes())).isEqualTo(rotated);
@@ -47,7 +47,7 @@ class DesiredDeviceTest {
     }
 
     @Test
-    void isRealWhereItDoesNotSayThatItIsSimulated() throws Exception {
+    void isRealUnlessItIsMarkedAsSimulated() throws Exception {
         DesiredDevice robot = DesiredDevice.read(VERSION.toBytes());
 
         assertThat(robot.simulated()).isFalse();
@@ -56,7 +56,7 @@ class DesiredDeviceTest {
     }
 
     @Test
-    void tellsAStatusFromWhatIsNone() throws Exception {
+    void rejectsInvalidStatuses() throws Exception {
         DeviceStatus failed = new DeviceStatus(7, DeviceStatus.State.FAILED, "no route to the MQTT broker");
 
         assertThat(DeviceStatus.read(failed.toBytes())).isEqualTo(failed);

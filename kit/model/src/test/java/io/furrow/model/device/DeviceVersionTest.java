@@ -37,19 +37,19 @@ class DeviceVersionTest {
     }
 
     @Test
-    void needsNoMoreThanAnIdATimeAndASequence() throws Exception {
+    void requiresOnlyAnIdATimeAndASequence() throws Exception {
         assertThat(read("{'id':'r','from':5,'sequence':1,'mission':null,'until':null,'colour':{'of':'later'}}"))
                 .isEqualTo(new DeviceVersion("r", "", "/", "", "", 5, null, 1, null));
     }
 
     @Test
-    void keepsDevicesOfOneIdInTwoTenantsApart() throws Exception {
+    void distinguishesDevicesOfOneIdInTwoTenants() throws Exception {
         assertThat(read("{'id':'r','service':'A','from':5,'sequence':1}").key()).isEqualTo("a|/|r");
         assertThat(read("{'id':'r','service':'b','from':5,'sequence':1}").key()).isEqualTo("b|/|r");
     }
 
     @Test
-    void holdsFromItsTimeUntilItsEnd() {
+    void isValidFromItsTimeUntilItsEnd() {
         assertThat(ROBOT.holdsAt(ROBOT.from() - 1)).isFalse();
         assertThat(ROBOT.holdsAt(ROBOT.from())).isTrue();
         assertThat(ROBOT.holdsAt(ROBOT.until() - 1)).isTrue();
@@ -73,7 +73,7 @@ class DeviceVersionTest {
                     {'id':'r','from':5,'sequence':1,'until':4} | NOT_AN_EVENT
                     {'id':'r','from':5,'sequence':1,'domain':4} | NOT_AN_EVENT
                     """)
-    void refusesWhatIsNoDevice(String json, Reason reason) {
+    void rejectsInvalidDevices(String json, Reason reason) {
         assertThatThrownBy(() -> read(json))
                 .isInstanceOfSatisfying(
                         UnreadableException.class, e -> assertThat(e.reason()).isEqualTo(reason));

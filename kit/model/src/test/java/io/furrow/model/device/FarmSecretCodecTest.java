@@ -27,7 +27,7 @@ class FarmSecretCodecTest {
     }
 
     @Test
-    void readsWhatItWrites() throws IOException {
+    void readsBackAFile() throws IOException {
         FarmSecret words = FarmSecret.read(file("a secret of words, \"0123\" ü\n"));
         FarmSecret rotated = words.rotated(NOW, NOW.plusSeconds(60), false);
         FarmSecret twice = rotated.rotated(NOW, NOW.plusSeconds(90), true);
@@ -38,7 +38,7 @@ class FarmSecretCodecTest {
     }
 
     @Test
-    void passesOverCommentsAndEmptyLines() throws IOException {
+    void ignoresCommentsAndEmptyLines() throws IOException {
         FarmSecret secret = FarmSecret.read(file("""
                 farm-secret 1
                 # the new one
@@ -51,9 +51,9 @@ class FarmSecretCodecTest {
         assertThat(secret.apiKey("a")).isEqualTo(new FarmSecret("0123456789abcdef".getBytes(UTF_8)).apiKey("a"));
     }
 
-    /** An older version reads the first line as the secret: it must find that too short. */
+    /** An older version reads the first line as the secret and must reject it as too short. */
     @Test
-    void beginsWithALineThatIsTooShortForASecret() {
+    void beginsWithALineTooShortForASecret() {
         assertThat(FarmSecretCodec.HEADER.length()).isLessThan(FarmKey.MIN_BYTES);
     }
 
@@ -70,7 +70,7 @@ class FarmSecretCodecTest {
                     farm-secret 1;key 1 0123456789abcdef api-keys;key 2 fedcba9876543210   | key 1 has no 'until'
                     farm-secret 1;key 1 0123456789abcdef api-keys until 2026-04-01T08:00:00Z | key 1 is the newest and has 'until'
                     """)
-    void namesTheFileAndWhatIsWrong(String lines, String message) throws IOException {
+    void namesTheFileAndTheProblem(String lines, String message) throws IOException {
         Path file = file(lines.replace(';', '\n'));
 
         assertThatThrownBy(() -> FarmSecret.read(file))
@@ -79,7 +79,7 @@ class FarmSecretCodecTest {
     }
 
     @Test
-    void saysHowTheFileIsMadeWhereThereIsNone() {
+    void saysHowToCreateAMissingFile() {
         Path missing = folder.resolve("missing");
 
         assertThatThrownBy(() -> FarmSecret.read(missing))

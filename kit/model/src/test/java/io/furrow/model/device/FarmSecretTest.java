@@ -23,17 +23,17 @@ class FarmSecretTest {
     private final FarmSecret secret = new FarmSecret(bytes("0123456789abcdef"));
 
     @Test
-    void alwaysMakesTheSameOfTheSame() {
+    void derivesTheSameCredentialsEachTime() {
         FarmSecret again = new FarmSecret(bytes("0123456789abcdef"));
 
         assertThat(again).isEqualTo(secret);
         assertThat(again.device("weeding", "t-1")).isEqualTo(secret.device("weeding", "t-1"));
-        // As all versions have made it: devices need not be provisioned again.
+        // All versions derive these, so that devices need not be provisioned again.
         assertThat(secret.apiKey("weeding")).isEqualTo("F49lKHQxb5Oi2OVXvRUbeD");
     }
 
     @Test
-    void givesEachMissionDeviceUseAndGenerationItsOwn() {
+    void derivesDifferentCredentialsPerMissionDeviceUseAndGeneration() {
         assertThat(new String[] {
                     secret.apiKey("a"),
                     secret.apiKey("b"),
@@ -49,15 +49,15 @@ class FarmSecretTest {
     }
 
     @Test
-    void namesUsersInANameSpaceOfItsOwn() {
+    void prefixesItsUsers() {
         assertThat(secret.device("a", "urn:ngsi-ld:T:1").user()).isEqualTo("furrow.d.a.urn%3Angsi-ld%3AT%3A1.1.0");
         assertThat(secret.device("a", "t 1.x*", 12).user()).isEqualTo("furrow.d.a.t%201%2Ex%2A.1.12");
         assertThat(secret.gateway("agent").user()).isEqualTo("furrow.m.agent.1");
     }
 
-    /** Names that somebody made up so that they meet: seen as parts, dots and numbers belong to them. */
+    /** Tests names designed to collide, with separators, dots and numbers in their parts. */
     @Test
-    void namesNoTwoUsersAlike() {
+    void givesNoTwoLoginsTheSameUser() {
         long seed = System.nanoTime();
         Random random = new Random(seed);
         List<String> parts = List.of("a", ".", "1", "%2E", "d", "m", ":", "+", " ", "ü", "/", "#");
@@ -100,7 +100,7 @@ class FarmSecretTest {
     }
 
     @Test
-    void namesUsersAlikeInEveryLanguage() {
+    void namesUsersTheSameInAllLocales() {
         Locale usual = Locale.getDefault();
         Locale.setDefault(Locale.forLanguageTag("ar-EG"));
         try {
@@ -112,20 +112,20 @@ class FarmSecretTest {
     }
 
     @Test
-    void refusesASecretThatIsTooShort() {
+    void rejectsAShortSecret() {
         assertThatThrownBy(() -> new FarmSecret(bytes("plough")))
                 .isInstanceOf(IllegalArgumentException.class)
                 .hasMessageContainingAll("at least 16 bytes, this one 6", "./furrow secret new");
     }
 
     @Test
-    void makesAnotherSecretEachTime() {
+    void generatesAnotherSecretEachTime() {
         assertThat(FarmSecret.generate().fingerprint())
                 .isNotEqualTo(FarmSecret.generate().fingerprint());
     }
 
     @Test
-    void acceptsTheOldPasswordsUntilTheirTimeAndKeepsTheApiKeys() {
+    void acceptsOldPasswordsUntilTheirExpiryAndKeepsTheApiKeys() {
         FarmSecret rotated = secret.rotated(NOW, LATER, false);
 
         assertThat(rotated.apiKey("a")).isEqualTo(secret.apiKey("a"));
@@ -141,7 +141,7 @@ class FarmSecretTest {
     }
 
     @Test
-    void leavesOutKeysWhoseTimeIsOverButTheOneThatMakesApiKeys() {
+    void dropsExpiredKeysExceptThatOfApiKeys() {
         FarmSecret third = secret.rotated(NOW, LATER, false).rotated(LATER, LATER.plusSeconds(9), false);
         FarmSecret fourth = third.rotated(LATER.plusSeconds(9), LATER.plusSeconds(20), false);
 
@@ -151,7 +151,7 @@ class FarmSecretTest {
     }
 
     @Test
-    void knowsTheApiKeysThatItMadeBefore() {
+    void recognizesItsEarlierApiKeys() {
         FarmSecret other = secret.rotated(NOW, NOW, true);
 
         assertThat(other.apiKey("a")).isNotEqualTo(secret.apiKey("a"));

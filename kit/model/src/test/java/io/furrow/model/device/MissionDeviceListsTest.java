@@ -20,7 +20,7 @@ class MissionDeviceListsTest {
     private final MissionDeviceLists lists = new MissionDeviceLists();
 
     @Test
-    void givesADeviceTheSettingsOfItsGroup() throws Exception {
+    void resolvesTheSettingsOfTheGroup() throws Exception {
         take(0, 7, "['urn:own',{'type':'Camera','count':2,'area':'field-1','period':'PT5S','speed':null}]");
         take(1, 8, "[{'type':'Robot','path':[[1,2]]}]");
 
@@ -30,9 +30,9 @@ class MissionDeviceListsTest {
         assertThat(settings(new GroupRef(0, 9, 0, 7))).contains("{}");
     }
 
-    /** The record of the device may come before that of the part, and may be older than the part. */
+    /** The record of the device may arrive before that of the part, and may be older. */
     @Test
-    void knowsNothingOfAPartOfAnotherSequence() throws Exception {
+    void resolvesNothingFromAPartOfAnotherSequence() throws Exception {
         assertThat(settings(new GroupRef(0, 0, 0, 7))).isEmpty();
         take(0, 7, "[{'type':'Camera','area':'a'}]");
         assertThat(settings(new GroupRef(0, 0, 0, 7))).isPresent();
@@ -44,13 +44,13 @@ class MissionDeviceListsTest {
     }
 
     @Test
-    void leavesADeviceAloneThatHasSettingsItself() throws Exception {
+    void keepsTheSettingsOfADeviceThatContainsThem() throws Exception {
         DesiredDevice device = device(null);
         assertThat(lists.resolve(device)).containsSame(device);
     }
 
     @Test
-    void isReadAsItWasWritten() throws Exception {
+    void readsBackAPart() throws Exception {
         ArrayNode devices = (ArrayNode) json("['urn:own']");
         MissionDeviceList list = new MissionDeviceList("m", 3, 9, devices);
         assertThat(list.key()).isEqualTo("m.3");

@@ -19,7 +19,7 @@ class SecretFingerprintsTest {
     private final FarmSecret second = first.rotated(NOW, NOW.plusSeconds(60), false);
 
     @Test
-    void tellsAnEarlierAndALaterSecretOfAFarmFromAnother() {
+    void distinguishesOlderAndNewerSecretsFromOthers() {
         assertThat(relation(first, first)).isEqualTo(Relation.SAME);
         assertThat(relation(second, first)).isEqualTo(Relation.NEWER);
         assertThat(relation(first, second)).isEqualTo(Relation.OLDER);
@@ -27,9 +27,9 @@ class SecretFingerprintsTest {
         assertThat(relation(first.rotated(NOW, NOW, true), first)).isEqualTo(Relation.NEWER);
     }
 
-    /** Who rotates two copies of a file has two secrets. */
+    /** Two rotations of copies of a file produce two secrets. */
     @Test
-    void tellsTwoRotationsOfOneSecretApart() {
+    void distinguishesTwoRotationsOfOneSecret() {
         FarmSecret twin = first.rotated(NOW, NOW.plusSeconds(60), false);
 
         assertThat(relation(twin, second)).isEqualTo(Relation.ANOTHER);
@@ -37,7 +37,7 @@ class SecretFingerprintsTest {
     }
 
     @Test
-    void doesNotKnowASecretThatSharesNoKey() {
+    void rejectsASecretWithoutASharedKey() {
         FarmSecret unrelated = new FarmSecret(
                 List.of(new FarmKey(7, "0123456789abcdef", null)), new FarmKey(7, "0123456789abcdef", null));
 
@@ -45,7 +45,7 @@ class SecretFingerprintsTest {
     }
 
     @Test
-    void staysTheSameWhereAKeyIsLeftOutWhoseTimeIsOver() {
+    void staysTheSameWithoutAnExpiredKey() {
         FarmSecret third = second.rotated(NOW, NOW, true);
         FarmSecret without = new FarmSecret(third.keys().subList(0, 1), third.apiKeys());
 
@@ -53,7 +53,7 @@ class SecretFingerprintsTest {
     }
 
     @Test
-    void isReadAsItIsWrittenAndHoldsNoKey() throws Exception {
+    void readsBackARecordThatContainsNoKey() throws Exception {
         SecretFingerprints fingerprints = SecretFingerprints.of(second);
         String json = new String(fingerprints.toBytes(), UTF_8);
 

@@ -9,7 +9,7 @@ import static org.assertj.core.api.Assertions.entry;
 
 class DeadLetterTest {
     @Test
-    void saysWhyByWhomAndWhere() {
+    void describesReasonStageAndSource() {
         assertThat(new DeadLetter(Reason.NOT_AN_ENTITY, "no id", "ingest", "data.raw-0@7").headers())
                 .containsExactly(
                         entry("dead-reason", "not-an-entity"),
@@ -19,19 +19,19 @@ class DeadLetterTest {
     }
 
     @Test
-    void shortensASentenceThatQuotesMegabytes() {
+    void truncatesLongMessages() {
         DeadLetter letter = new DeadLetter(Reason.NOT_AN_ENTITY, "attribute '" + "x".repeat(8_000_000), "ingest", "");
 
         assertThat(letter.message()).hasSize(500).startsWith("attribute 'xxx").endsWith("…");
     }
 
     @Test
-    void fallsBackOnTheReasonWhereThereIsNoSentence() {
+    void usesTheReasonWithoutAMessage() {
         assertThat(new DeadLetter(Reason.REFUSED, null, "sink", "").headers()).containsEntry("dead-message", "refused");
     }
 
     @Test
-    void quotesHalfASurrogatePairAsUnknown() {
+    void replacesHalvesOfSurrogatePairs() {
         String cut = "x".repeat(498) + "\ud83d\ude9c and more";
 
         assertThat(new DeadLetter(Reason.NOT_JSON, "a\ud83db", "stage", "s\udc00")

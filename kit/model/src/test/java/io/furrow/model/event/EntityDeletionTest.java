@@ -28,7 +28,7 @@ class EntityDeletionTest {
     }
 
     @Test
-    void hasTheTimeThatTheContextBrokerTells() throws Exception {
+    void hasTheTimeThatTheContextBrokerReports() throws Exception {
         Entity deleted = entity(
                 "{\"type\": \"Notification\", \"data\": [{\"id\": \"a\", \"type\": \"T\", \"deletedAt\": \"2026-11-21T11:59:00Z\"}]}");
 
@@ -37,7 +37,7 @@ class EntityDeletionTest {
     }
 
     @Test
-    void hasTheTimeOfItsReceiptWhereTheBrokersClockIsTooFarAhead() throws Exception {
+    void hasTheTimeOfItsReceiptIfTheBrokersClockIsAhead() throws Exception {
         Entity deleted = entity(
                 "{\"type\": \"Notification\", \"data\": [{\"id\": \"a\", \"type\": \"T\", \"deletedAt\": \"2027-11-21T11:59:00Z\"}]}");
 
@@ -45,7 +45,7 @@ class EntityDeletionTest {
     }
 
     @Test
-    void isNotMistakenForAChange() throws Exception {
+    void isDistinctFromAChange() throws Exception {
         assertThat(entity("{\"id\": \"a\", \"alterationType\": {\"value\": \"entityChange\"}}")
                         .isDeleted())
                 .isFalse();
@@ -67,7 +67,7 @@ class EntityDeletionTest {
     }
 
     @Test
-    void hasAnIdThatNoChangeHas() throws Exception {
+    void hasAnIdDifferentFromThatOfAnyChange() throws Exception {
         Entity deleted = entity("{\"id\": \"a\", \"alterationType\": \"entityDelete\"}");
 
         assertThat(deletion(deleted).id())

@@ -15,7 +15,7 @@ class EntityEventTest {
     private static final Instant RECEIVED = Instant.parse("2026-11-21T01:10:00.250Z");
 
     @Test
-    void carriesTheHeadersOfTheContract() {
+    void hasTheHeadersOfTheContract() {
         var entity =
                 Entity.builder("a", "T").integer("Time", 1_795_223_399_000L).build();
         EntityEvent event = EntityEvent.of(
@@ -45,7 +45,7 @@ class EntityEventTest {
     }
 
     @Test
-    void hasTheSameIdOnASecondReceiptWhereTheBrokerToldATime() throws Exception {
+    void hasTheSameIdOnASecondReceiptWithATimeOfTheBroker() throws Exception {
         Entity entity = Entity.parse(
                 "{\"id\":\"a\",\"x\":{\"value\":1},\"dateModified\":{\"value\":\"2026-11-21T01:09:00Z\"}}".getBytes());
 
@@ -53,9 +53,9 @@ class EntityEventTest {
                 .isEqualTo(received(entity, RECEIVED).id());
     }
 
-    /** A measure of yesterday, sent today, in an entity that reported its place in between. */
+    /** A measure of yesterday is sent today, in an entity that reported its position in between. */
     @Test
-    void namesTheAttributesThatAreOfALaterTime() throws Exception {
+    void namesTheLaterAttributes() throws Exception {
         Entity entity = Entity.parse("""
                 {"id": "a", "type": "T", "TimeInstant": {"value": "2026-11-20T01:00:00.000Z"},
                  "temp": {"value": 5, "metadata": {"TimeInstant": {"value": "2026-11-20T01:00:00.000Z"}}},
@@ -66,7 +66,7 @@ class EntityEventTest {
                 .containsEntry(HeaderNames.LATER_ATTRIBUTES, "Latitude,Longitude");
     }
 
-    /** The agent stamps with the time of arrival where the device has an attribute of its own for the time. */
+    /** The agent stamps with the time of arrival if the device has its own attribute for the time. */
     @Test
     void comparesTheAttributesWithTheTimeInstantOfTheEntity() throws Exception {
         Entity entity = Entity.parse("""

@@ -13,7 +13,7 @@ import io.furrow.model.ngsi.UnreadableException;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Which copies of a change share an id: one test for each row of the table in {@code docs/topics.md}. */
+/** Tests which copies of a change share an id, with one test for each row of the table in {@code docs/topics.md}. */
 class EventCopiesTest {
     private static final EventTimeRule RULE = EventTimeRule.within(Duration.ofMinutes(5));
     private static final FiwareScope SCOPE = FiwareScope.of("farm", "/");
@@ -25,7 +25,7 @@ class EventCopiesTest {
     private static final String MODIFIED_NEXT = "'dateModified':'2026-03-01T08:00:02.250Z'";
 
     @Test
-    void areOneWhereANotificationIsDeliveredTwice() throws Exception {
+    void shareAnIdIfANotificationIsDeliveredTwice() throws Exception {
         String valve = valve("on", MEASURED, MODIFIED);
         assertThat(id(valve, Origin.NOTIFICATION, FIRST)).isEqualTo(id(valve, Origin.NOTIFICATION, LATER));
         String undated = valve("on", MEASURED);
@@ -33,20 +33,20 @@ class EventCopiesTest {
     }
 
     @Test
-    void areOneOverHttpAndNativeKafka() throws Exception {
+    void shareAnIdOverHttpAndNativeKafka() throws Exception {
         for (String valve : List.of(valve("on", MEASURED, MODIFIED), valve("on", MEASURED), valve("on", MODIFIED))) {
             assertThat(id(valve, Origin.NOTIFICATION, FIRST)).isEqualTo(id(valve, Origin.KAFKA, LATER));
         }
     }
 
     @Test
-    void areOneWhereTheRepairReadsWhatWasToldWithDateModified() throws Exception {
+    void shareAnIdIfARepairReadsANotificationWithDateModified() throws Exception {
         String valve = valve("on", MEASURED, MODIFIED);
         assertThat(id(valve, Origin.REPAIR, LATER)).isEqualTo(id(valve, Origin.NOTIFICATION, FIRST));
     }
 
     @Test
-    void areOneInWhateverFormTheyCome() throws Exception {
+    void shareAnIdInAllRepresentations() throws Exception {
         String normalized = "{'id':'v','type':'Valve','state':{'type':'Text','value':'on','metadata':{}},"
                 + "'dateModified':{'type':'DateTime','value':'2026-03-01T08:00:01.250Z','metadata':{}}}";
         assertThat(id(normalized, Origin.NOTIFICATION, FIRST))
@@ -54,25 +54,25 @@ class EventCopiesTest {
     }
 
     @Test
-    void areSeveralWhereOnlyOneSubscriptionAsksForDateModified() throws Exception {
+    void differIfOnlyOneSubscriptionRequestsDateModified() throws Exception {
         assertThat(id(valve("on", MEASURED, MODIFIED), Origin.NOTIFICATION, FIRST))
                 .isNotEqualTo(id(valve("on", MEASURED), Origin.NOTIFICATION, FIRST));
     }
 
     @Test
-    void areSeveralWhereSubscriptionsTellOtherAttributes() throws Exception {
+    void differIfSubscriptionsReportOtherAttributes() throws Exception {
         assertThat(id(valve("on", MODIFIED), Origin.NOTIFICATION, FIRST))
                 .isNotEqualTo(id(valve("on", MODIFIED, "'pressure':3"), Origin.NOTIFICATION, FIRST));
     }
 
     @Test
-    void areSeveralWithoutAnyTimeOfTheirOwn() throws Exception {
+    void differWithoutAnyTimeOfTheirOwn() throws Exception {
         assertThat(id(valve("on"), Origin.NOTIFICATION, FIRST)).isNotEqualTo(id(valve("on"), Origin.KAFKA, LATER));
     }
 
-    /** A change back to an earlier value is another event, though the device measured nothing between. */
+    /** A change back to an earlier value is another event, even without a measure of the device between. */
     @Test
-    void areNoCopiesWhereSomethingIsTurnedOnOffAndOnAgain() throws Exception {
+    void differIfSomethingIsTurnedOnOffAndOnAgain() throws Exception {
         for (Origin origin : List.of(Origin.NOTIFICATION, Origin.KAFKA, Origin.REPAIR)) {
             assertThat(List.of(
                             id(valve("on", MEASURED, MODIFIED), origin, FIRST),
@@ -83,13 +83,13 @@ class EventCopiesTest {
     }
 
     @Test
-    void areTakenForCopiesWhereNothingTellsThemApart() throws Exception {
+    void shareAnIdIfNothingDistinguishesThem() throws Exception {
         assertThat(id(valve("on", MEASURED), Origin.NOTIFICATION, FIRST))
                 .isEqualTo(id(valve("on", MEASURED), Origin.NOTIFICATION, LATER));
     }
 
     @Test
-    void areNoCopiesWhereADeviceMeasuresTheSameTwice() throws Exception {
+    void differIfADeviceMeasuresTheSameTwice() throws Exception {
         assertThat(id(valve("on", MODIFIED), Origin.NOTIFICATION, FIRST))
                 .isNotEqualTo(id(valve("on", MODIFIED_NEXT), Origin.NOTIFICATION, FIRST));
     }

@@ -23,7 +23,7 @@ class EventIdTest {
     private static final FiwareScope SCOPE = FiwareScope.of("agri", "/plot1");
 
     @Test
-    void staysWhatItIsFromReleaseToRelease() throws Exception {
+    void staysTheSameInAllReleases() throws Exception {
         assertThat(id("{\"id\":\"a\",\"x\":1,\"y\":[null,true,{\"z\":\"t\"}]}"))
                 .isEqualTo("3a28f96ce5b8ff3c8901b7b73ed1723e");
     }
@@ -38,13 +38,13 @@ class EventIdTest {
                 "{\"id\":\"a\",\"x\":18,\"y\":\"t\",\"dateModified\":\"never\",\"dateCreated\":1}",
                 "{\"id\":\"a\",\"x\":18,\"y\":\"t\",\"servicePath\":\"/b\",\"alterationType\":1,\"dateExpires\":1}"
             })
-    void ignoresWhatDiffersBetweenNotificationsOfOneChange(String body) throws Exception {
+    void ignoresDifferencesBetweenNotificationsOfOneChange(String body) throws Exception {
         assertThat(id(body)).isEqualTo(id("{\"id\":\"a\",\"x\":18,\"y\":\"t\"}"));
     }
 
     @ParameterizedTest
     @ValueSource(strings = {"create", "patch", "forced"})
-    void isTheSameInEveryFormOfOneChange(String cause) throws Exception {
+    void isTheSameInAllRepresentationsOfOneChange(String cause) throws Exception {
         List<String> forms = List.of("normalized", "keyValues", "simplifiedNormalized", "simplifiedKeyValues");
 
         assertThat(forms.stream().map(form -> id(RecordedNotification.named(cause + "/" + form))))
@@ -85,7 +85,7 @@ class EventIdTest {
                 .doesNotHaveDuplicates();
     }
 
-    /** What one program computes from numbers another computes from the JSON that the first wrote. */
+    /** One program computes the id from numbers, another from the JSON that the first has written. */
     @ParameterizedTest
     @ValueSource(
             doubles = {
@@ -117,7 +117,7 @@ class EventIdTest {
                 .isEqualTo(EventId.of(SCOPE, Entity.parse(built.toBytes()), TIME));
     }
 
-    /** Pairs that an encoding without lengths, counts or kinds would take for one. */
+    /** These pairs would have the same encoding without lengths, counts or kinds. */
     @Test
     void differsForEveryValue() throws Exception {
         Map<String, String> seen = new HashMap<>();

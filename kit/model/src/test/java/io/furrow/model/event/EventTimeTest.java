@@ -18,9 +18,9 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class EventTimeTest {
     private static final Instant RECEIVED = Instant.parse("2026-11-21T01:10:00Z");
 
-    /** Of a PATCH without a time, as the context broker tells it: metadata TimeInstant is that of the measure before. */
+    /** A PATCH without a time, as the context broker reports it: metadata TimeInstant is that of the measure before. */
     @Test
-    void isThatOfTheNewestAttributeWhereTheDeviceTellsNone() throws Exception {
+    void isThatOfTheNewestAttributeWithoutATimeOfTheDevice() throws Exception {
         String state = """
                 {"id": "a", "type": "T", "dateModified": {"value": "2026-11-21T01:09:00.000Z"},
                  "x": {"value": 1, "metadata": {"dateModified": {"value": "2026-11-21T01:05:00.000Z"}}},
@@ -33,7 +33,7 @@ class EventTimeTest {
     }
 
     @Test
-    void isTheBrokersWhereTheRuleSaysSo() throws Exception {
+    void isTheBrokersIfTheRuleSaysSo() throws Exception {
         String state = """
                 {"id": "a", "TimeInstant": {"value": "2026-11-21T01:01:00.000Z"},
                  "dateModified": {"value": "2026-11-21T01:09:00.000Z"}}""";
@@ -42,7 +42,7 @@ class EventTimeTest {
     }
 
     @Test
-    void refusesAnOrderThatIsNone() {
+    void rejectsInvalidOrders() {
         for (String order : List.of("", "clock", "device,device")) {
             assertThatThrownBy(() -> EventTimeRule.of(List.of(order.split(",")), Duration.ZERO))
                     .isInstanceOf(IllegalArgumentException.class);

@@ -27,7 +27,7 @@ class FiwareScopeTest {
     }
 
     @Test
-    void isFoundInTheIdentitiesOfItsEntities() {
+    void isReadFromTheIdentitiesOfItsEntities() {
         for (FiwareScope scope : List.of(
                 FiwareScope.DEFAULT,
                 new FiwareScope("agri", "/p"),

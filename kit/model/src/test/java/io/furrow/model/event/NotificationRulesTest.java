@@ -50,7 +50,7 @@ class NotificationRulesTest {
         assertThat(record.fault()).isNull();
     }
 
-    /** Unreadable entities have a place, too. */
+    /** Unreadable entities have a position, too. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
             /      | {'id':'a'},{'id':'b'}                                  | / /
@@ -86,7 +86,7 @@ class NotificationRulesTest {
     }
 
     @Test
-    void saysWhoseClockIsTooFarAhead() {
+    void reportsAClockThatIsTooFarAhead() {
         assertThat(record(reported(10)).fault()).isNull();
         assertThat(record(reported(600)).fault()).isEqualTo(EventTime.Fault.AHEAD);
         assertThat(record(reported(600)).time()).isEqualTo(NOW);
@@ -102,7 +102,7 @@ class NotificationRulesTest {
     }
 
     @Test
-    void namesTheSubscriptionOrItself() throws UnreadableException {
+    void namesTheSubscriptionOrTheSource() throws UnreadableException {
         assertThat(RULES.source(notification("{\"subscriptionId\": \"5f1\", \"data\": []}")))
                 .isEqualTo("/ngsi/5f1");
         assertThat(RULES.source(notification("{\"subscriptionId\": \"a b\", \"data\": []}")))

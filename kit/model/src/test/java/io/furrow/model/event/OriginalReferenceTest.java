@@ -25,7 +25,7 @@ class OriginalReferenceTest {
     @ParameterizedTest
     @NullSource
     @ValueSource(strings = {"", "data.raw", "data.raw-0", "data.raw@1", "-0@1", "data.raw-0@9999999999999999999"})
-    void isNowhereWhereTheHeaderNamesNoPlace(String position) {
+    void isEmptyForAnInvalidHeader(String position) {
         assertThat(OriginalReference.of(position, "1")).isEmpty();
     }
 }

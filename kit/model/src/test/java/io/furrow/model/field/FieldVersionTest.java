@@ -37,13 +37,13 @@ class FieldVersionTest {
     }
 
     @Test
-    void hasAKeyOfItsIdAndTheTimeFromWhichItHolds() throws Exception {
+    void hasAKeyOfItsIdAndItsTime() throws Exception {
         assertThat(read(golden("north")).key()).isEqualTo("north@2026-03-01T00:00:00.250Z");
         assertThat(read(golden("ended")).key()).isEqualTo("7@1970-01-01T00:00:00.000Z");
     }
 
     @Test
-    void knowsAKeyInHoweverItsTimeIsWritten() throws Exception {
+    void parsesAKeyWithAnyFormatOfTime() throws Exception {
         assertThat(FieldVersion.Key.parse("a@b@2026-03-01T00:00:00.250Z")).hasToString("a@b@2026-03-01T00:00:00.250Z");
         assertThat(FieldVersion.Key.parse("north@2026-03-01T00:00:00Z")).hasToString("north@2026-03-01T00:00:00.000Z");
         assertThat(FieldVersion.Key.parse("north@2026-03-01T01:00:00+01:00"))
@@ -52,14 +52,14 @@ class FieldVersionTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"", "north", "@2026-03-01T00:00:00Z", "north@", "north@spring", "north@1700000000000"})
-    void refusesAKeyThatNamesNoVersion(String key) {
+    void rejectsInvalidKeys(String key) {
         assertThatThrownBy(() -> FieldVersion.Key.parse(key))
                 .isInstanceOfSatisfying(
                         UnreadableException.class, e -> assertThat(e.reason()).isEqualTo(Reason.NOT_AN_EVENT));
     }
 
     @Test
-    void tellsWhatPeopleCallItAndToWhomItBelongs() throws Exception {
+    void readsItsNameAndDomain() throws Exception {
         FieldVersion north = read(golden("north"));
         FieldVersion ended = read(golden("ended"));
 
@@ -72,7 +72,7 @@ class FieldVersionTest {
     }
 
     @Test
-    void takesAnIdThatIsAWholeNumberAndAnyOffsetOfTime() throws Exception {
+    void acceptsWholeNumbersAsIdsAndAnyOffsetOfTime() throws Exception {
         FieldVersion version = read(
                 "{'type':'Feature','id':7,'geometry':null,'properties':{'validFrom':'2026-03-01T02:00:00.25+02:00'}}");
 
@@ -97,11 +97,11 @@ class FieldVersionTest {
             {'type':'Feature','id':'f','geometry':{'type':'Point'},'properties':{'validFrom':'T'}} | NOT_AN_EVENT | Polygon
             {'type':'Feature','id':'f','geometry':[],'properties':{'validFrom':'T'}} | NOT_AN_EVENT | Polygon
             """)
-    void refusesWhatIsNoField(String json, Reason reason, String why) {
+    void rejectsInvalidFields(String json, Reason reason, String message) {
         assertThatThrownBy(() -> read(json.replace("'T'", "'2026-03-01T00:00:00Z'")))
                 .isInstanceOfSatisfying(
                         UnreadableException.class, e -> assertThat(e.reason()).isEqualTo(reason))
-                .hasMessageContaining(why.replace("''", ""));
+                .hasMessageContaining(message.replace("''", ""));
     }
 
     private static FieldVersion read(String json) throws UnreadableException {

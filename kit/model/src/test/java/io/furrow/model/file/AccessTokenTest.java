@@ -25,7 +25,7 @@ class AccessTokenTest {
     private final List<String> warnings = new ArrayList<>();
 
     @Test
-    void sendsTheTokenThatTheFileHoldsNow() throws Exception {
+    void sendsTheCurrentTokenOfTheFile() throws Exception {
         Path file = Files.writeString(directory.resolve("token"), "Bearer first \nsecond\n");
         AccessToken token = AccessToken.of(file, "Authorization", warnings::add);
         assertThat(headers(token)).containsExactly(Map.entry("Authorization", "Bearer first"));
@@ -43,7 +43,7 @@ class AccessTokenTest {
     }
 
     @Test
-    void sendsNothingWithoutOneAndUsesTheHeaderOfWilmaUnlessAnotherIsNamed() throws Exception {
+    void sendsNothingWithoutATokenAndUsesTheHeaderOfWilmaByDefault() throws Exception {
         assertThat(headers(AccessToken.NONE)).isEmpty();
         Path file = Files.writeString(directory.resolve("token"), "abc");
         assertThat(headers(AccessToken.of(file, null, warnings::add)))
@@ -52,7 +52,7 @@ class AccessTokenTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"", "\nabc", "ü", "a\tb"})
-    void refusesAFileWithoutAToken(String text) throws Exception {
+    void rejectsAFileWithoutAToken(String text) throws Exception {
         Path file = Files.writeString(directory.resolve("token"), text);
 
         assertThatThrownBy(() -> AccessToken.of(file, null, warnings::add))
@@ -62,7 +62,7 @@ class AccessTokenTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"", "Host", "a b", "X:Y"})
-    void refusesAHeaderThatCannotCarryOne(String header) throws Exception {
+    void rejectsAnInvalidHeader(String header) throws Exception {
         Path file = Files.writeString(directory.resolve("token"), "abc");
 
         assertThatThrownBy(() -> AccessToken.of(file, header, warnings::add))

@@ -14,7 +14,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class PrivateFileTest {
     @Test
-    void createsAFileForItsOwnerAndOverwritesNone(@TempDir Path folder) throws IOException {
+    void createsAFileForItsOwnerAndNeverOverwrites(@TempDir Path folder) throws IOException {
         Path file = folder.resolve("file");
 
         PrivateFile.create(file, "one");
@@ -39,7 +39,7 @@ class PrivateFileTest {
     }
 
     @Test
-    void tellsOfAFileThatOthersMayRead(@TempDir Path folder) throws IOException {
+    void warnsOfAFileThatOthersMayRead(@TempDir Path folder) throws IOException {
         Path file = Files.writeString(folder.resolve("file"), "one");
         Files.setPosixFilePermissions(file, PosixFilePermissions.fromString("rw-r-----"));
         assertThat(PrivateFile.exposure(file)).isEmpty();

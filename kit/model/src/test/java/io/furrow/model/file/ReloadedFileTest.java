@@ -23,7 +23,7 @@ class ReloadedFileTest {
     private final List<String> warnings = new ArrayList<>();
     private Path file;
     private int reads;
-    private boolean away;
+    private boolean unavailable;
 
     @BeforeEach
     void write() throws IOException {
@@ -31,7 +31,7 @@ class ReloadedFileTest {
     }
 
     @Test
-    void readsAFileAgainOnlyWhenItChanged() throws IOException {
+    void readsAFileAgainOnlyAfterAChange() throws IOException {
         ReloadedFile<String> reloaded = open();
         assertThat(reloaded.get()).isEqualTo("one");
         assertThat(reloaded.get()).isEqualTo("one");
@@ -42,9 +42,9 @@ class ReloadedFileTest {
         assertThat(reloaded.get()).isEqualTo("three");
     }
 
-    /** As an editor and Kubernetes replace a file: the same size, the same time, another file. */
+    /** Editors and Kubernetes replace a file by another one of the same size and time. */
     @Test
-    void seesAFileThatTookThePlaceOfAnother() throws IOException {
+    void detectsAReplacedFile() throws IOException {
         FileTime time = Files.getLastModifiedTime(file);
         Path link = Files.createSymbolicLink(folder.resolve("link"), file);
         ReloadedFile<String> reloaded =
@@ -59,7 +59,7 @@ class ReloadedFileTest {
     }
 
     @Test
-    void keepsTheLastGoodContentSaysWhyOnceAndRecovers() throws IOException {
+    void keepsTheLastValidContentWarnsOnceAndRecovers() throws IOException {
         ReloadedFile<String> reloaded = open();
         Files.writeString(file, "bad");
 
@@ -78,21 +78,21 @@ class ReloadedFileTest {
         assertThat(warnings).hasSize(2);
     }
 
-    /** What a source needs besides the file may be unavailable when the file changes. */
+    /** A source may need more than the file, which may be unavailable when the file changes. */
     @Test
-    void triesAgainThoughTheFileDoesNotChangeAnyMore() throws IOException {
+    void retriesWithoutAFurtherChangeOfTheFile() throws IOException {
         ReloadedFile<String> reloaded = open();
         Files.writeString(file, "two");
-        away = true;
+        unavailable = true;
         assertThat(reloaded.get()).isEqualTo("one");
 
-        away = false;
+        unavailable = false;
 
         assertThat(reloaded.get()).isEqualTo("two");
     }
 
     @Test
-    void doesNotOpenAFileThatCannotBeUsed() throws IOException {
+    void doesNotOpenAnInvalidFile() throws IOException {
         Files.writeString(file, "bad");
 
         assertThatThrownBy(this::open).isInstanceOf(IOException.class).hasMessage(file + " is bad");
@@ -105,7 +105,7 @@ class ReloadedFileTest {
     private String read() throws IOException {
         reads++;
         String text = Files.readString(file);
-        if (away || text.equals("bad")) {
+        if (unavailable || text.equals("bad")) {
             throw new IOException(file + " is bad");
         }
         return text;

@@ -13,7 +13,7 @@ import static org.assertj.core.api.Assertions.assertThatIllegalArgumentException
 
 class EntityTest {
     @Test
-    void comesBackFromItsBytes() throws Exception {
+    void readsBackItsBytes() throws Exception {
         Entity entity = Entity.builder("urn:ngsi-ld:Thermometer:1", "Thermometer")
                 .text("Location", "dehesa Ñ 🚜")
                 .number("Temperature", 21.5)
@@ -33,7 +33,7 @@ class EntityTest {
     }
 
     @Test
-    void hasNoValueWhereItIsNullOrMissing() throws Exception {
+    void hasNoValueIfItIsNullOrMissing() throws Exception {
         Entity entity =
                 parse("{\"id\":\"a\",\"none\":{\"value\":null},\"blank\":{\"value\":\" \"},\"x\":{\"value\":1}}");
 
@@ -47,14 +47,14 @@ class EntityTest {
     }
 
     @Test
-    void isAThingWhereNoTypeWasReported() throws Exception {
+    void isAThingWithoutAType() throws Exception {
         assertThat(parse("{\"id\":\"a\"}").type()).isEqualTo("Thing");
         assertThat(parse("{\"id\":\"a\",\"type\":\"Robot\"}").type()).isEqualTo("Robot");
     }
 
     @ParameterizedTest
     @ValueSource(strings = {"a b", "urn:ngsi-ld:Ñandú:1", "X"})
-    void takesAnyTextForAnId(String id) throws Exception {
+    void acceptsAnyTextAsAnId(String id) throws Exception {
         String longId = id.repeat(300);
 
         assertThat(parse("{\"id\":\"" + id + "\"}").id()).isEqualTo(id);
@@ -86,7 +86,7 @@ class EntityTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"id", "type"})
-    void refusesAnAttributeThatWouldReplaceTheIdOrType(String name) {
+    void rejectsAnAttributeNamedIdOrType(String name) {
         assertThatIllegalArgumentException()
                 .isThrownBy(() -> Entity.builder("a", "T").text(name, "b"))
                 .withMessageContaining("'" + name + "'");
@@ -94,7 +94,7 @@ class EntityTest {
 
     @ParameterizedTest
     @ValueSource(doubles = {Double.NaN, Double.POSITIVE_INFINITY, Double.NEGATIVE_INFINITY})
-    void refusesANumberThatJsonHasNoFormFor(double number) {
+    void rejectsNumbersThatJsonCannotExpress(double number) {
         assertThatIllegalArgumentException()
                 .isThrownBy(() -> Entity.builder("a", "T").number("x", number))
                 .withMessageContaining("x is not finite");

@@ -27,11 +27,11 @@ class JsonProblemTest {
             {'a':1,'a':2}    | duplicate field 'a' at line 1, column 11
             temperature=21   | unrecognized token 'temperature': was expecting (JSON String, Number, Array, Object or token 'null', 'true' or 'false') at line 1, column 1
             """)
-    void saysWhereItEndsOrIsBroken(String json, String words) {
+    void describesWhereTheInputEndsOrIsInvalid(String json, String words) {
         assertThatThrownBy(() -> NgsiJson.read(bytes(json.replace('¶', '\n')))).hasMessage(words);
     }
 
-    /** Each form that a lenient reader would take. */
+    /** Input that a lenient reader would accept. */
     @ParameterizedTest
     @ValueSource(
             strings = {
@@ -40,7 +40,7 @@ class JsonProblemTest {
                 "#x", "//x", "['\t']", "['\\x']", "['\\u12']", "[1}", "{'a' 1}", "{1:2}", "[1e]", "tru", "]", "'",
                         "[9999999999e9999999999]"
             })
-    void hasNoWordsOfALibrary(String json) {
+    void containsNoWordsOfALibrary(String json) {
         assertThatThrownBy(() -> NgsiJson.read(bytes(json)))
                 .hasMessageNotContainingAny("Feature", "fasterxml", "`", "Source", "Exception")
                 .message()
@@ -48,7 +48,7 @@ class JsonProblemTest {
     }
 
     @Test
-    void takesAByteOrderMarkInFilesOnly() throws Exception {
+    void acceptsAByteOrderMarkInFilesOnly() throws Exception {
         assertThatThrownBy(() -> NgsiJson.read(bytes("\ufeff{'a':1}")))
                 .hasMessage("the text begins with a byte order mark (EF BB BF); send it without");
         assertThat(NgsiJson.readFile(bytes("\ufeff{'a':1}"))).hasToString("{\"a\":1}");
@@ -61,12 +61,13 @@ class JsonProblemTest {
     }
 
     @Test
-    void namesTheMemberThatIsOfAnotherTypeRatherThanAClass() {
+    void namesTheMemberOfAnotherTypeInsteadOfAClass() {
         assertThatThrownBy(() -> DeviceConnection.read(bytes("{'refusedLogin':{'count':[]}}")))
                 .hasMessage(
-                        "no record of a device's connection: member 'refusedLogin.count' is not what it must be at line 1, column 26");
+                        "not a record of a device's connection: member 'refusedLogin.count' is not what it must be at line 1, column 26");
         assertThatThrownBy(() -> DeviceConnection.read(bytes("[]")))
-                .hasMessage("no record of a device's connection: the value is not what it must be at line 1, column 1");
+                .hasMessage(
+                        "not a record of a device's connection: the value is not what it must be at line 1, column 1");
     }
 
     private static byte[] bytes(String json) {

@@ -18,13 +18,17 @@ import static org.assertj.core.api.Assertions.assertThatCode;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 /**
- * JSONTestSuite (Nicolas Seriot, MIT), all 318 documents of {@code test_parsing}: {@code y_} must be accepted, {@code n_} must
- * be refused, {@code i_} is ours to decide, and {@code parsing-decided.txt} lists those that are accepted.
+ * Runs JSONTestSuite (Nicolas Seriot, MIT) with all 318 documents of {@code test_parsing}: {@code y_} must be accepted,
+ * {@code n_} must be rejected, and {@code parsing-decided.txt} lists the accepted ones of {@code i_}, which are
+ * implementation-defined.
  */
 public class JsonTestSuiteTest {
     private static final Path SUITE = Path.of("src/test/resources/json-test-suite");
 
-    /** RFC 8259 says that names SHOULD be unique; which of two values holds cannot be known, so here they MUST. */
+    /**
+     * RFC 8259 says that names SHOULD be unique; here they MUST be, because it is undefined which of two values is
+     * valid.
+     */
     private static final Set<String> REFUSED_ALL_THE_SAME =
             Set.of("y_object_duplicated_key", "y_object_duplicated_key_and_value");
 
@@ -36,8 +40,8 @@ public class JsonTestSuiteTest {
     }
 
     @ParameterizedTest
-    @MethodSource("refused")
-    void refuses(Case each) {
+    @MethodSource("rejected")
+    void rejects(Case each) {
         assertThatThrownBy(() -> NgsiJson.read(each.document)).isInstanceOf(UnreadableException.class);
         assertThatThrownBy(() -> Notification.read(each.document, null)).isInstanceOf(UnreadableException.class);
     }
@@ -52,7 +56,7 @@ public class JsonTestSuiteTest {
 
     @ParameterizedTest
     @MethodSource("mustBeAccepted")
-    void carriesItAsTheValueOfAnAttribute(Case each) {
+    void acceptsItAsTheValueOfAnAttribute(Case each) {
         String document = new String(each.document, UTF_8);
         byte[] body = ("{\"id\": \"a\", \"x\": {\"value\": " + document + "}}").getBytes(UTF_8);
 
@@ -64,7 +68,7 @@ public class JsonTestSuiteTest {
     @Test
     void hasEveryDocument() throws Exception {
         assertThat(cases()).hasSize(318);
-        assertThat(Stream.concat(refused(), accepted())).hasSize(318);
+        assertThat(Stream.concat(rejected(), accepted())).hasSize(318);
     }
 
     static Stream<Case> accepted() throws Exception {
@@ -77,7 +81,7 @@ public class JsonTestSuiteTest {
         return accepted().filter(each -> each.name.startsWith("y_"));
     }
 
-    static Stream<Case> refused() throws Exception {
+    static Stream<Case> rejected() throws Exception {
         Set<String> accepted = accepted().map(Case::name).collect(java.util.stream.Collectors.toSet());
         return cases().filter(each -> !accepted.contains(each.name));
     }

@@ -5,7 +5,10 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Random;
 
-/** Entities with everything that devices, brokers and robots write, and much that none should; mostly well-formed. */
+/**
+ * Generates entities with everything that devices, brokers and robots write, and much that they should not; mostly
+ * well-formed.
+ */
 public record MadeUpEntities(Random random) {
     private static final String[] NAMES = {
         "location", "Latitude", "Longitude", "gnss", "pose", "temperature", "Mission", "TimeInstant",
@@ -117,7 +120,7 @@ public record MadeUpEntities(Random random) {
         return "[" + String.join(",", all) + "]";
     }
 
-    /** Around the deepest nesting that is taken. */
+    /** Returns a nesting around the limit. */
     private String deep() {
         int depth = 55 + random.nextInt(12);
         return "[".repeat(depth) + "]".repeat(depth);

@@ -18,7 +18,10 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.fail;
 
-/** Recorded notifications, broken at random: either unreadable, or an entity that every accessor and reader can take. */
+/**
+ * Checks that recorded notifications, mutated at random, are either unreadable or entities that every accessor and
+ * reader accepts.
+ */
 @Timeout(60)
 class MutatedNotificationsTest {
     private static final long SEED = 20261121;
@@ -32,7 +35,7 @@ class MutatedNotificationsTest {
     private final Mutations mutations = new Mutations(random);
 
     @Test
-    void areUnreadableOrFitForEverything() {
+    void areUnreadableOrAcceptedByAllReaders() {
         List<RecordedNotification> recorded = RecordedNotification.all();
         int read = 0;
         int unreadable = 0;
@@ -52,8 +55,8 @@ class MutatedNotificationsTest {
                 fail("seed %d round %d header %s body %s", SEED, round, header, new String(body, UTF_8), e);
             }
         }
-        assertThat(read).as("entities that could be read").isGreaterThan(ROUNDS / 5);
-        assertThat(unreadable).as("bodies that could not").isGreaterThan(ROUNDS / 5);
+        assertThat(read).as("readable entities").isGreaterThan(ROUNDS / 5);
+        assertThat(unreadable).as("unreadable bodies").isGreaterThan(ROUNDS / 5);
     }
 
     private static void use(Entity entity) throws UnreadableException {

@@ -6,7 +6,7 @@ import java.util.Random;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** Breaks JSON at random: values and names become others, the end is cut off, a byte is replaced. */
+/** Mutates JSON at random: replaces values, names or bytes, or truncates it. */
 public record Mutations(Random random) {
     private static final String[] SPLICES = {
         "null", "{}", "[]",
@@ -39,7 +39,7 @@ public record Mutations(Random random) {
         return bytes;
     }
 
-    /** A value (what follows a colon up to the next sign of structure) becomes another. */
+    /** Replaces a value, which follows a colon up to the next structural character. */
     private String replaceValue(String text) {
         List<Integer> colons = new ArrayList<>();
         for (int at = text.indexOf("\":"); at >= 0; at = text.indexOf("\":", at + 1)) {

@@ -28,14 +28,14 @@ class NgsiJsonTest {
         "496E66696E697479, Infinity", "3031, a leading zero", "7B2761273A317D, single quotes",
         "7B2261223A312C2261223A317D, a name twice", "2209220A, a tab inside a text"
     })
-    void refusesWhatIsNotJson(String hex, String what) {
+    void rejectsInvalidJson(String hex, String what) {
         byte[] bytes = HexFormat.of().parseHex(hex);
 
         assertThat(unreadable(bytes).reason()).as(what).isEqualTo(Reason.NOT_JSON);
     }
 
     @Test
-    void takesNestingUpToTheLimitAndNoDeeper() throws Exception {
+    void acceptsNestingUpToTheLimit() throws Exception {
         assertThat(NgsiJson.read(nested(NgsiJson.MAX_NESTING)).isArray()).isTrue();
         assertThat(unreadable(nested(NgsiJson.MAX_NESTING + 1)).reason()).isEqualTo(Reason.TOO_DEEP);
         assertThat(unreadable("[".repeat(100_000).getBytes(UTF_8)).reason()).isEqualTo(Reason.TOO_DEEP);
@@ -44,7 +44,7 @@ class NgsiJsonTest {
     }
 
     @Test
-    void takesTextsUpToEightMebibytesAndNoLonger() throws Exception {
+    void acceptsTextsUpToEightMebibytes() throws Exception {
         String longest = "x".repeat(NgsiJson.MAX_STRING);
 
         assertThat(NgsiJson.read(quoted(longest)).textValue()).isEqualTo(longest);
@@ -53,7 +53,7 @@ class NgsiJsonTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"1e9999999999", "1e-9999999999", "1e99999999999999999999", "LONG", "0.LONG"})
-    void refusesNumbersThatNoNumberTypeHolds(String number) {
+    void rejectsNumbersBeyondAllNumberTypes(String number) {
         byte[] json = number.replace("LONG", "9".repeat(1001)).getBytes(UTF_8);
 
         assertThat(unreadable(json).reason()).isEqualTo(Reason.TOO_DEEP);
@@ -75,7 +75,7 @@ class NgsiJsonTest {
                 "1000e2147483647", "1e2147483647", "1e1001",
                 "1e-1002"
             })
-    void refusesAnEntityWithANumberThatWouldFillTheMemory(String number) {
+    void rejectsAnEntityWithANumberThatWouldFillTheMemory(String number) {
         String entity = "{\"id\":\"a\",\"x\":{\"value\":[{\"y\":" + number + "}]}}";
 
         assertTimeout(
@@ -95,18 +95,18 @@ class NgsiJsonTest {
                 "{\"id\":\"a\",\"x\":{\"value\":[\"\\udc00\\ud800\"]}}",
                 "{\"id\":\"a\",\"type\":\"b\\ud83d\"}"
             })
-    void refusesAnEntityWithHalfACharacter(String entity) throws Exception {
+    void rejectsAnEntityWithHalfACharacter(String entity) throws Exception {
         assertThatThrownBy(() -> Entity.parse(entity.getBytes(UTF_8)))
                 .isInstanceOf(UnreadableException.class)
                 .hasMessageContaining("surrogate");
 
-        String whole = "{\"id\":\"\\ud83d\\ude9c\"}";
-        assertThat(Entity.parse(whole.getBytes(UTF_8)).id()).isEqualTo("🚜");
+        String pair = "{\"id\":\"\\ud83d\\ude9c\"}";
+        assertThat(Entity.parse(pair.getBytes(UTF_8)).id()).isEqualTo("🚜");
     }
 
-    /** The normalized form of a bare entity is one deeper than its key-value form. */
+    /** The normalized form of a bare entity has one more level than its key-value form. */
     @Test
-    void readsAgainWhateverItTookAsKeyValues() throws Exception {
+    void readsBackAllAcceptedKeyValues() throws Exception {
         Entity deepest = bare(NgsiJson.MAX_NESTING - 2);
 
         assertThat(Entity.parse(deepest.toBytes())).isEqualTo(deepest);

@@ -16,7 +16,7 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class NgsiLdTest {
-    /** One line of {@code ngsi-ld.jsonl}: an entity as an NGSI-LD broker reports it, and what it is here. */
+    /** A line of {@code ngsi-ld.jsonl}: an entity as an NGSI-LD broker reports it, and the expected result. */
     record Case(String name, JsonNode reported, JsonNode entity) {
         @Override
         public String toString() {
@@ -52,7 +52,7 @@ class NgsiLdTest {
                 .satisfies(entity -> assertThat(entity.json().toString()).isEqualTo(each.entity.toString()));
     }
 
-    /** The order of a list says nothing. */
+    /** The order of a list is irrelevant. */
     @ParameterizedTest
     @CsvSource(
             delimiter = '|',
@@ -64,7 +64,7 @@ class NgsiLdTest {
                 "{'type':'Property','value':3,'datasetId':'urn:d','observedAt':'2026-11-26T12:40:00Z'},{'value':1,'observedAt':'2026-11-26T12:33:00Z'},{'value':2,'observedAt':'2026-11-26T12:30:00Z'}|1|2026-11-26T12:40:00Z",
                 "{'type':'Property','value':3},{'type':'Property','value':2}|2|"
             })
-    void takesTheNewestOfSeveralInstances(String instances, String value, String time) throws Exception {
+    void selectsTheNewestOfSeveralInstances(String instances, String value, String time) throws Exception {
         Entity entity = NgsiLdEntity.read(json("{'id':'a','type':'T','@context':'c','t':[%s]}"
                 .formatted(instances)
                 .replace('\'', '"')));
@@ -75,7 +75,7 @@ class NgsiLdTest {
 
     @ParameterizedTest
     @MethodSource("cases")
-    void whatItReadsIsAnEntityToEveryLaterReader(Case each) throws Exception {
+    void readsEntitiesThatAllLaterReadersAccept(Case each) throws Exception {
         Entity entity = NgsiLdEntity.read(each.reported);
 
         assertThat(Entity.parse(entity.toBytes())).isEqualTo(entity);
@@ -100,7 +100,7 @@ class NgsiLdTest {
         "2026-05-01T10:00:00Z, 2026-05-01T11:30:00+02:00",
         "2026-05-01T10:00:00Z, yesterday"
     })
-    void isAsNewAsItsNewestObservationInWhicheverForm(String newest, String other) throws Exception {
+    void hasTheTimeOfItsNewestObservationInAllFormats(String newest, String other) throws Exception {
         for (List<String> times : List.of(List.of(newest, other), List.of(other, newest))) {
             Entity entity = read("""
                     {"id": "a", "type": "T", "@context": [], "t": {"value": 1, "observedAt": "%s"},
@@ -116,13 +116,13 @@ class NgsiLdTest {
                 "{\"id\": \"a\", \"type\": \"T\", \"@context\": [], \"t\": {\"value\": 1, \"observedAt\": \"2026-11-21T00:00:00Z\"}}",
                 "{\"id\": \"a\", \"type\": \"T\", \"r\": {\"type\": \"Relationship\", \"object\": \"b\"}}"
             })
-    void tellsABareEntityFromItsShape(String body) throws Exception {
+    void detectsABareEntityByItsShape(String body) throws Exception {
         assertThat(read(body).entities().get(0).json().findValue("metadata")).isNotNull();
         assertThat(read(body).entities().get(0).json().has("@context")).isFalse();
     }
 
     @Test
-    void leavesAnNgsiV2EntityWithTypesOfNgsiLdAsItIs() throws Exception {
+    void keepsAnNgsiV2EntityWithTypesOfNgsiLd() throws Exception {
         String body =
                 "{\"id\":\"a\",\"type\":\"Notification\",\"r\":{\"type\":\"Relationship\",\"value\":\"b\",\"metadata\":{}},"
                         + "\"p\":{\"type\":\"Property\",\"value\":1,\"metadata\":{}}}";
@@ -131,7 +131,7 @@ class NgsiLdTest {
     }
 
     @Test
-    void setsAsideTheOneThatCannotBeRead() throws Exception {
+    void rejectsOnlyTheUnreadableEntity() throws Exception {
         Notification notification = read("""
                 {"type": "Notification", "data": [{"id": "a", "type": "T"}, {"type": "T"}, 7, {"id": "b", "type": 3}]}""");
 

@@ -31,7 +31,7 @@ class NotificationTest {
 
     @ParameterizedTest
     @MethodSource("named")
-    void readsWhatOrionSent(RecordedNotification recorded) throws Exception {
+    void readsNotificationsOfOrion(RecordedNotification recorded) throws Exception {
         Notification notification = Notification.read(recorded.body(), recorded.attrsFormat());
 
         assertThat(notification.rejected()).isEmpty();
@@ -40,13 +40,13 @@ class NotificationTest {
 
     @ParameterizedTest
     @MethodSource("named")
-    void tellsTheFormFromTheShapeWithoutAHeader(RecordedNotification recorded) throws Exception {
+    void detectsTheRepresentationWithoutAHeader(RecordedNotification recorded) throws Exception {
         assertThat(Notification.read(recorded.body(), null).entities()).containsExactly(golden(recorded));
     }
 
     @ParameterizedTest
     @MethodSource("named")
-    void namesTheSubscriptionWhereTheFormDoes(RecordedNotification recorded) throws Exception {
+    void namesTheSubscriptionIfTheRepresentationDoes(RecordedNotification recorded) throws Exception {
         boolean bare = recorded.attrsFormat().startsWith("simplified");
 
         assertThat(Notification.read(recorded.body(), recorded.attrsFormat()).subscriptionId())
@@ -56,12 +56,12 @@ class NotificationTest {
 
     @ParameterizedTest
     @MethodSource("nameless")
-    void refusesTheFormThatNamesNoAttributes(RecordedNotification recorded) {
+    void rejectsTheRepresentationWithoutAttributeNames(RecordedNotification recorded) {
         for (String header : new String[] {"values", null}) {
-            UnreadableException refused = unreadable(new String(recorded.body(), UTF_8), header);
+            UnreadableException rejection = unreadable(new String(recorded.body(), UTF_8), header);
 
-            assertThat(refused.reason()).isEqualTo(Reason.UNSUPPORTED_FORM);
-            assertThat(refused).hasMessageContainingAll("attrsFormat", "normalized");
+            assertThat(rejection.reason()).isEqualTo(Reason.UNSUPPORTED_FORM);
+            assertThat(rejection).hasMessageContainingAll("attrsFormat", "normalized");
         }
     }
 
@@ -71,11 +71,11 @@ class NotificationTest {
                    | {"contextResponses":[{"contextElement":{"id":"a"}}]}
             legacy | {"subscriptionId":"5f1","contextResponses":[]}
             """)
-    void refusesTheFormOfNgsiV1(String header, String body) {
-        UnreadableException refused = unreadable(body, header);
+    void rejectsTheRepresentationOfNgsiV1(String header, String body) {
+        UnreadableException rejection = unreadable(body, header);
 
-        assertThat(refused.reason()).isEqualTo(Reason.UNSUPPORTED_FORM);
-        assertThat(refused).hasMessageContainingAll("NGSIv1", "set the subscription's attrsFormat to normalized");
+        assertThat(rejection.reason()).isEqualTo(Reason.UNSUPPORTED_FORM);
+        assertThat(rejection).hasMessageContainingAll("NGSIv1", "set the subscription's attrsFormat to normalized");
     }
 
     @ParameterizedTest
@@ -94,7 +94,7 @@ class NotificationTest {
     }
 
     @Test
-    void keepsAnObjectWithAMemberNamedValueWholeInKeyValues() throws Exception {
+    void keepsAnObjectWithAMemberNamedValueInKeyValues() throws Exception {
         String body = "{\"id\":\"a\",\"speed\":{\"value\":3,\"type\":\"Number\"}}";
 
         Entity keyValues = only(body, "simplifiedKeyValues");
@@ -105,27 +105,27 @@ class NotificationTest {
     }
 
     @Test
-    void takesAnObjectWithAMemberThatNoAttributeHasForAValue() throws Exception {
+    void readsAnObjectWithAnUnknownMemberAsAValue() throws Exception {
         Entity entity = only("{\"id\":\"a\",\"speed\":{\"value\":3,\"unit\":\"m/s\"}}", null);
 
         assertThat(entity.value("speed").orElseThrow()).isEqualTo(json("{\"value\":3,\"unit\":\"m/s\"}"));
     }
 
     @Test
-    void isUnreadableAsAWholeWhereTooManyEntitiesAre() throws Exception {
+    void isUnreadableWithTooManyUnreadableEntities() throws Exception {
         String many = "0,".repeat(Notification.MAX_REJECTED - 1);
 
         assertThat(Notification.read(bytes("{\"data\":[" + many + "0]}"), null).rejected())
                 .hasSize(Notification.MAX_REJECTED);
-        UnreadableException refused = unreadable("{\"data\":[" + many + "0,{\"id\":\"a\"},0]}", null);
+        UnreadableException rejection = unreadable("{\"data\":[" + many + "0,{\"id\":\"a\"},0]}", null);
 
-        assertThat(refused.reason()).isEqualTo(Reason.NOT_AN_ENTITY);
-        assertThat(refused).hasMessageContaining("more than " + Notification.MAX_REJECTED);
-        assertThat(refused.getStackTrace()).isEmpty();
+        assertThat(rejection.reason()).isEqualTo(Reason.NOT_AN_ENTITY);
+        assertThat(rejection).hasMessageContaining("more than " + Notification.MAX_REJECTED);
+        assertThat(rejection.getStackTrace()).isEmpty();
     }
 
     @Test
-    void readsTheRestWhereOneEntityCannotBeRead() throws Exception {
+    void readsTheOtherEntitiesBesideAnUnreadableOne() throws Exception {
         String body = "{\"data\":[{\"id\":\"a\"},{\"id\":7},3,{\"id\":\"b\",\"type\":3},[],{\"id\":\"c\"}]}";
 
         Notification notification = Notification.read(bytes(body), "keyValues");
@@ -146,7 +146,7 @@ class NotificationTest {
         "null, None", "[1], StructuredValue", "{}, StructuredValue",
         "'{\"type\":\"Point\",\"coordinates\":[1,2]}', geo:json"
     })
-    void givesAnAttributeWithoutATypeTheOneThatTheContextBrokerWould(String value, String type) throws Exception {
+    void assignsTheTypeOfTheContextBrokerToAnAttributeWithoutOne(String value, String type) throws Exception {
         String expected = "{\"type\":\"" + type + "\",\"value\":" + value + ",\"metadata\":{}}";
 
         assertThat(only("{\"id\":\"a\",\"x\":" + value + "}", "simplifiedKeyValues")
@@ -162,7 +162,7 @@ class NotificationTest {
     @ParameterizedTest
     @NullSource
     @ValueSource(strings = {"normalized", "keyValues", "simplifiedNormalized", "simplifiedKeyValues", "legacy"})
-    void refusesWhatHoldsNoEntity(String header) {
+    void rejectsBodiesWithoutAnEntity(String header) {
         for (String body : List.of("[]", "3", "null", "{}", "{\"id\":\" \"}", "{\"id\":\"a\",\"type\":3}")) {
             assertThat(unreadable(body, header).reason()).as(body).isEqualTo(Reason.NOT_AN_ENTITY);
         }
@@ -170,7 +170,7 @@ class NotificationTest {
     }
 
     @Test
-    void refusesANormalizedAttributeWithoutAValue() {
+    void rejectsANormalizedAttributeWithoutAValue() {
         assertThatThrownBy(
                         () -> Notification.read(bytes("{\"id\":\"a\",\"x\":{\"type\":\"T\"}}"), "simplifiedNormalized"))
                 .isInstanceOf(UnreadableException.class)

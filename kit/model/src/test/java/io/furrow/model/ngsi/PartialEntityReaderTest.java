@@ -25,7 +25,7 @@ class PartialEntityReaderTest {
             """;
 
     @Test
-    void holdsIdTypeAndTheDesiredAttributesAsTheWholeEntityDoes() throws UnreadableException {
+    void hasIdTypeAndTheDesiredAttributesOfTheWholeEntity() throws UnreadableException {
         Entity whole = Entity.parse(bytes(CAMERA));
         Entity excerpt = Entity.parse(bytes(CAMERA), Set.of("Mission", "location", "absent"));
 
@@ -52,14 +52,14 @@ class PartialEntityReaderTest {
                 "`{\"id\":7}`                                        | not-an-entity",
                 "`{\"id\":\"c\",\"Mission\":{\"type\":\"x\"}}`       | not-an-entity"
             })
-    void refusesWhatIsNoEntity(String body, String reason) {
+    void rejectsInvalidEntities(String body, String reason) {
         assertThatExceptionOfType(UnreadableException.class)
                 .isThrownBy(() -> Entity.parse(bytes(body), Set.of("Mission")))
                 .satisfies(refusal -> assertThat(refusal.reason().code()).isEqualTo(reason));
     }
 
     @Test
-    void refusesWhatIsNestedTooDeepInAnAttributeThatNobodyWants() {
+    void rejectsTooDeepNestingInASkippedAttribute() {
         String deep = "{\"id\":\"c\",\"x\":{\"value\":" + "[".repeat(100) + "]".repeat(100) + "}}";
 
         assertThatExceptionOfType(UnreadableException.class)
@@ -90,7 +90,7 @@ class PartialEntityReaderTest {
 
     @ParameterizedTest(name = "{index}") // the text may have megabytes
     @MethodSource("attributes")
-    void refusesInAnAttributeThatNobodyWantsWhatAReadingOfAllRefuses(String attribute) {
+    void rejectsInASkippedAttributeWhatAWholeReadRejects(String attribute) {
         byte[] entity = bytes("{\"id\":\"c\",\"x\":" + attribute + "}");
 
         assertThat(refusal(() -> Entity.parse(entity, Set.of("Mission"))))
@@ -98,14 +98,14 @@ class PartialEntityReaderTest {
     }
 
     @Test
-    void refusesWhatWasDamagedAtRandomWhereAReadingOfAllDoes() {
+    void rejectsRandomDamageLikeAWholeRead() {
         long seed = System.nanoTime();
         Random random = new Random(seed);
-        byte[] signs = bytes("{}[]\":,\\u0d8eE-1 \u00e9");
+        byte[] characters = bytes("{}[]\":,\\u0d8eE-1 \u00e9");
         for (int i = 0; i < 20_000; i++) {
             byte[] damaged = bytes(CAMERA);
             for (int changes = 1 + random.nextInt(2); changes > 0; changes--) {
-                damaged[random.nextInt(damaged.length)] = signs[random.nextInt(signs.length)];
+                damaged[random.nextInt(damaged.length)] = characters[random.nextInt(characters.length)];
             }
 
             String whole = refusal(() -> Entity.parse(damaged));
@@ -115,7 +115,7 @@ class PartialEntityReaderTest {
         }
     }
 
-    /** Its reason; empty if there is none. */
+    /** Returns the reason; empty if there is none. */
     private static String refusal(NgsiJson.Reading<Entity> reading) {
         try {
             reading.read();

@@ -11,7 +11,7 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
-/** The page of the dashboard is held to the same table. */
+/** The tests of the dashboard's page use the same table. */
 class QuantityTest {
     @ParameterizedTest
     @CsvFileSource(resources = "quantities.csv", delimiter = '|', quoteCharacter = '\u0001')

@@ -10,7 +10,7 @@ import java.util.stream.Stream;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
- * A request that a context broker (Orion 4.7) sent, as it came over the wire; the files under {@code orion/}.
+ * A request of a context broker (Orion 4.7), recorded from the wire; the files under {@code orion/}.
  *
  * @param name {@code <cause>/<form>}: an entity was created, patched, or sent by {@code forcedUpdate}
  */

@@ -19,7 +19,7 @@ class SlicedEntityTest {
             """;
 
     @Test
-    void holdsWhatIsNormalizedAsItWasReported() throws UnreadableException {
+    void keepsNormalizedAttributesAsReported() throws UnreadableException {
         Map<String, String> attributes = jsonByName(SlicedEntity.parse(bytes(STATION)));
 
         assertThat(attributes)
@@ -31,7 +31,7 @@ class SlicedEntityTest {
     }
 
     @Test
-    void composesWhatIsNot() throws UnreadableException {
+    void normalizesOtherAttributes() throws UnreadableException {
         assertThat(jsonByName(SlicedEntity.parse(bytes(STATION))))
                 .containsEntry(
                         "Rain",
@@ -40,15 +40,15 @@ class SlicedEntityTest {
     }
 
     @Test
-    void readsAndRefusesAsTheWholeEntityIs() throws UnreadableException {
+    void readsAndRejectsLikeTheWholeEntity() throws UnreadableException {
         long seed = System.nanoTime();
         Random random = new Random(seed);
-        byte[] signs = bytes("{}[]\":,\\u0d8eE-1 ");
+        byte[] characters = bytes("{}[]\":,\\u0d8eE-1 ");
         int read = 0;
         for (int i = 0; i < 20_000; i++) {
             byte[] damaged = bytes(STATION);
             for (int changes = 1 + random.nextInt(2); changes > 0; changes--) {
-                damaged[random.nextInt(damaged.length)] = signs[random.nextInt(signs.length)];
+                damaged[random.nextInt(damaged.length)] = characters[random.nextInt(characters.length)];
             }
             String round = "seed %d, round %d: %s".formatted(seed, i, new String(damaged, UTF_8));
 

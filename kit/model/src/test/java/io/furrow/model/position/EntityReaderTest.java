@@ -29,7 +29,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatIllegalArgumentException;
 import static org.assertj.core.api.Assertions.fail;
 
-/** Whatever comes, the reader of tokens answers as the reader of trees: {@link Entity#parse}, {@link PositionReading#of}. */
+/**
+ * Checks that the token reader returns the same as the tree reader: {@link Entity#parse}, {@link PositionReading#of}.
+ */
 class EntityReaderTest {
     private static final long SEED = 20261121;
     private static final Set<String> WANTED = Set.of("temperature", "Mission", "TimeInstant", "Time", "speed", "id");
@@ -37,7 +39,7 @@ class EntityReaderTest {
     private final EntityReader reader = new EntityReader(WANTED);
     private int byTokens;
 
-    /** All that a job can ask of an entity, or why it cannot be read. */
+    /** Returns all that a job may read from an entity, or why it is unreadable. */
     private record Answer(
             String id, String type, PositionReading position, List<Object> attributes, Reason reason, String message) {}
 
@@ -58,7 +60,7 @@ class EntityReaderTest {
         for (int round = 0; round < 4000; round++) {
             compare(mutations.of(recorded.get(random.nextInt(recorded.size())).toBytes()));
         }
-        assertThat(byTokens).as("not all of it was left to trees").isGreaterThan(1000);
+        assertThat(byTokens).as("entities read without a tree").isGreaterThan(1000);
     }
 
     @Test
@@ -67,7 +69,7 @@ class EntityReaderTest {
         for (int round = 0; round < 20_000; round++) {
             compare(bytes(entities.next()));
         }
-        assertThat(byTokens).as("not all of it was left to trees").isGreaterThan(8_000);
+        assertThat(byTokens).as("entities read without a tree").isGreaterThan(8_000);
     }
 
     @ParameterizedTest
@@ -101,7 +103,7 @@ class EntityReaderTest {
     }
 
     @Test
-    void forgetsTheEntityBefore() throws Exception {
+    void clearsThePreviousEntity() throws Exception {
         reader.read(bytes("{\"id\":\"a\",\"type\":\"Robot\",\"Latitude\":{\"value\":40},\"speed\":{\"value\":\"3\"}}"));
         assertThat(reader.number("speed")).isEqualTo(3);
 
@@ -114,7 +116,7 @@ class EntityReaderTest {
     }
 
     @Test
-    void refusesToTellWhatItWasNotAskedToRead() throws Exception {
+    void rejectsAttributesThatWereNotRequested() throws Exception {
         reader.read(bytes("{\"id\":\"a\"}"));
         assertThatIllegalArgumentException()
                 .isThrownBy(() -> reader.has("Image"))
@@ -122,7 +124,7 @@ class EntityReaderTest {
     }
 
     @Test
-    void findsNamesThatComeTwiceAmongManyMembers() {
+    void detectsDuplicateNamesAmongManyMembers() {
         for (int members : new int[] {2, 31, 32, 33, 34, 200}) {
             StringBuilder entity = new StringBuilder("{\"id\":\"a\"");
             for (int i = 0; i < members; i++) {
@@ -142,7 +144,7 @@ class EntityReaderTest {
         }
     }
 
-    /** Of every form that names its attributes. */
+    /** Returns entities of all representations that name their attributes. */
     private static List<Entity> recordedEntities() throws UnreadableException {
         List<Entity> entities = new ArrayList<>();
         for (RecordedNotification recorded : RecordedNotification.all()) {

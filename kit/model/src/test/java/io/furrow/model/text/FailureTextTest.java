@@ -12,14 +12,14 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class FailureTextTest {
     @Test
-    void namesNoClass() {
+    void containsNoClassNames() {
         assertThat(FailureText.of(new ExecutionException(new IOException("Topic x not present"))))
                 .isEqualTo("Topic x not present");
         assertThat(FailureText.of(new IllegalStateException(new ConnectException())))
                 .isEqualTo("connection refused");
-        ConnectException refused = new ConnectException(); // as the JDK's client has it
-        refused.initCause(new ClosedChannelException());
-        assertThat(FailureText.of(refused)).isEqualTo("connection refused");
+        ConnectException refusedConnection = new ConnectException(); // as the JDK's client throws it
+        refusedConnection.initCause(new ClosedChannelException());
+        assertThat(FailureText.of(refusedConnection)).isEqualTo("connection refused");
         assertThat(FailureText.of(new ClosedChannelException())).isEqualTo("closed channel");
         assertThat(FailureText.of(new UnknownHostException("farm.lan"))).isEqualTo("there is no host of this name");
         assertThat(FailureText.of(new IOException("java.util.concurrent.TimeoutException: too late at farm.lan:9092")))
@@ -42,7 +42,7 @@ class FailureTextTest {
     }
 
     @Test
-    void leavesOutTheStateOfADriver() {
+    void omitsTheStateOfADriver() {
         assertThat(
                         FailureText.of(
                                 new IOException(

@@ -19,7 +19,7 @@ class Utf8Test {
             bytes[0] = (byte) n;
             bytes[1] = (byte) (n >> 8);
             bytes[2] = (byte) (n >> 16);
-            assertThatItAgrees(bytes);
+            assertAgreement(bytes);
         }
     }
 
@@ -48,11 +48,11 @@ class Utf8Test {
             for (int i = 0; i < bytes.length; i++) {
                 bytes[i] = likely[random.nextInt(likely.length)];
             }
-            assertThatItAgrees(bytes);
+            assertAgreement(bytes);
         }
     }
 
-    private static void assertThatItAgrees(byte[] bytes) {
+    private static void assertAgreement(byte[] bytes) {
         boolean wrong = Utf8.firstWrong(bytes) >= 0;
         if (wrong == isUtf8(bytes)) {
             assertThat(wrong).as(java.util.HexFormat.of().formatHex(bytes)).isNotEqualTo(isUtf8(bytes));

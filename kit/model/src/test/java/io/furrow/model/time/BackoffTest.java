@@ -18,7 +18,7 @@ class BackoffTest {
     }
 
     @Test
-    void startsOverAfterASuccess() {
+    void restartsAfterASuccess() {
         Backoff backoff = new Backoff(Duration.ofMillis(200), Duration.ofSeconds(1));
         backoff.next();
         backoff.next();
@@ -38,7 +38,7 @@ class BackoffTest {
     }
 
     @Test
-    void rejectsARangeThatIsNone() {
+    void rejectsInvalidRanges() {
         assertThatIllegalArgumentException().isThrownBy(() -> new Backoff(Duration.ZERO, Duration.ofSeconds(1)));
         assertThatIllegalArgumentException()
                 .isThrownBy(() -> new Backoff(Duration.ofSeconds(2), Duration.ofSeconds(1)))

@@ -13,7 +13,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.fail;
 
-/** Against the formatter of the JDK, which reads the same form and more. */
+/** Compares with the formatter of the JDK, which reads the same format and more. */
 class IsoTimeTest {
     private static final long FIRST = Instant.parse("0000-01-02T00:00:00Z").getEpochSecond();
     private static final long LAST = Instant.parse("9999-12-30T23:59:59Z").getEpochSecond();
@@ -41,17 +41,17 @@ class IsoTimeTest {
     }
 
     @Test
-    void neverReadsWhatTheFormatterReadsOtherwise() {
+    void neverReadsATimeOtherThanTheFormatter() {
         int read = 0;
         for (int i = 0; i < 30_000; i++) {
             StringBuilder broken = new StringBuilder(time());
             for (int changes = 1 + random.nextInt(2); changes > 0; changes--) {
                 int at = random.nextInt(broken.length());
-                char sign = SIGNS.charAt(random.nextInt(SIGNS.length()));
+                char character = SIGNS.charAt(random.nextInt(SIGNS.length()));
                 switch (random.nextInt(4)) {
                     case 0 -> broken.deleteCharAt(at);
-                    case 1 -> broken.insert(at, sign);
-                    default -> broken.setCharAt(at, sign);
+                    case 1 -> broken.insert(at, character);
+                    default -> broken.setCharAt(at, character);
                 }
             }
             String text = broken.toString();
@@ -74,7 +74,7 @@ class IsoTimeTest {
                 "2026-01-01T00:00:00+1:00", "2026-01-01T00:00:00ZZ", "-2026-01-01T00:00:00Z",
                 "+02026-01-01T00:00:00Z"
             })
-    void leavesEverythingElseToTheFormatter(String text) {
+    void rejectsOtherFormats(String text) {
         assertThat(IsoTime.parse(text)).isEmpty();
     }
 

@@ -22,7 +22,7 @@ class TopicNameTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"canary", "Field_7", "a-b", "0", "realtime", "undead", "dead_", "_x", "x_h-"})
-    void leavesLegalNamesAsTheyAre(String name) {
+    void keepsLegalNames(String name) {
         assertThat(TopicName.of(name)).isEqualTo(name);
         assertThat(TopicName.isLegal(name)).isTrue();
     }
@@ -33,7 +33,7 @@ class TopicNameTest {
         "'a\n', _x-a-0A", "_x-a, _x--5Fx-2Da", "_h-a, _x--5Fh-2Da", "a_realtime, _x-a-5Frealtime",
         "dead, _x-dead", "un_dead, _x-un-5Fdead"
     })
-    void encodesTheOthers(String name, String expected) {
+    void encodesOtherNames(String name, String expected) {
         assertThat(TopicName.of(name)).isEqualTo(expected);
     }
 
@@ -44,27 +44,27 @@ class TopicNameTest {
                 "dead", "a_realtime_b", " ", "a-2Eb", "%",
                 "_x-field-2E7"
             })
-    void givesTheOriginalBack(String name) {
+    void decodesNames(String name) {
         assertThat(TopicName.original(TopicName.of(name))).contains(name);
     }
 
     @ParameterizedTest
     @ValueSource(strings = {"_x-a", "_x-field-2e7", "_x-a-", "_x-a-ZZ", "_h-00", "a.b", "dead"})
-    void givesNoOriginalOfWhatNoNameBecomes(String part) {
+    void decodesNothingThatIsNotAnEncoding(String part) {
         assertThat(TopicName.original(part)).isEmpty();
     }
 
     @Test
-    void hashesWhatWouldGrowTooLong() {
+    void hashesLongNames() {
         assertThat(TopicName.of("x".repeat(64))).isEqualTo("x".repeat(64));
         assertThat(TopicName.of("x".repeat(65))).isEqualTo("_x-" + "x".repeat(65));
         assertThat(TopicName.of("x".repeat(97))).hasSize(100);
         assertThat(TopicName.of("x".repeat(98))).matches("_h-[0-9a-f]{64}");
     }
 
-    /** Kafka's own rules for a topic: its alphabet, 249 signs, and no two that differ only in '.' and '_'. */
+    /** Kafka's rules for topics: its alphabet, 249 characters, and no two that differ only in '.' and '_'. */
     @Test
-    void givesNoTwoNamesATopicThatKafkaTakesForOne() {
+    void givesNoTwoNamesTopicsThatCollideInKafka() {
         Map<String, String> ownerOf = new HashMap<>();
         List<String> names = names();
         for (String domain : names) {

@@ -16,7 +16,7 @@ class TopicsTest {
         "data.replay.realtime, false, false,",
         "data.raw, false, false,"
     })
-    void theNameTellsAReplay(String topic, boolean isReplay, boolean isOfReplay, String replay) {
+    void detectsTopicsOfReplays(String topic, boolean isReplay, boolean isOfReplay, String replay) {
         assertThat(Topics.isReplay(topic)).isEqualTo(isReplay);
         assertThat(Topics.isOfReplay(topic)).isEqualTo(isOfReplay);
         assertThat(Topics.replayOf(topic)).isEqualTo(Optional.ofNullable(replay));
@@ -31,7 +31,7 @@ class TopicsTest {
         "data.hoeing.replay.0a1b2c3d, alarms, data.hoeing.replay.0a1b2c3d.alarms",
         "data.hoeing.replay.0a1b2c3d.collision, data.collision, data.collision"
     })
-    void whatIsFoundInAReplayStaysWithIt(String input, String output, String expected) {
+    void writesResultsOfAReplayToItsOwnTopics(String input, String output, String expected) {
         assertThat(Topics.resultOf(input, output)).isEqualTo(expected);
     }
 }

@@ -21,32 +21,32 @@ import io.furrow.mission.file.ArchiveLine;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * A mission's second place on any of Flink's file systems: {@code <root>/mission_<mission>/<day>-<nnnn>.ndjson.gz}, by the day
- * of the event time in UTC. Archiving again adds what has come since, in further files; nothing that is there is ever changed
- * or removed, so that documents may expire in MongoDB.
+ * Archives missions on any of Flink's file systems as {@code <root>/mission_<mission>/<day>-<nnnn>.ndjson.gz}, by the
+ * day of the event time in UTC. Archiving again adds new events in further files and never changes or removes a file,
+ * so that documents may expire in MongoDB.
  */
 public record MissionArchive(StoredMissions missions, Path root) {
     private static final int DIGITS = 4;
 
-    /** Where the files of a mission are. */
+    /** Returns the folder of a mission's files. */
     public Path folder(String mission) {
         return new Path(root, missions.collection(mission));
     }
 
     /**
-     * What was done.
+     * The result of archiving a mission.
      *
-     * @param files that are new
-     * @param added events that were not in the archive
-     * @param kept events that were
+     * @param files number of new files
+     * @param added number of new events
+     * @param kept number of events that were already archived
      */
     public record Outcome(int files, long added, long kept) {}
 
-    /** Brings what MongoDB holds of a mission into the archive. */
+    /** Adds the events of a mission in MongoDB to the archive. */
     public Outcome archive(String mission) throws IOException {
         Outcome all = new Outcome(0, 0, 0);
         try (StoredMissions.Events events = missions.events(mission)) {
-            Ahead stored = new Ahead(events);
+            PeekableEvents stored = new PeekableEvents(events);
             while (stored.event != null) {
                 Outcome day = archive(folder(mission), day(stored.event), stored);
                 all = new Outcome(all.files() + day.files(), all.added() + day.added(), all.kept() + day.kept());
@@ -57,7 +57,7 @@ public record MissionArchive(StoredMissions missions, Path root) {
         return all;
     }
 
-    private static Outcome archive(Path folder, LocalDate day, Ahead stored) throws IOException {
+    private static Outcome archive(Path folder, LocalDate day, PeekableEvents stored) throws IOException {
         List<Path> parts = MissionFiles.list(folder)
                 .filter(it -> it.getName().startsWith(day + "-"))
                 .toList();
@@ -70,14 +70,14 @@ public record MissionArchive(StoredMissions missions, Path root) {
                 open.add(reader);
                 lines.add(reader.lines().map(line -> read(part, line)).iterator());
             }
-            News news = new News(day, stored, new Ahead(EventOrder.merged(lines)));
-            if (!news.skipKnown()) {
-                return new Outcome(0, 0, news.known);
+            NewEvents newEvents = new NewEvents(day, stored, new PeekableEvents(EventOrder.merged(lines)));
+            if (!newEvents.skipArchived()) {
+                return new Outcome(0, 0, newEvents.existing);
             }
-            Path next =
-                    new Path(folder, String.format(Locale.ROOT, "%s-%0" + DIGITS + "d.ndjson.gz", day, after(parts)));
-            long added = MissionFiles.write(next, news::writeTo);
-            return new Outcome(1, added, news.known);
+            Path next = new Path(
+                    folder, String.format(Locale.ROOT, "%s-%0" + DIGITS + "d.ndjson.gz", day, nextNumber(parts)));
+            long added = MissionFiles.write(next, newEvents::writeTo);
+            return new Outcome(1, added, newEvents.existing);
         } finally {
             for (BufferedReader reader : open) {
                 reader.close();
@@ -85,8 +85,8 @@ public record MissionArchive(StoredMissions missions, Path root) {
         }
     }
 
-    /** The number after the last. */
-    private static int after(List<Path> parts) {
+    /** Returns the number of the next file. */
+    private static int nextNumber(List<Path> parts) {
         if (parts.isEmpty()) {
             return 1;
         }
@@ -108,13 +108,13 @@ public record MissionArchive(StoredMissions missions, Path root) {
         return LocalDate.ofInstant(Instant.ofEpochMilli(event.time()), ZoneOffset.UTC);
     }
 
-    /** An iterator whose next element can be looked at. */
-    private static final class Ahead {
+    /** An iterator with access to its next element. */
+    private static final class PeekableEvents {
         private final Iterator<StoredEvent> rest;
         /** Null at the end. */
         private StoredEvent event;
 
-        Ahead(Iterator<StoredEvent> rest) {
+        PeekableEvents(Iterator<StoredEvent> rest) {
             this.rest = rest;
             advance();
         }
@@ -124,21 +124,21 @@ public record MissionArchive(StoredMissions missions, Path root) {
         }
     }
 
-    /** What of a day is stored and not in the archive; both are in order. */
-    private static final class News {
+    /** Finds the stored events of a day that are not archived; both sequences are ordered. */
+    private static final class NewEvents {
         private final LocalDate day;
-        private final Ahead stored;
-        private final Ahead archived;
-        private long known;
+        private final PeekableEvents stored;
+        private final PeekableEvents archived;
+        private long existing;
 
-        News(LocalDate day, Ahead stored, Ahead archived) {
+        NewEvents(LocalDate day, PeekableEvents stored, PeekableEvents archived) {
             this.day = day;
             this.stored = stored;
             this.archived = archived;
         }
 
-        /** Continues to the next that is new; false if there is none on this day. */
-        boolean skipKnown() {
+        /** Continues to the next event that is not archived; false if there is none on this day. */
+        boolean skipArchived() {
             while (stored.event != null && day(stored.event).equals(day)) {
                 while (archived.event != null && EventOrder.COMPARATOR.compare(archived.event, stored.event) < 0) {
                     archived.advance();
@@ -146,7 +146,7 @@ public record MissionArchive(StoredMissions missions, Path root) {
                 if (archived.event == null || EventOrder.COMPARATOR.compare(archived.event, stored.event) != 0) {
                     return true;
                 }
-                known++;
+                existing++;
                 stored.advance();
             }
             return false;
@@ -154,7 +154,7 @@ public record MissionArchive(StoredMissions missions, Path root) {
 
         long writeTo(java.io.OutputStream out) throws IOException {
             long added = 0;
-            while (skipKnown()) {
+            while (skipArchived()) {
                 out.write(ArchiveLine.write(stored.event));
                 out.write('\n');
                 added++;

@@ -21,8 +21,8 @@ import org.apache.flink.core.fs.RecoverableFsDataOutputStream;
 import org.apache.flink.util.IOUtils;
 
 /**
- * Files of lines on any of Flink's file systems, compressed where the name ends in {@code .gz}. A file appears under its name
- * only when it is whole.
+ * Reads and writes files of lines on any of Flink's file systems, compressed if the name ends in {@code .gz}. A file
+ * appears under its name only when it is complete.
  */
 public final class MissionFiles {
     private static final int BUFFER = 64 * 1024;
@@ -30,19 +30,19 @@ public final class MissionFiles {
 
     private MissionFiles() {}
 
-    /** What writes a file. */
+    /** Writes the content of a file and returns the number of its lines. */
     public interface Content {
         long writeTo(OutputStream out) throws IOException;
     }
 
-    /** Reads a file, or every {@code .ndjson} and {@code .ndjson.gz} of a folder, into a mission. */
-    public static long importFrom(StoredMissions missions, String mission, Path path, LongConsumer told)
+    /** Imports a file, or every {@code .ndjson} and {@code .ndjson.gz} of a folder, into a mission. */
+    public static long importFrom(StoredMissions missions, String mission, Path path, LongConsumer progress)
             throws IOException, InterruptedException {
         long count = 0;
         for (Path file : filesOf(path)) {
             long before = count;
             try (InputStream in = open(file)) {
-                count += missions.importFrom(mission, in, file.toString(), more -> told.accept(before + more));
+                count += missions.importFrom(mission, in, file.toString(), more -> progress.accept(before + more));
             }
         }
         return count;
@@ -58,7 +58,7 @@ public final class MissionFiles {
                 .toList();
     }
 
-    /** What a folder holds, by name; nothing if there is no such folder. */
+    /** Returns the files of a folder, sorted by name; empty if the folder does not exist. */
     static Stream<Path> list(Path folder) throws IOException {
         FileSystem files = folder.getFileSystem();
         FileStatus[] found = files.exists(folder) ? files.listStatus(folder) : null;
@@ -72,16 +72,19 @@ public final class MissionFiles {
         return isCompressed(file) ? new GZIPInputStream(in, BUFFER) : in;
     }
 
-    /** Replaces what has the name; where a file cannot take another's place at once, that one goes just before. */
+    /**
+     * Writes a file, replacing an existing one. On file systems without an atomic replacement the existing file is
+     * deleted just before.
+     */
     public static long write(Path file, Content content) throws IOException {
         FileSystem files = file.getFileSystem();
         RecoverableFsDataOutputStream out = files.createRecoverableWriter().open(file);
-        boolean whole = false;
+        boolean complete = false;
         try {
             long count;
             try (OutputStream lines = isCompressed(file)
-                    ? new GZIPOutputStream(unclosed(out), BUFFER)
-                    : new BufferedOutputStream(unclosed(out))) {
+                    ? new GZIPOutputStream(withoutClose(out), BUFFER)
+                    : new BufferedOutputStream(withoutClose(out))) {
                 count = content.writeTo(lines);
             }
             RecoverableFsDataOutputStream.Committer finished = out.closeForCommit();
@@ -89,22 +92,22 @@ public final class MissionFiles {
                 files.delete(file, false);
             }
             finished.commit();
-            whole = true;
+            complete = true;
             return count;
         } finally {
-            if (!whole) {
-                IOUtils.closeQuietly(out); // once committed, S3 takes a second close for a fault
+            if (!complete) {
+                IOUtils.closeQuietly(out); // S3 rejects a second close after the commit
                 removeUnfinished(file);
             }
         }
     }
 
-    /** Whether a finished file takes the place of another by itself: in local folders, and where names are only keys. */
+    /** Returns whether a commit replaces an existing file: on local file systems and object stores. */
     private static boolean replaces(FileSystem files) {
         return !files.isDistributedFS() || OBJECT_STORES.contains(files.getUri().getScheme());
     }
 
-    private static OutputStream unclosed(RecoverableFsDataOutputStream out) {
+    private static OutputStream withoutClose(RecoverableFsDataOutputStream out) {
         return new FilterOutputStream(out) {
             @Override
             public void write(byte[] bytes, int from, int length) throws IOException {
@@ -113,12 +116,12 @@ public final class MissionFiles {
 
             @Override
             public void close() {
-                // closed for the commit
+                // closed by the commit
             }
         };
     }
 
-    /** What Flink's writers keep beside the file until it is whole. */
+    /** Deletes the temporary files that Flink's writers keep beside an incomplete file. */
     private static void removeUnfinished(Path file) throws IOException {
         String unfinished = "." + file.getName() + ".inprogress.";
         for (Path one : list(file.getParent())

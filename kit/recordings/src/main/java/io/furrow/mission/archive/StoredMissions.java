@@ -33,7 +33,7 @@ import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** The missions that are stored in MongoDB: listed, exported as lines, and imported from lines. */
+/** Lists, exports and imports the missions that are stored in MongoDB. */
 public final class StoredMissions implements AutoCloseable {
     private static final int BATCH = 1_000;
     private static final int REPORT_INTERVAL = 10_000;
@@ -49,22 +49,22 @@ public final class StoredMissions implements AutoCloseable {
 
     /**
      * @param uri of MongoDB
-     * @throws IllegalArgumentException if it is none
+     * @throws IllegalArgumentException if the URI is invalid
      */
     public static StoredMissions open(String uri) {
         return new StoredMissions(new MongoAccess(uri, WAITS).open());
     }
 
     /**
-     * What is kept of a mission.
+     * Describes a stored mission.
      *
-     * @param mission its name; as its collection has it where only a hash of it is there and no event names it
-     * @param collection as MongoDB has it
-     * @param bytes of the documents, without indexes; −1 if the server does not report it
+     * @param mission its name; the hash in the collection's name if no event contains the name
+     * @param collection its collection in MongoDB
+     * @param bytes size of the documents without indexes; −1 if the server does not report it
      * @param first event time of the oldest event
      * @param last event time of the newest event
-     * @param indexes by name
-     * @param retention how long the server itself keeps documents; null forever, or as long as the job that purges says
+     * @param indexes names of the indexes
+     * @param retention how long the server keeps documents; null if it does not expire them
      */
     public record Summary(
             String mission,
@@ -78,7 +78,7 @@ public final class StoredMissions implements AutoCloseable {
 
     private record Document(String collection, String id, byte[] bson) implements EventDocument {}
 
-    /** All that hold an event, in alphabetical order. */
+    /** Returns all missions with an event, in alphabetical order. */
     public List<Summary> all() {
         List<Summary> all = new ArrayList<>();
         for (String name : collections.names()) {
@@ -110,7 +110,7 @@ public final class StoredMissions implements AutoCloseable {
         return all;
     }
 
-    /** The collection of a mission by its name, or by what stands for it in topics and collections where there is that. */
+    /** Returns the collection of a mission, given its name or its encoded name in topics and collections. */
     String collection(String mission) {
         List<String> candidates = MissionCollections.candidates(mission);
         return candidates.stream().filter(name -> !isEmpty(name)).findFirst().orElse(candidates.get(0));
@@ -125,25 +125,26 @@ public final class StoredMissions implements AutoCloseable {
                 document.getDateTime(EventDocumentCodec.TIME).getValue());
     }
 
-    /** Whether anything is kept of it. */
+    /** Returns whether any event of the mission is stored. */
     public boolean has(String mission) {
         return !isEmpty(collection(mission));
     }
 
     /**
-     * Writes all events of a mission as lines, in the order of their times; the same documents are always the same bytes.
+     * Writes all events of a mission as lines, in the order of their times; the same documents always produce the same
+     * bytes.
      *
-     * @param told is called now and then with the number so far
-     * @return how many events
+     * @param progress called at intervals with the number of events so far
+     * @return number of events
      */
-    public long export(String mission, OutputStream out, LongConsumer told) throws IOException {
+    public long export(String mission, OutputStream out, LongConsumer progress) throws IOException {
         long count = 0;
         try (Events events = events(mission)) {
             while (events.hasNext()) {
                 out.write(ArchiveLine.write(events.next()));
                 out.write('\n');
                 if (++count % REPORT_INTERVAL == 0) {
-                    told.accept(count);
+                    progress.accept(count);
                 }
             }
         }
@@ -151,13 +152,13 @@ public final class StoredMissions implements AutoCloseable {
     }
 
     /**
-     * Reads lines into a mission. What is there already stays once.
+     * Imports lines into a mission without duplicating stored events.
      *
-     * @param source for messages
-     * @return how many lines
-     * @throws IOException if a line is not an event, or the server does not take it; the lines before it may have been taken
+     * @param source named in messages
+     * @return number of lines
+     * @throws IOException if a line is not an event or the server rejects it; lines before it may be stored
      */
-    public long importFrom(String mission, InputStream in, String source, LongConsumer told)
+    public long importFrom(String mission, InputStream in, String source, LongConsumer progress)
             throws IOException, InterruptedException {
         try (BulkSender<EventDocument> sender = new BulkSender<>(collections, WAITS, ignored -> {})) {
             String collection = collection(mission);
@@ -171,7 +172,7 @@ public final class StoredMissions implements AutoCloseable {
                     send(sender, bulk, source);
                 }
                 if (count % REPORT_INTERVAL == 0) {
-                    told.accept(count);
+                    progress.accept(count);
                 }
             }
             send(sender, bulk, source);
@@ -191,13 +192,13 @@ public final class StoredMissions implements AutoCloseable {
     private static void send(BulkSender<EventDocument> sender, List<EventDocument> bulk, String source)
             throws IOException, InterruptedException {
         for (BulkSender.Refusal<EventDocument> refusal : sender.send(bulk)) {
-            throw new IOException("MongoDB refuses event %s of %s: %s"
+            throw new IOException("MongoDB rejected event %s of %s: %s"
                     .formatted(refusal.document().id(), source, refusal.reason()));
         }
         bulk.clear();
     }
 
-    /** The events of a mission in the order of archives. */
+    /** Returns the events of a mission in the order of archives. */
     Events events(String mission) {
         return new Events(collections
                 .get(collection(mission))
@@ -212,7 +213,7 @@ public final class StoredMissions implements AutoCloseable {
         client.close();
     }
 
-    /** Reads from the server as it goes. */
+    /** Reads events from the server on demand. */
     static final class Events implements Iterator<StoredEvent>, AutoCloseable {
         private final MongoCursor<RawBsonDocument> cursor;
         private final Iterator<StoredEvent> ordered;

@@ -38,16 +38,18 @@ import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 
 /**
- * Sends documents in unordered bulks of upserts by {@code _id}: sent again they change nothing. Collections are written side by
- * side, each by one bulk at a time. What the server refuses is
- * found and given back, the rest is written; while the server is unavailable the rest is tried again. What it does not take for a
- * reason that is not known to be the document's is tried again for long, before it counts as refused.
+ * Sends documents in unordered bulks of upserts by {@code _id}, so that sending them again changes nothing. Collections
+ * are written in parallel, each by one bulk at a time. Documents that the server rejects are found and returned, and
+ * the others are written. While the server is unavailable, the remaining documents are retried. Documents with an
+ * unknown error code are retried for a longer time before they count as rejected.
  */
 public final class BulkSender<D extends EventDocument> implements AutoCloseable {
     private static final BulkWriteOptions UNORDERED = new BulkWriteOptions().ordered(false);
-    /** A server that breaks off as often at the same documents, and answers in between, does so because of them. */
-    private static final int BREAKS = 3;
-    /** Most of their time these threads wait for the server; a client has at most 100 connections. */
+    /**
+     * A server that disconnects this often at the same documents, but answers pings in between, fails because of them.
+     */
+    private static final int MAX_DISCONNECTS = 3;
+    /** These threads mostly wait for the server; a client has at most 100 connections. */
     private static final int MAX_THREADS = 64;
 
     private static final int IDLE_SECONDS = 10;
@@ -59,26 +61,26 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
     private final MissionCollections collections;
     private final MongoAccess.Waits waits;
     private final LongConsumer retried;
-    /** Codes of which documents were given up while others were taken. */
-    private final Set<Integer> learned = new HashSet<>();
+    /** Unknown error codes that turned out to be caused by documents: others were accepted meanwhile. */
+    private final Set<Integer> documentErrorCodes = new HashSet<>();
 
-    private final Set<Integer> doubted = ConcurrentHashMap.newKeySet();
+    private final Set<Integer> loggedCodes = ConcurrentHashMap.newKeySet();
     private final ExecutorService threads = threads();
 
-    /** @param retried is called with how many documents are sent once more */
+    /** @param retried called with the number of documents that are sent again */
     public BulkSender(MissionCollections collections, MongoAccess.Waits waits, LongConsumer retried) {
         this.collections = collections;
         this.waits = waits;
         this.retried = retried;
     }
 
-    /** A document that the server does not take, and why. */
+    /** A document that the server rejects, and the reason. */
     public record Refusal<D extends EventDocument>(D document, String reason) {}
 
     /**
-     * Returns when the server has every document that it takes.
+     * Sends documents and returns the rejected ones when all others are stored.
      *
-     * @throws IOException if it was unavailable too long, or takes nothing under these settings
+     * @throws IOException if the server was unavailable for too long, or its settings prevent writes
      */
     public List<Refusal<D>> send(List<D> documents) throws IOException, InterruptedException {
         Map<String, List<D>> byCollection = new LinkedHashMap<>();
@@ -87,34 +89,34 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
                     .computeIfAbsent(document.collection(), ignored -> new ArrayList<>())
                     .add(document);
         }
-        UnknownErrorPolicy unknownErrorPolicy =
-                new UnknownErrorPolicy(waits.unknown(), learned); // one for all: a checkpoint waits for them together
-        List<Refusal<D>> refused = send(byCollection, unknownErrorPolicy);
-        judge(byCollection.keySet(), documents.size(), refused.size(), unknownErrorPolicy);
-        return refused;
+        // Shared by all collections, for which a checkpoint waits together.
+        UnknownErrorPolicy unknownErrorPolicy = new UnknownErrorPolicy(waits.unknown(), documentErrorCodes);
+        List<Refusal<D>> rejected = send(byCollection, unknownErrorPolicy);
+        checkOutcome(byCollection.keySet(), documents.size(), rejected.size(), unknownErrorPolicy);
+        return rejected;
     }
 
     private List<Refusal<D>> send(Map<String, List<D>> byCollection, UnknownErrorPolicy unknownErrorPolicy)
             throws IOException, InterruptedException {
         if (byCollection.size() == 1) {
-            List<Refusal<D>> refused = new ArrayList<>();
+            List<Refusal<D>> rejected = new ArrayList<>();
             for (Map.Entry<String, List<D>> only : byCollection.entrySet()) {
-                send(only.getKey(), only.getValue(), unknownErrorPolicy, refused);
+                send(only.getKey(), only.getValue(), unknownErrorPolicy, rejected);
             }
-            return refused;
+            return rejected;
         }
         List<Future<List<Refusal<D>>>> answers = new ArrayList<>();
         byCollection.forEach((collection, documents) -> answers.add(threads.submit(() -> {
-            List<Refusal<D>> refused = new ArrayList<>();
-            send(collection, documents, unknownErrorPolicy, refused);
-            return refused;
+            List<Refusal<D>> rejected = new ArrayList<>();
+            send(collection, documents, unknownErrorPolicy, rejected);
+            return rejected;
         })));
-        List<Refusal<D>> refused = new ArrayList<>();
+        List<Refusal<D>> rejected = new ArrayList<>();
         try {
             for (Future<List<Refusal<D>>> answer : answers) {
-                refused.addAll(answer.get());
+                rejected.addAll(answer.get());
             }
-            return refused;
+            return rejected;
         } catch (ExecutionException e) {
             throw e.getCause() instanceof IOException known
                     ? known
@@ -124,12 +126,12 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
         }
     }
 
-    /** Where none at all was taken, no document is at fault, unless its code is known for that. */
-    private void judge(Set<String> sentTo, int documents, int refused, UnknownErrorPolicy unknownErrorPolicy)
+    /** Throws if no document was accepted, because then the documents are not the cause, unless their codes say so. */
+    private void checkOutcome(Set<String> sentTo, int documents, int rejected, UnknownErrorPolicy unknownErrorPolicy)
             throws IOException {
-        if (refused < documents) {
-            learned.addAll(unknownErrorPolicy.givenUp());
-        } else if (documents > 1 && !learned.containsAll(unknownErrorPolicy.givenUp())) {
+        if (rejected < documents) {
+            documentErrorCodes.addAll(unknownErrorPolicy.givenUp());
+        } else if (documents > 1 && !documentErrorCodes.containsAll(unknownErrorPolicy.givenUp())) {
             throw new IOException(
                     "MongoDB took none of %d documents of %s for %d s, codes %s. Look into its log; see --mongo-refusal-timeout."
                             .formatted(
@@ -141,39 +143,39 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
     }
 
     private void send(
-            String collection, List<D> documents, UnknownErrorPolicy unknownErrorPolicy, List<Refusal<D>> refused)
+            String collection, List<D> documents, UnknownErrorPolicy unknownErrorPolicy, List<Refusal<D>> rejected)
             throws IOException, InterruptedException {
-        RetryTimer left = new RetryTimer(waits.away());
-        List<D> open = documents;
-        int breaks = 0;
-        while (!open.isEmpty()) {
+        RetryTimer retryTimer = new RetryTimer(waits.away());
+        List<D> remaining = documents;
+        int disconnects = 0;
+        while (!remaining.isEmpty()) {
             boolean prepared = false;
             try {
                 MongoCollection<RawBsonDocument> target = collections.prepared(collection);
                 prepared = true;
-                target.bulkWrite(upserts(open), UNORDERED);
+                target.bulkWrite(upserts(remaining), UNORDERED);
                 return;
             } catch (MongoBulkWriteException e) {
-                BulkResponse<D> bulkResponse = read(e, open, unknownErrorPolicy, refused);
-                boolean progressed = bulkResponse.open().size() < open.size();
-                open = bulkResponse.open();
-                if (!open.isEmpty()) {
-                    pause(bulkResponse.isAway() && !progressed, left, e);
+                BulkResponse<D> bulkResponse = read(e, remaining, unknownErrorPolicy, rejected);
+                boolean progressed = bulkResponse.remaining().size() < remaining.size();
+                remaining = bulkResponse.remaining();
+                if (!remaining.isEmpty()) {
+                    pause(bulkResponse.isUnavailable() && !progressed, retryTimer, e);
                 }
             } catch (MongoInterruptedException e) {
                 throw (InterruptedException) new InterruptedException(e.getMessage()).initCause(e);
             } catch (MongoException | BsonSerializationException | BsonInvalidOperationException e) {
-                breaks += e instanceof MongoSocketException && collections.serverAnswers() ? 1 : 0;
-                // What fails before is the making of indexes: another writer may be making them at this moment.
+                disconnects += e instanceof MongoSocketException && collections.serverAnswers() ? 1 : 0;
+                // Otherwise the creation of an index failed; another writer may be creating it now.
                 MongoFailure failure =
-                        prepared ? failure(e, collection, unknownErrorPolicy, open.size()) : failureToPrepare(e);
-                if (failure == MongoFailure.REFUSED || prepared && breaks == BREAKS) {
-                    findRefused(collection, open, e, unknownErrorPolicy, refused);
+                        prepared ? failure(e, collection, unknownErrorPolicy, remaining.size()) : failureToPrepare(e);
+                if (failure == MongoFailure.REJECTED || prepared && disconnects == MAX_DISCONNECTS) {
+                    findRejected(collection, remaining, e, unknownErrorPolicy, rejected);
                     return;
                 }
-                pause(failure == MongoFailure.UNAVAILABLE, left, e);
+                pause(failure == MongoFailure.UNAVAILABLE, retryTimer, e);
             }
-            countRetried(open.size());
+            countRetried(remaining.size());
         }
     }
 
@@ -181,11 +183,12 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
         retried.accept(documents);
     }
 
-    private static void pause(boolean isAway, RetryTimer left, Exception why) throws IOException, InterruptedException {
-        if (isAway) {
-            left.pauseAfter(why);
+    private static void pause(boolean isUnavailable, RetryTimer retryTimer, Exception why)
+            throws IOException, InterruptedException {
+        if (isUnavailable) {
+            retryTimer.pauseAfter(why);
         } else {
-            left.pauseOfOneThatAnswers();
+            retryTimer.pauseAndResetTimeout();
         }
     }
 
@@ -196,94 +199,94 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
         return MongoFailure.UNAVAILABLE;
     }
 
-    /** Of all documents together; what is in doubt long enough is refused. */
+    /** Returns the failure of a whole command; documents with an unknown code are rejected after a timeout. */
     private MongoFailure failure(Exception e, String collection, UnknownErrorPolicy unknownErrorPolicy, int documents)
             throws IOException {
         if (!(e instanceof MongoException known)) {
-            return MongoFailure.REFUSED; // the driver found that it is not a document
+            return MongoFailure.REJECTED; // the driver cannot encode a document
         }
         MongoFailure failure = MongoFailure.of(known);
         if (failure == MongoFailure.SETTING) {
             throw wrongSetting(e);
         }
-        boolean ofCommand = failure == MongoFailure.REFUSED && MongoCodes.mayBeOfTheCommand(known.getCode());
+        boolean ofCommand = failure == MongoFailure.REJECTED && MongoCodes.isAmbiguousForCommand(known.getCode());
         if (failure != MongoFailure.UNKNOWN && !ofCommand) {
             return failure;
         }
-        judgeUnknownError(collection, known.getCode(), known.getMessage(), unknownErrorPolicy);
-        if (!unknownErrorPolicy.isOver(collection, known.getCode())) {
+        countUnknownError(collection, known.getCode(), known.getMessage(), unknownErrorPolicy);
+        if (!unknownErrorPolicy.isExhausted(collection, known.getCode())) {
             return MongoFailure.UNKNOWN;
         }
         if (documents == 1) {
             unknownErrorPolicy.giveUp(known.getCode());
         }
-        return MongoFailure.REFUSED;
+        return MongoFailure.REJECTED;
     }
 
-    /** One of several was refused, and with it all: halves are tried until it stands alone. */
-    private void findRefused(
+    /** Sends halves of a rejected bulk until the rejected document stands alone. */
+    private void findRejected(
             String collection,
             List<D> documents,
             Exception why,
             UnknownErrorPolicy unknownErrorPolicy,
-            List<Refusal<D>> refused)
+            List<Refusal<D>> rejected)
             throws IOException, InterruptedException {
         if (documents.size() == 1) {
-            refused.add(new Refusal<>(documents.get(0), why.getMessage()));
+            rejected.add(new Refusal<>(documents.get(0), why.getMessage()));
             return;
         }
         int half = documents.size() / 2;
-        send(collection, documents.subList(0, half), unknownErrorPolicy, refused);
-        send(collection, documents.subList(half, documents.size()), unknownErrorPolicy, refused);
+        send(collection, documents.subList(0, half), unknownErrorPolicy, rejected);
+        send(collection, documents.subList(half, documents.size()), unknownErrorPolicy, rejected);
     }
 
     /**
-     * What an answer leaves.
+     * The outcome of a bulk.
      *
-     * @param open worth another attempt
-     * @param isAway whether some of it is so because the server is unavailable
+     * @param remaining documents to retry
+     * @param isUnavailable whether some have to be retried because the server is unavailable
      */
-    private record BulkResponse<D>(List<D> open, boolean isAway) {}
+    private record BulkResponse<D>(List<D> remaining, boolean isUnavailable) {}
 
-    /** Where the write concern was not met, all is worth another attempt. */
+    /** Reads the errors of a bulk; if the write concern was not met, all documents are retried. */
     private BulkResponse<D> read(
-            MongoBulkWriteException e, List<D> sent, UnknownErrorPolicy unknownErrorPolicy, List<Refusal<D>> refused)
+            MongoBulkWriteException e, List<D> sent, UnknownErrorPolicy unknownErrorPolicy, List<Refusal<D>> rejected)
             throws IOException {
-        boolean unsure = e.getWriteConcernError() != null;
-        boolean away = unsure;
-        boolean attempted = false;
-        List<D> open = new ArrayList<>(unsure ? sent : List.of());
+        boolean unconfirmed = e.getWriteConcernError() != null;
+        boolean unavailable = unconfirmed;
+        boolean counted = false;
+        List<D> remaining = new ArrayList<>(unconfirmed ? sent : List.of());
         for (BulkWriteError error : e.getWriteErrors()) {
             D document = sent.get(error.getIndex());
             MongoFailure failure = MongoFailure.of(error.getCode(), error.getMessage());
             if (failure == MongoFailure.SETTING) {
                 throw wrongSetting(e);
             }
-            if (failure == MongoFailure.UNKNOWN && !attempted) {
-                attempted = true; // however many documents it fails for
-                judgeUnknownError(document.collection(), error.getCode(), error.getMessage(), unknownErrorPolicy);
+            if (failure == MongoFailure.UNKNOWN && !counted) {
+                counted = true; // once per bulk
+                countUnknownError(document.collection(), error.getCode(), error.getMessage(), unknownErrorPolicy);
             }
             boolean givenUp = failure == MongoFailure.UNKNOWN
-                    && unknownErrorPolicy.isOver(document.collection(), error.getCode());
+                    && unknownErrorPolicy.isExhausted(document.collection(), error.getCode());
             if (givenUp) {
                 unknownErrorPolicy.giveUp(error.getCode());
             }
-            if (givenUp || failure == MongoFailure.REFUSED) {
-                refused.add(new Refusal<>(document, error.getMessage()));
-                open.remove(document);
+            if (givenUp || failure == MongoFailure.REJECTED) {
+                rejected.add(new Refusal<>(document, error.getMessage()));
+                remaining.remove(document);
             } else {
-                away |= failure == MongoFailure.UNAVAILABLE;
-                if (!unsure) {
-                    open.add(document);
+                unavailable |= failure == MongoFailure.UNAVAILABLE;
+                if (!unconfirmed) {
+                    remaining.add(document);
                 }
             }
         }
-        return new BulkResponse<>(open, away);
+        return new BulkResponse<>(remaining, unavailable);
     }
 
-    private void judgeUnknownError(String collection, int code, String message, UnknownErrorPolicy unknownErrorPolicy) {
+    private void countUnknownError(String collection, int code, String message, UnknownErrorPolicy unknownErrorPolicy) {
         unknownErrorPolicy.failed(collection);
-        if (doubted.add(code)) {
+        if (loggedCodes.add(code)) {
             LOG.warn(
                     "MongoDB does not accept documents, code {}: {}. They are retried for {} s, then become dead letters",
                     code,

@@ -2,12 +2,12 @@ package io.furrow.mission.bulk;
 
 /** A document of an event for a collection of MongoDB. */
 public interface EventDocument {
-    /** The name of the collection. */
+    /** Returns the name of the collection. */
     String collection();
 
-    /** Its {@code _id}, the event id. */
+    /** Returns its {@code _id}, the event id. */
     String id();
 
-    /** All of it, {@code _id} included. */
+    /** Returns the whole document, including {@code _id}. */
     byte[] bson();
 }

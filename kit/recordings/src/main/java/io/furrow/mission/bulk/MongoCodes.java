@@ -5,15 +5,15 @@ import java.util.regex.Pattern;
 import java.util.stream.Collectors;
 
 /**
- * What the codes of MongoDB's errors mean for documents that are written one by one, by their {@code _id}. The names are those
- * of the server's {@code error_codes.yml}. A code that is in none of these lists, for instance 1 (InternalError) and 8
- * (UnknownError), may mean either.
+ * Classifies MongoDB's error codes for documents that are upserted by {@code _id}. The names are those of the server's
+ * {@code error_codes.yml}. Codes outside of these lists, for instance 1 (InternalError) and 8 (UnknownError), may be
+ * caused by the document or by the server.
  */
 final class MongoCodes {
-    /** Where the whole command fails with them, its settings may be at fault as well as a document. */
+    /** If the whole command fails with these, the cause may be its settings or a document. */
     private static final Set<Integer> OF_DOCUMENT_OR_COMMAND = codes("2 BadValue, 9 FailedToParse");
 
-    /** By themselves: the document cannot be stored, wherever and however often it is sent. */
+    /** The document can never be stored. */
     static final Set<Integer> OF_DOCUMENT = codes("""
             2 BadValue, 9 FailedToParse, 14 TypeMismatch, 15 Overflow, 16 InvalidLength, 22 InvalidBSON,
             28 PathNotViable, 52 DollarPrefixedFieldName, 53 InvalidIdField, 54 NotSingleValueField, 55 InvalidDBRef,
@@ -27,7 +27,7 @@ final class MongoCodes {
             17419 DocumentTooLarge (after the update), 17420 DocumentTooLarge (after the update)
             """);
 
-    /** Nothing can be written until somebody changes a setting, a right or the server. */
+    /** Nothing can be written until a setting, a permission or the server is changed. */
     static final Set<Integer> OF_SETTING = codes("""
             11 UserNotFound, 13 Unauthorized, 18 AuthenticationFailed, 20 IllegalOperation, 31 RoleNotFound,
             59 CommandNotFound, 61 ShardKeyNotFound (sharded by something else than _id), 67 CannotCreateIndex,
@@ -39,8 +39,8 @@ final class MongoCodes {
             411 QueryRejectedBySettings, 8000 AtlasError
             """);
 
-    /** Unreachable, busy, not primary, stale shard, out of time, memory or disk, throttled: it passes. */
-    static final Set<Integer> OF_TIME = codes("""
+    /** Transient: unreachable, busy, not primary, stale shard, out of time, memory or disk, throttled. */
+    static final Set<Integer> TRANSIENT = codes("""
             6 HostUnreachable, 7 HostNotFound, 24 LockTimeout, 46 LockBusy, 50 MaxTimeMSExpired, 63 StaleShardVersion,
             64 WriteConcernTimeout, 70 ShardNotFound, 75 WriteConcernLegacyOK, 83 RemoteResultsUnavailable,
             89 NetworkTimeout, 90 CallbackCanceled, 91 ShutdownInProgress, 94 NotYetInitialized, 95 NotSecondary,
@@ -80,15 +80,15 @@ final class MongoCodes {
 
     private MongoCodes() {}
 
-    private static Set<Integer> codes(String named) {
+    private static Set<Integer> codes(String list) {
         return Pattern.compile(",")
-                .splitAsStream(named)
+                .splitAsStream(list)
                 .map(each -> Integer.valueOf(each.strip().split(" ")[0]))
                 .collect(Collectors.toUnmodifiableSet());
     }
 
-    /** Whether such a failure of a whole command leaves open what is at fault. */
-    static boolean mayBeOfTheCommand(int code) {
+    /** Returns whether the failure of a whole command may be caused by its settings or by a document. */
+    static boolean isAmbiguousForCommand(int code) {
         return OF_DOCUMENT_OR_COMMAND.contains(code);
     }
 }

@@ -6,7 +6,7 @@ import java.util.concurrent.ThreadLocalRandom;
 
 import io.furrow.model.time.Backoff;
 
-/** Pauses between attempts, doubling from 50 ms to 2 s, until the time is up. */
+/** Pauses between attempts, doubling from 50 ms to 2 s, until a timeout. */
 final class RetryTimer {
     private static final Duration MIN_BACKOFF = Duration.ofMillis(50);
     private static final Duration MAX_BACKOFF = Duration.ofSeconds(2);
@@ -23,7 +23,7 @@ final class RetryTimer {
     /**
      * Waits before the next attempt.
      *
-     * @throws IOException if there shall be none
+     * @throws IOException after the timeout
      */
     void pauseAfter(Exception failure) throws IOException, InterruptedException {
         if (System.nanoTime() - giveUpAt >= 0) {
@@ -35,14 +35,14 @@ final class RetryTimer {
         pause();
     }
 
-    /** Waits before the next attempt at a server that is there; the time for one that is unavailable begins again. */
-    void pauseOfOneThatAnswers() throws InterruptedException {
+    /** Waits before the next attempt at a server that answers, and restarts the timeout. */
+    void pauseAndResetTimeout() throws InterruptedException {
         giveUpAt = System.nanoTime() + allowed.toNanos();
         pause();
     }
 
     private void pause() throws InterruptedException {
         long pause = backoff.next().toMillis();
-        Thread.sleep(pause + ThreadLocalRandom.current().nextLong(pause)); // apart from other writers that wait
+        Thread.sleep(pause + ThreadLocalRandom.current().nextLong(pause)); // with jitter
     }
 }

@@ -7,25 +7,25 @@ import java.util.Map;
 import java.util.Set;
 
 /**
- * How long documents have been tried that MongoDB does not take with codes that say nothing of whose fault it is: they are given
- * up after long, or after a few attempts at their collection where the code was met before. Several threads share it.
+ * Decides how long to retry documents that MongoDB rejects with unknown codes: until a timeout, or for a few attempts
+ * per collection if the code is known to be caused by documents. Thread-safe.
  */
 final class UnknownErrorPolicy {
-    private static final int ATTEMPTS_OF_KNOWN = 3;
+    private static final int MAX_ATTEMPTS = 3;
 
     private final Duration allowed;
-    private final Set<Integer> known;
+    private final Set<Integer> documentErrorCodes;
     private final Set<Integer> givenUp = new HashSet<>();
     private final Map<String, Integer> attempts = new HashMap<>();
     private long since;
 
-    /** @param known codes of which a document was given up before, while others were taken */
-    UnknownErrorPolicy(Duration allowed, Set<Integer> known) {
+    /** @param documentErrorCodes codes for which a document was given up before while others were accepted */
+    UnknownErrorPolicy(Duration allowed, Set<Integer> documentErrorCodes) {
         this.allowed = allowed;
-        this.known = known;
+        this.documentErrorCodes = documentErrorCodes;
     }
 
-    /** An attempt failed so; with the first one the time begins, for all collections. */
+    /** Counts a failed attempt; the first one starts the timeout for all collections. */
     synchronized void failed(String collection) {
         if (attempts.isEmpty()) {
             since = System.nanoTime();
@@ -33,13 +33,13 @@ final class UnknownErrorPolicy {
         attempts.merge(collection, 1, Integer::sum);
     }
 
-    /** Whether a document is given up that fails with this code. */
-    synchronized boolean isOver(String collection, int code) {
-        return known.contains(code) && attempts.getOrDefault(collection, 0) >= ATTEMPTS_OF_KNOWN
+    /** Returns whether a document with this code is given up. */
+    synchronized boolean isExhausted(String collection, int code) {
+        return documentErrorCodes.contains(code) && attempts.getOrDefault(collection, 0) >= MAX_ATTEMPTS
                 || !attempts.isEmpty() && System.nanoTime() - since >= allowed.toNanos();
     }
 
-    /** A document was given up for this code. */
+    /** Records that a document was given up for this code. */
     synchronized void giveUp(int code) {
         givenUp.add(code);
     }

@@ -3,10 +3,10 @@ package io.furrow.mission.export;
 import java.util.Optional;
 
 /**
- * What became of a recording.
+ * The result of an export.
  *
- * @param events that were written
- * @param leftOut records that hold no event, and events and markers that the format cannot hold
- * @param example which record was left out first, and why
+ * @param events number of written events
+ * @param leftOut number of skipped records: invalid events, and events and markers that the format cannot express
+ * @param example the first skipped record, and why
  */
 public record ExportResult(long events, long leftOut, Optional<String> example) {}

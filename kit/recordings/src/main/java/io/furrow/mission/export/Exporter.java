@@ -11,18 +11,18 @@ import io.furrow.mission.Recording;
 import io.furrow.mission.SkippedRecords;
 import io.furrow.mission.StoredEvent;
 
-/** Writes every event of a recording in a format, and counts. */
+/** Writes every event of a recording in a format and counts the written and skipped ones. */
 final class Exporter {
     private static final int PROGRESS_EVERY = 10_000;
 
     private final LongConsumer progress;
     private long events;
-    private long leftOut;
+    private long skipped;
     private String example;
 
-    /** What a format does with an event. */
+    /** Writes an event in a format. */
     interface Step {
-        /** The reason for which the format cannot hold it; empty if it was written. */
+        /** Returns why the format cannot express the event; empty if it was written. */
         Optional<String> write(StoredEvent event) throws IOException;
     }
 
@@ -36,7 +36,7 @@ final class Exporter {
         while (!last) {
             EventPage eventPage = recording.read(next, PageLimits.DEFAULT);
             for (SkippedRecords skippedRecords : eventPage.skipped()) {
-                leaveOut(skippedRecords.what(), skippedRecords.reason(), skippedRecords.count());
+                skip(skippedRecords.what(), skippedRecords.reason(), skippedRecords.count());
             }
             for (StoredEvent event : eventPage.events()) {
                 write(event, step);
@@ -44,20 +44,20 @@ final class Exporter {
             next = eventPage.next();
             last = eventPage.last();
         }
-        return new ExportResult(events, leftOut, Optional.ofNullable(example));
+        return new ExportResult(events, skipped, Optional.ofNullable(example));
     }
 
     private void write(StoredEvent event, Step step) throws IOException {
-        Optional<String> refused = step.write(event);
-        if (refused.isPresent()) {
-            leaveOut("event " + event.id(), refused.get(), 1);
+        Optional<String> problem = step.write(event);
+        if (problem.isPresent()) {
+            skip("event " + event.id(), problem.get(), 1);
         } else if (++events % PROGRESS_EVERY == 0) {
             progress.accept(events);
         }
     }
 
-    private void leaveOut(String what, String reason, long count) {
-        leftOut += count;
+    private void skip(String what, String reason, long count) {
+        skipped += count;
         example = example == null ? what + ": " + reason : example;
     }
 }

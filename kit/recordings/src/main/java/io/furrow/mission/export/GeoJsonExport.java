@@ -19,10 +19,10 @@ import io.furrow.model.position.Position;
 import io.furrow.model.position.PositionReading;
 
 /**
- * GeoJSON (RFC 7946), for maps: a feature for each entity that reported a position, a LineString with {@code times} (ISO 8601, one per
- * position) of what moved, a Point with {@code first} and {@code last} of what stood still. Of positions that are reported again in
- * one place the first and the last are written. A marker is a feature without geometry, of {@code kind} {@code marker}. Holds the
- * tracks.
+ * Exports GeoJSON (RFC 7946) for maps: a feature for each entity with a position, as a LineString with {@code times}
+ * (ISO 8601, one per position) for moving entities, or as a Point with {@code first} and {@code last} for others. Of
+ * consecutive reports of one position the first and the last are written. A marker is a feature without geometry, of
+ * {@code kind} {@code marker}. Holds all tracks in memory.
  */
 public final class GeoJsonExport implements MissionExport {
     @Override

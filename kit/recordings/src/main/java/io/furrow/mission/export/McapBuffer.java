@@ -5,7 +5,9 @@ import java.nio.charset.StandardCharsets;
 import java.util.Map;
 import java.util.SortedMap;
 
-/** The content of a record as MCAP serializes it: numbers with the least byte first, texts and maps after their length in bytes. */
+/**
+ * Serializes the content of an MCAP record: numbers in little-endian order, texts and maps after their length in bytes.
+ */
 final class McapBuffer {
     private final ByteArrayOutputStream bytes = new ByteArrayOutputStream();
 
@@ -36,7 +38,7 @@ final class McapBuffer {
         return prefixed(text.getBytes(StandardCharsets.UTF_8));
     }
 
-    /** After their length as 32 bits. */
+    /** Writes bytes after their 32-bit length. */
     McapBuffer prefixed(byte[] content) {
         return u32(content.length).raw(content);
     }
@@ -52,7 +54,7 @@ final class McapBuffer {
         return prefixed(entries.toArray());
     }
 
-    /** From channel ids to counts or offsets. */
+    /** Writes a map from channel ids to counts or offsets. */
     McapBuffer byChannel(SortedMap<Integer, Long> map) {
         McapBuffer entries = new McapBuffer();
         for (Map.Entry<Integer, Long> entry : map.entrySet()) {
@@ -61,7 +63,7 @@ final class McapBuffer {
         return prefixed(entries.toArray());
     }
 
-    /** Opcode, length, content. */
+    /** Writes opcode, length and content. */
     McapBuffer record(McapWriter.Opcode opcode, McapBuffer content) {
         byte[] array = content.toArray();
         return u8(opcode.code()).u64(array.length).raw(array);

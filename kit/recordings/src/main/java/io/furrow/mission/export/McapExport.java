@@ -16,15 +16,15 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * MCAP, for Foxglove and the like: a schema for each entity type, a channel {@code <type>/<entity id>} for each entity, a message
- * for each event with its time in nanoseconds and the entity as JSON; {@code {"id", "deleted": true}} for a deletion. The markers of a
- * mission that has some are messages of the channel {@code markers}.
+ * Exports MCAP, for tools such as Foxglove: a schema for each entity type, a channel {@code <type>/<entity id>} for
+ * each entity, a message for each event with its time in nanoseconds and the entity as JSON; {@code {"id", "deleted":
+ * true}} for a deletion. The channel {@code markers} has the markers of the mission, if there are any.
  */
 public final class McapExport implements MissionExport {
     private static final String NO_TIME = "MCAP has no times before 1970 or after 2554";
 
     static final long NANOS = 1_000_000;
-    /** Nanoseconds are unsigned 64 bits: until 2554. */
+    /** The last time in unsigned 64-bit nanoseconds, in 2554. */
     static final long LAST_MILLIS = Long.divideUnsigned(-1L, NANOS);
 
     @Override
@@ -38,11 +38,11 @@ public final class McapExport implements MissionExport {
         });
         markers.writeUntil(LAST_MILLIS);
         file.finish();
-        return markers.left() == 0
+        return markers.remaining() == 0
                 ? exportResult
                 : new ExportResult(
                         exportResult.events(),
-                        exportResult.leftOut() + markers.left(),
+                        exportResult.leftOut() + markers.remaining(),
                         exportResult.example().or(() -> Optional.of("a marker: " + NO_TIME)));
     }
 
@@ -57,9 +57,9 @@ public final class McapExport implements MissionExport {
         private final String mission;
         private final McapWriter file;
         private final Map<String, Integer> schemas = new HashMap<>();
-        /** By identity and type. */
+        /** Keys are identity and type. */
         private final Map<String, Integer> byEntity = new HashMap<>();
-        /** By tenant, service path and id; a deletion may name no type. */
+        /** Types by tenant, service path and id, for deletions without a type. */
         private final Map<String, String> types = new HashMap<>();
 
         Channels(String mission, McapWriter file) {
@@ -111,7 +111,7 @@ public final class McapExport implements MissionExport {
             return file.channel(schema, type + "/" + entityId, "json", metadata);
         }
 
-        /** An entity in normalized form; which attributes there are it does not say. */
+        /** Returns the schema of a normalized entity, without particular attributes. */
         private static ObjectNode schemaOf(String type) {
             ObjectNode schema = emptySchema(type);
             ObjectNode properties = schema.putObject("properties");

@@ -10,7 +10,10 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.mission.marker.Marker;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** The channel {@code markers} of an MCAP file: a message for each, at its time. There is none if there are no markers. */
+/**
+ * Writes the channel {@code markers} of an MCAP file, with a message for each marker at its time. Without markers there
+ * is no channel.
+ */
 final class McapMarkers {
     private static final String TOPIC = "markers";
 
@@ -50,8 +53,8 @@ final class McapMarkers {
         }
     }
 
-    /** How many were not written. */
-    int left() {
+    /** Returns the number of markers that were not written. */
+    int remaining() {
         return markers.size() - next;
     }
 }

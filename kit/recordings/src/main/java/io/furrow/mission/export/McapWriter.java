@@ -7,8 +7,8 @@ import java.util.TreeMap;
 import java.util.zip.CRC32;
 
 /**
- * Writes an MCAP file (version 0, https://mcap.dev/spec): uncompressed chunks with an index of their messages, then the summary
- * by which a reader jumps to a time or a topic. Holds one chunk, and 100 bytes or so of each that was written.
+ * Writes an MCAP file (version 0, https://mcap.dev/spec): uncompressed chunks with an index of their messages, then the
+ * summary, with which a reader seeks by time or topic. Holds one chunk, and about 100 bytes for each written chunk.
  */
 final class McapWriter {
     static final int MAX_CHANNELS = 65_535;
@@ -78,7 +78,7 @@ final class McapWriter {
                 .toArray());
     }
 
-    /** The id of a new schema. */
+    /** Adds a schema and returns its id. */
     int schema(String name, String encoding, byte[] data) {
         schemaCount++;
         McapBuffer content =
@@ -88,7 +88,7 @@ final class McapWriter {
         return schemaCount;
     }
 
-    /** The id of a new channel, of which there are at most {@value #MAX_CHANNELS}. */
+    /** Adds a channel and returns its id; the maximum is {@value #MAX_CHANNELS} channels. */
     int channel(int schema, String topic, String encoding, SortedMap<String, String> metadata) {
         int id = messages.size() + 1;
         McapBuffer content =
@@ -217,7 +217,7 @@ final class McapWriter {
                 .byChannel(messages);
     }
 
-    /** Its checksum is of the summary and of the footer up to the checksum. */
+    /** Writes the footer; its checksum covers the summary and the footer up to the checksum. */
     private void footer(long summary, long summaryOffsets) throws IOException {
         McapBuffer start = new McapBuffer()
                 .u8(Opcode.FOOTER.code())

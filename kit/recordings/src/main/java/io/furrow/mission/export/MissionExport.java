@@ -8,10 +8,10 @@ import java.util.function.LongConsumer;
 import io.furrow.mission.Recording;
 import io.furrow.mission.marker.Marker;
 
-/** Writes a mission in a format of other tools. The same events and markers are always the same bytes. */
+/** Exports a mission in a format of other tools. The same events and markers always produce the same bytes. */
 public interface MissionExport {
     /**
-     * A mission that is exported.
+     * A mission to export.
      *
      * @param name for the export
      * @param markers in the order of their times
@@ -21,7 +21,7 @@ public interface MissionExport {
     /**
      * Writes all of a mission; the stream stays open.
      *
-     * @param progress takes the number of events so far now and then
+     * @param progress called at intervals with the number of events so far
      */
     ExportResult write(Source mission, OutputStream out, LongConsumer progress) throws IOException;
 }

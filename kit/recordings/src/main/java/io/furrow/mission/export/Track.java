@@ -10,18 +10,18 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.position.Position;
 
 /**
- * The positions of one entity in the order of their times; 24 bytes each. Where the way from one to the next leads over the
- * antimeridian, it has two more, one on each side, between which the line is cut (RFC 7946, 3.1.9).
+ * Collects the positions of one entity in the order of their times, 24 bytes each. A segment that crosses the
+ * antimeridian gets two more positions, one on each side, and the line is cut between them (RFC 7946, 3.1.9).
  */
 final class Track {
-    /** Degrees from a place to the one opposite. */
+    /** Half a turn, degrees. */
     private static final double HALF = 180;
 
     private final String entityId;
     private final FiwareScope scope;
     private String type = "";
     private long[] times = new long[16];
-    private double[] places = new double[32];
+    private double[] coordinates = new double[32];
     private int size;
     private long reported;
     private boolean moved;
@@ -32,30 +32,31 @@ final class Track {
         this.scope = scope;
     }
 
-    /** @param entityType the last stands */
+    /** @param entityType the last one is written */
     void add(long time, Position position, String entityType) {
         type = entityType;
         reported++;
         moved |= size > 0 && !isAt(size - 1, position);
-        boolean rests = size > 1 && isAt(size - 1, position) && isAt(size - 2, position);
-        if (rests) {
+        boolean isStationary = size > 1 && isAt(size - 1, position) && isAt(size - 2, position);
+        if (isStationary) {
             times[size - 1] = time;
             return;
         }
-        double way = size == 0 ? 0 : position.longitude() - places[2 * size - 2];
-        if (Math.abs(way) > HALF) {
-            cut(time, position, way);
+        double longitudeChange = size == 0 ? 0 : position.longitude() - coordinates[2 * size - 2];
+        if (Math.abs(longitudeChange) > HALF) {
+            cut(time, position, longitudeChange);
         }
         append(time, position.longitude(), position.latitude());
     }
 
-    /** @param way eastward to the position, less than −180 degrees or more than 180 */
-    private void cut(long time, Position position, double way) {
+    /** @param longitudeChange eastward to the position, less than −180 degrees or more than 180 */
+    private void cut(long time, Position position, double longitudeChange) {
         cut = true;
-        double side = -Math.signum(way) * HALF;
-        double share = (side - places[2 * size - 2]) / (way - Math.signum(way) * 2 * HALF);
-        double latitude = places[2 * size - 1] + share * (position.latitude() - places[2 * size - 1]);
-        long at = times[size - 1] + Math.round(share * (time - times[size - 1]));
+        double side = -Math.signum(longitudeChange) * HALF;
+        double fraction =
+                (side - coordinates[2 * size - 2]) / (longitudeChange - Math.signum(longitudeChange) * 2 * HALF);
+        double latitude = coordinates[2 * size - 1] + fraction * (position.latitude() - coordinates[2 * size - 1]);
+        long at = times[size - 1] + Math.round(fraction * (time - times[size - 1]));
         append(at, side, latitude);
         append(at, -side, latitude);
     }
@@ -63,16 +64,16 @@ final class Track {
     private void append(long time, double longitude, double latitude) {
         if (size == times.length) {
             times = Arrays.copyOf(times, 2 * size);
-            places = Arrays.copyOf(places, 4 * size);
+            coordinates = Arrays.copyOf(coordinates, 4 * size);
         }
         times[size] = time;
-        places[2 * size] = longitude;
-        places[2 * size + 1] = latitude;
+        coordinates[2 * size] = longitude;
+        coordinates[2 * size + 1] = latitude;
         size++;
     }
 
     private boolean isAt(int index, Position position) {
-        return places[2 * index] == position.longitude() && places[2 * index + 1] == position.latitude();
+        return coordinates[2 * index] == position.longitude() && coordinates[2 * index + 1] == position.latitude();
     }
 
     void write(String mission, JsonGenerator json) throws IOException {
@@ -83,27 +84,27 @@ final class Track {
         json.writeStringField("type", moved ? line : "Point");
         json.writeFieldName("coordinates");
         if (moved) {
-            writeLine(json, i -> writePlace(i, json));
+            writeLine(json, i -> writeCoordinates(i, json));
         } else {
-            writePlace(0, json);
+            writeCoordinates(0, json);
         }
         json.writeEndObject();
         writeProperties(mission, json);
         json.writeEndObject();
     }
 
-    private interface OfPlace {
+    private interface IndexWriter {
         void write(int index) throws IOException;
     }
 
-    /** As an array, of one array for each part where the line is cut. */
-    private void writeLine(JsonGenerator json, OfPlace each) throws IOException {
+    /** Writes an array, or an array of one array per part if the line is cut. */
+    private void writeLine(JsonGenerator json, IndexWriter each) throws IOException {
         json.writeStartArray();
         if (cut) {
             json.writeStartArray();
         }
         for (int i = 0; i < size; i++) {
-            if (i > 0 && Math.abs(places[2 * i] - places[2 * i - 2]) > HALF) {
+            if (i > 0 && Math.abs(coordinates[2 * i] - coordinates[2 * i - 2]) > HALF) {
                 json.writeEndArray();
                 json.writeStartArray();
             }
@@ -115,10 +116,10 @@ final class Track {
         json.writeEndArray();
     }
 
-    private void writePlace(int index, JsonGenerator json) throws IOException {
+    private void writeCoordinates(int index, JsonGenerator json) throws IOException {
         json.writeStartArray();
-        json.writeNumber(places[2 * index]);
-        json.writeNumber(places[2 * index + 1]);
+        json.writeNumber(coordinates[2 * index]);
+        json.writeNumber(coordinates[2 * index + 1]);
         json.writeEndArray();
     }
 

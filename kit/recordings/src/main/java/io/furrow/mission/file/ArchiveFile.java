@@ -13,10 +13,10 @@ import io.furrow.mission.Cursor;
 import io.furrow.mission.RecordingDeletedException;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** Reads the lines of one file, which must be in the order of events. Of each line only id and time are looked at. */
+/** Reads the lines of one file, which must be in the order of events, and parses their ids and times. */
 final class ArchiveFile implements AutoCloseable {
     private static final int BUFFER = 64 * 1024;
-    /** Several times what a document holds. */
+    /** Several times the maximum size of a document. */
     private static final int MAX_LINE_LENGTH = 64 * 1024 * 1024;
 
     private final String name;
@@ -31,11 +31,11 @@ final class ArchiveFile implements AutoCloseable {
     /**
      * A line.
      *
-     * @param at its place in the order; of one that holds no event, that of the line above
-     * @param where for people
-     * @param broken why it holds no event; null if it may be one
+     * @param at its place in the order; for an invalid line that of the line above
+     * @param where for messages
+     * @param problem why it is invalid; null if it may be an event
      */
-    record Line(Cursor at, byte[] json, String where, String broken) {}
+    record Line(Cursor at, byte[] json, String where, String problem) {}
 
     ArchiveFile(RecordingFiles files, String path) throws IOException {
         this.name = path;
@@ -49,7 +49,7 @@ final class ArchiveFile implements AutoCloseable {
     }
 
     /**
-     * Null at the end.
+     * Returns the next line; null at the end.
      *
      * @throws RecordingException if the line is out of order
      */
@@ -72,7 +72,7 @@ final class ArchiveFile implements AutoCloseable {
                             + "a mission (./furrow mission import) and export that.");
         }
         last = at;
-        return new Line(at, json, where, order == 0 ? "the event of the line above once more" : null);
+        return new Line(at, json, where, order == 0 ? "a duplicate of the line above" : null);
     }
 
     private static Optional<Cursor> position(byte[] json) {
@@ -95,7 +95,7 @@ final class ArchiveFile implements AutoCloseable {
             }
             return id == null || id.isEmpty() || time == null ? Optional.empty() : Optional.of(new Cursor(time, id));
         } catch (IOException | NumberFormatException e) {
-            return Optional.empty(); // the reason is that of a whole look at the line
+            return Optional.empty(); // the caller reports the reason
         }
     }
 
@@ -122,7 +122,7 @@ final class ArchiveFile implements AutoCloseable {
         return line.toByteArray();
     }
 
-    /** Whether there is a further byte, which the buffer then holds. */
+    /** Fills the buffer if it is empty; returns false at the end. */
     private boolean fill() throws IOException {
         if (next == filled) {
             next = 0;

@@ -12,11 +12,14 @@ import io.furrow.mission.Cursor;
 import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.RecordingInterruptedException;
 
-/** Reads the lines of files in the order of events: group after group, those of a group merged; from a cursor on. */
+/**
+ * Reads the lines of files in the order of events, from a cursor on: one group after the other, with the files of a
+ * group merged.
+ */
 final class ArchiveFiles implements AutoCloseable {
     static final int LENGTH_OF_DAY = "2026-11-21".length();
 
-    /** A file whose next line is known. */
+    /** A file and its next line. */
     private record Head(ArchiveFile.Line line, int part, ArchiveFile file) {}
 
     private final RecordingFiles files;
@@ -26,13 +29,16 @@ final class ArchiveFiles implements AutoCloseable {
     private int nextGroup;
     private Cursor last = Cursor.START;
 
-    /** @param groups files whose times overlap lie in one */
+    /** @param groups files with overlapping times are in one group */
     ArchiveFiles(RecordingFiles files, List<List<String>> groups) {
         this.files = files;
         this.groups = groups;
     }
 
-    /** Continues to the first line after a cursor; nothing is open yet. A file alone may bear a date and hold several days. */
+    /**
+     * Continues to the first line after a cursor, before any file is open. Days are skipped by file name only if there
+     * are several groups, because a single file may have a date in its name and contain several days.
+     */
     void skipTo(Cursor after) throws IOException {
         while (groups.size() > 1 && nextGroup < groups.size() && isBefore(groups.get(nextGroup), after)) {
             nextGroup++;
@@ -44,7 +50,7 @@ final class ArchiveFiles implements AutoCloseable {
         }
     }
 
-    /** Whether an archive's day is over before the cursor. */
+    /** Returns whether the day of a group ends before the cursor. */
     private static boolean isBefore(List<String> group, Cursor after) {
         String name = group.get(0).substring(group.get(0).lastIndexOf('/') + 1);
         if (name.length() < LENGTH_OF_DAY) {
@@ -58,7 +64,7 @@ final class ArchiveFiles implements AutoCloseable {
         }
     }
 
-    /** The next line, which stays the next; null at the end. */
+    /** Returns the next line without consuming it; null at the end. */
     ArchiveFile.Line peek() throws IOException {
         while (heads.isEmpty() && nextGroup < groups.size()) {
             List<String> group = groups.get(nextGroup++);
@@ -70,17 +76,17 @@ final class ArchiveFiles implements AutoCloseable {
             return null;
         }
         ArchiveFile.Line line = heads.peek().line();
-        if (line.broken() == null && line.at().compareTo(last) < 0) {
+        if (line.problem() == null && line.at().compareTo(last) < 0) {
             throw new RecordingDeletedException(
                     "%s is out of order: files before this one hold later events".formatted(line.where()));
         }
         return line;
     }
 
-    /** Continues after {@link #peek}. */
+    /** Consumes the line of {@link #peek}. */
     void remove() throws IOException {
         Head head = heads.remove();
-        last = head.line().broken() == null ? head.line().at() : last;
+        last = head.line().problem() == null ? head.line().at() : last;
         advance(head.part(), head.file());
     }
 

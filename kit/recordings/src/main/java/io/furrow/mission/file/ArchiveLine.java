@@ -14,16 +14,16 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * A line of an archive, for any tool that reads JSON: {@code {"id", "time", "headers", "entity"}} with the event id, the event
- * time in epoch ms, the record's headers and the entity as it was reported; of a deletion {@code entity} is null and {@code
- * entityId} says of which. An event is always the same line.
+ * Encodes events as lines of JSON: {@code {"id", "time", "headers", "entity"}} with the event id, the event time in
+ * epoch ms, the record's headers and the reported entity. A deletion has {@code "entity": null} and {@code entityId}.
+ * The same event always produces the same line.
  */
 public final class ArchiveLine {
     private static final JsonNodeFactory NODES = new JsonNodeFactory(true);
 
     private ArchiveLine() {}
 
-    /** Without the line's end. */
+    /** Returns the line without a line break. */
     public static byte[] write(StoredEvent event) {
         ObjectNode line = NODES.objectNode();
         line.put("id", event.id());

@@ -22,12 +22,15 @@ import io.furrow.mission.SkippedRecords;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** A mission in files. Pages that follow on one another read on; any other begins at the start of the file, or of its day's. */
+/**
+ * Reads a mission from files. Consecutive pages continue; any other page starts at the beginning of the file, or of the
+ * day's files.
+ */
 final class FileRecording implements Recording {
     private final String mission;
     private final RecordingFiles files;
     private final List<List<String>> groups;
-    /** What the next page may continue with; null if it begins again. */
+    /** The open files; null before the first page and after an error. */
     private ArchiveFiles lines;
 
     private Cursor position = Cursor.START;
@@ -39,20 +42,20 @@ final class FileRecording implements Recording {
         this.groups = groups;
     }
 
-    /** Reads all of it at the first call. */
+    /** The first call reads the whole recording. */
     @Override
     public Optional<RecordingExtent> span() throws RecordingException {
         if (span == null) {
-            span = answer(this::measured);
+            span = run(this::measureExtent);
         }
         return span;
     }
 
-    private Optional<RecordingExtent> measured() throws IOException {
+    private Optional<RecordingExtent> measureExtent() throws IOException {
         RecordingExtent found = null;
         try (ArchiveFiles all = new ArchiveFiles(files, groups)) {
             for (ArchiveFile.Line line = all.peek(); line != null; line = all.peek()) {
-                if (line.broken() == null) {
+                if (line.problem() == null) {
                     long time = line.at().time();
                     found = new RecordingExtent(found == null ? time : found.first(), time);
                 }
@@ -65,9 +68,9 @@ final class FileRecording implements Recording {
 
     @Override
     public EventPage read(Cursor after, PageLimits limits) throws RecordingException {
-        EventPage eventPage = answer(() -> {
+        EventPage eventPage = run(() -> {
             if (lines == null || !after.equals(position)) {
-                begin();
+                reset();
                 lines = new ArchiveFiles(files, groups);
                 lines.skipTo(after);
             }
@@ -95,10 +98,11 @@ final class FileRecording implements Recording {
         return new EventPage(events, skipped, next, head == null);
     }
 
-    /** @param again whether an event of this time and id was read just before, from another file */
+    /** @param isDuplicate whether an event of this time and id was just read from another file */
     private static void read(
-            ArchiveFile.Line line, boolean again, List<StoredEvent> events, List<SkippedRecords> skipped) {
-        String reason = again && line.broken() == null ? "the event is in another file, too" : line.broken();
+            ArchiveFile.Line line, boolean isDuplicate, List<StoredEvent> events, List<SkippedRecords> skipped) {
+        String reason =
+                isDuplicate && line.problem() == null ? "a duplicate of an event in another file" : line.problem();
         if (reason == null) {
             try {
                 events.add(ArchiveLine.read(new String(line.json(), StandardCharsets.UTF_8)));
@@ -111,36 +115,36 @@ final class FileRecording implements Recording {
         }
     }
 
-    /** Something that is asked of the files. */
-    private interface Question<T> {
-        T ask() throws IOException;
+    /** Reads from the files. */
+    private interface FileAction<T> {
+        T run() throws IOException;
     }
 
-    private <T> T answer(Question<T> question) throws RecordingException {
+    private <T> T run(FileAction<T> action) throws RecordingException {
         try {
             RecordingInterruptedException.check();
-            return question.ask();
+            return action.run();
         } catch (RecordingException e) {
-            begin();
+            reset();
             throw e;
         } catch (NoSuchFileException | FileNotFoundException e) {
-            begin();
+            reset();
             throw new RecordingDeletedException(
                     "A file of mission %s has been deleted: %s".formatted(mission, e.getMessage()));
         } catch (EOFException | ZipException e) {
-            begin();
+            reset();
             throw new RecordingDeletedException(
                     "A file of mission %s is damaged or not whole (%s): %s. Export it again."
                             .formatted(mission, groups, e.getMessage()));
         } catch (IOException e) {
-            begin();
+            reset();
             throw new RecordingException(
                     "Mission %s cannot be read from %s: %s".formatted(mission, groups, e.getMessage()), e);
         }
     }
 
-    /** Forgets what is open, so that the next page begins again. */
-    private void begin() {
+    /** Closes the files, so that the next page opens them again. */
+    private void reset() {
         ArchiveFiles open = lines;
         lines = null;
         try {
@@ -148,12 +152,12 @@ final class FileRecording implements Recording {
                 open.close();
             }
         } catch (IOException e) {
-            // It was only read.
+            // The file was only read.
         }
     }
 
     @Override
     public void close() {
-        begin();
+        reset();
     }
 }

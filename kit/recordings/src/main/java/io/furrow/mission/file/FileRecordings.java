@@ -18,16 +18,16 @@ import io.furrow.model.file.FileProblem;
 import io.furrow.model.topic.TopicName;
 
 /**
- * Missions in files of {@linkplain ArchiveLine lines}, compressed where the name ends in {@code .gz}: one exported file, which is
- * any mission; or a folder with {@code <mission>.ndjson} or {@code .jsonl}, or with an archive's folder {@code mission_<mission>}.
- * A {@link MarkerFile} is none.
+ * Opens missions in files of {@linkplain ArchiveLine lines}, compressed if the name ends in {@code .gz}: a single
+ * exported file, which stands for any mission, or a folder with {@code <mission>.ndjson} or {@code .jsonl}, or with an
+ * archive's folder {@code mission_<mission>}. A {@link MarkerFile} is not a mission.
  *
  * @param path of the file or folder
  */
 public record FileRecordings(String path, RecordingFiles files) implements Recordings {
     private static final List<String> ENDINGS = List.of(".ndjson", ".ndjson.gz", ".jsonl", ".jsonl.gz");
 
-    /** On this machine. */
+    /** Opens missions in local files. */
     public FileRecordings(String path) {
         this(path, RecordingFiles.LOCAL);
     }
@@ -36,8 +36,7 @@ public record FileRecordings(String path, RecordingFiles files) implements Recor
     public Optional<Recording> open(String mission) throws RecordingException {
         try {
             if (!files.exists(path)) {
-                throw new RecordingException(
-                        "There is no file or folder %s, where mission %s was looked for".formatted(path, mission));
+                throw new RecordingException("There is no file or folder %s with mission %s".formatted(path, mission));
             }
             if (MarkerFile.isOne(path)) {
                 throw new RecordingDeletedException(
@@ -62,7 +61,7 @@ public record FileRecordings(String path, RecordingFiles files) implements Recor
             throw e;
         } catch (IOException e) {
             throw new RecordingException(
-                    "Mission %s cannot be looked for in %s: %s".formatted(mission, path, FileProblem.of(e)), e);
+                    "Mission %s cannot be read from %s: %s".formatted(mission, path, FileProblem.of(e)), e);
         }
     }
 
@@ -73,7 +72,7 @@ public record FileRecordings(String path, RecordingFiles files) implements Recor
                 .findFirst();
     }
 
-    /** The parts of each day of an archive, the days in order. */
+    /** Returns the files of each day of an archive, in the order of days. */
     private List<List<String>> days(String folder) throws IOException {
         Collection<List<String>> days = files.names(folder).stream()
                 .filter(name -> name.length() > ArchiveFiles.LENGTH_OF_DAY

@@ -10,26 +10,26 @@ import java.nio.file.Path;
 import java.util.List;
 import java.util.stream.Stream;
 
-/** The file system on which recordings lie; names within a folder are joined to it with a slash. */
+/** The file system of recordings; names in a folder are joined to it with a slash. */
 public interface RecordingFiles extends Serializable {
-    /** What this machine mounts. */
+    /** The local file system. */
     RecordingFiles LOCAL = new Local();
 
     boolean isFolder(String path) throws IOException;
 
     boolean exists(String path) throws IOException;
 
-    /** What a folder holds, by name and in alphabetical order. */
+    /** Returns the file names of a folder in alphabetical order. */
     List<String> names(String folder) throws IOException;
 
     /**
      * Reads a file from its beginning.
      *
-     * @throws NoSuchFileException or {@link FileNotFoundException} if it has been deleted: a recording is then taken to be gone
+     * @throws NoSuchFileException or {@link FileNotFoundException} if it was deleted, which ends the recording
      */
     InputStream open(String file) throws IOException;
 
-    /** Of {@code java.nio}. */
+    /** Reads the local file system with {@code java.nio}. */
     record Local() implements RecordingFiles {
         @Override
         public boolean isFolder(String path) {

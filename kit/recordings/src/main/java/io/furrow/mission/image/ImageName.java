@@ -10,26 +10,27 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.text.Sha256;
 
 /**
- * Where an image is kept below the root: {@code <domain>/<mission>/<entity id>/<entity id>_<yyyyMMddHHmmssSSS>.<ext>}, event
- * time in UTC. Entities of a tenant or service path that is not the default are below {@code ~tenant-<tenant>/} and {@code
- * ~path-<service path>/}, so that one id in two of them is two folders. A part of {@code A-Z a-z 0-9 . _ -} that begins with no dot stands as it is; every other byte of its UTF-8 form
- * becomes {@code ~HH}, because HDFS takes no colon and a leading dot hides a file. An absent domain or mission is {@code
- * ~none}; a part that would be longer than {@value #MAX_LENGTH} signs is {@code ~h} and its SHA-256. No two parts share a name.
+ * The path of an image below the root: {@code <domain>/<mission>/<entity id>/<entity id>_<yyyyMMddHHmmssSSS>.<ext>},
+ * with the event time in UTC. Entities of a tenant or service path other than the default are below {@code
+ * ~tenant-<tenant>/} and {@code ~path-<service path>/}, so that an id in two of them has two folders. A part of {@code
+ * A-Z a-z 0-9 . _ -} without a leading dot stays as it is; every other byte of its UTF-8 form becomes {@code ~HH},
+ * because HDFS allows no colon and a leading dot hides a file. An absent domain or mission is {@code ~none}; a part
+ * longer than {@value #MAX_LENGTH} characters is {@code ~h} and its SHA-256. No two parts share a name.
  *
  * @param folder {@code <domain>/<mission>/<entity id>}, below those of the scope
  * @param file without the extension
  */
 public record ImageName(String folder, String file) {
-    /** Files under way, to be deleted when they are left behind by a process that died. */
+    /** Prefix of incomplete files, which are deleted if their process died. */
     public static final String UNFINISHED = ".unfinished-";
 
-    /** A file name holds at most 255 bytes: the part, the time, a hash and the mark of a file under way must fit in. */
+    /** A file name has at most 255 bytes for the part, the time, a hash and the prefix of an incomplete file. */
     private static final int MAX_LENGTH = 120;
 
     private static final DateTimeFormatter TIME =
             DateTimeFormatter.ofPattern("uuuuMMddHHmmssSSS", Locale.ROOT).withZone(ZoneOffset.UTC);
 
-    /** The beginnings of folders of a scope: no part begins so. */
+    /** Prefixes of the folders of a scope; no encoded part has them. */
     private static final String TENANT = "~tenant-";
 
     private static final String SERVICE_PATH = "~path-";
@@ -47,22 +48,22 @@ public record ImageName(String folder, String file) {
         return isRoot ? tenant : tenant + SERVICE_PATH + part(scope.servicePath()) + "/";
     }
 
-    /** Whether a folder is that of a tenant or service path, with the folders of domains in it. */
+    /** Returns whether a folder is that of a tenant or service path, which contains folders of domains. */
     static boolean isScope(String folder) {
         return folder.startsWith(TENANT) || folder.startsWith(SERVICE_PATH);
     }
 
-    /** {@code <folder>/<file>.<extension>}. */
+    /** Returns {@code <folder>/<file>.<extension>}. */
     public String path(String extension) {
         return folder + "/" + file + "." + extension;
     }
 
-    /** The name of an image whose first name is taken by another one: the same entity, the same millisecond. */
+    /** Returns an alternative name for a different image of the same entity and millisecond. */
     public String path(String extension, String sha256) {
         return folder + "/" + file + "-" + sha256 + "." + extension;
     }
 
-    /** The time in a file's name. */
+    /** Parses the time in a file's name. */
     public static Instant time(String digits) {
         return TIME.parse(digits, Instant::from);
     }

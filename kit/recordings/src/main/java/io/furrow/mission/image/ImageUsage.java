@@ -12,21 +12,21 @@ import org.apache.flink.core.fs.FileSystem;
 import org.apache.flink.core.fs.Path;
 
 /**
- * The images of one domain and mission, of all tenants, that a folder holds at this moment.
+ * Counts the images of one domain and mission, of all tenants, in a folder.
  *
- * @param domain as the folder's name has it; empty for none
- * @param mission as the folder's name has it; empty for none
- * @param entities that have images
+ * @param domain encoded as in the folder's name; empty for none
+ * @param mission encoded as in the folder's name; empty for none
+ * @param entities number of entities with images
  */
 public record ImageUsage(String domain, String mission, long entities, long images, long bytes) {
     private static final Pattern IMAGE = Pattern.compile(".+_\\d{17}(-[0-9a-f]{64})?\\.(png|jpg)");
     private static final String NONE = ImageName.part("");
 
     /**
-     * Lists what is there.
+     * Counts the images below a folder.
      *
-     * @param root the folder that the job was given with {@code --images}
-     * @throws IOException if it is not there or cannot be read; the message says which
+     * @param root the folder of the job's option {@code --images}
+     * @throws IOException if it does not exist or cannot be read; the message names it
      */
     public static List<ImageUsage> of(Path root) throws IOException {
         FileSystem files = root.getFileSystem();
@@ -40,7 +40,7 @@ public record ImageUsage(String domain, String mission, long entities, long imag
         return List.copyOf(all.values());
     }
 
-    /** Domains, and what is below the folders of tenants and service paths. */
+    /** Adds the images of the domains of a folder, including the folders of tenants and service paths. */
     private static void add(FileSystem files, Path folder, Map<String, ImageUsage> all) throws IOException {
         for (FileStatus domain : folders(files, folder)) {
             if (ImageName.isScope(domain.getPath().getName())) {
@@ -87,6 +87,6 @@ public record ImageUsage(String domain, String mission, long entities, long imag
 
     private static List<FileStatus> list(FileSystem files, Path folder) throws IOException {
         FileStatus[] found = files.listStatus(folder);
-        return found == null ? List.of() : List.of(found); // null: gone meanwhile
+        return found == null ? List.of() : List.of(found); // null if it was deleted meanwhile
     }
 }

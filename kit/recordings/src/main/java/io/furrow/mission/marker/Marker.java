@@ -5,17 +5,17 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * A moment of a mission with a note. What may be stored is said by {@link Markers#add}.
+ * A note on a moment of a mission. {@link Markers#add} checks it.
  *
  * @param id unique among all markers
  * @param mission its name
  * @param time event time of the moment, epoch ms
  * @param note for people
- * @param author who wrote it; empty if that is not known
- * @param created when it was written, epoch ms
+ * @param author empty if unknown
+ * @param created time of creation, epoch ms
  */
 public record Marker(String id, String mission, long time, String note, String author, long created) {
-    /** {@code {"id", "mission", "time", "note", "author", "created"}}, with times in epoch ms. */
+    /** Returns {@code {"id", "mission", "time", "note", "author", "created"}}, with times in epoch ms. */
     public ObjectNode toJson() {
         return NgsiJson.object()
                 .put("id", id)

@@ -6,14 +6,17 @@ import java.util.List;
 
 import io.furrow.model.ngsi.NgsiJson;
 
-/** The markers of an exported mission, in a file beside that of its events: a {@linkplain Marker#toJson JSON object} a line. */
+/**
+ * Writes the markers of an exported mission to a file beside that of its events, with a {@linkplain Marker#toJson JSON
+ * object} per line.
+ */
 public final class MarkerFile {
     private static final String ENDING = ".markers.jsonl";
     private static final List<String> MISSION_ENDINGS = List.of(".gz", ".ndjson", ".jsonl");
 
     private MarkerFile() {}
 
-    /** {@code weeding.markers.jsonl} for {@code weeding.ndjson.gz}, in the same folder. */
+    /** Returns {@code weeding.markers.jsonl} for {@code weeding.ndjson.gz}, in the same folder. */
     public static String beside(String missionFile) {
         String name = missionFile;
         for (String ending : MISSION_ENDINGS) {
@@ -22,12 +25,12 @@ public final class MarkerFile {
         return name + ENDING;
     }
 
-    /** Whether a file holds markers and no events, by its name. */
+    /** Returns whether a file contains markers instead of events, by its name. */
     public static boolean isOne(String name) {
         return name.endsWith(ENDING) || name.endsWith(ENDING + ".gz");
     }
 
-    /** Writes a line for each; the stream stays open. */
+    /** Writes one line per marker; the stream stays open. */
     public static void write(List<Marker> markers, OutputStream out) throws IOException {
         for (Marker marker : markers) {
             out.write(NgsiJson.write(marker.toJson()));

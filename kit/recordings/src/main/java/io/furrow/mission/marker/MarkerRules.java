@@ -3,7 +3,7 @@ package io.furrow.mission.marker;
 import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 
-/** What a marker has to be to be stored. */
+/** Validates markers. */
 final class MarkerRules {
     static final int MAX_NOTE_LENGTH = 1_000;
 
@@ -24,16 +24,16 @@ final class MarkerRules {
         time(marker.created(), "created");
     }
 
-    private static void text(String text, String name, int longest, String remedy) throws RejectedMarkerException {
+    private static void text(String text, String name, int maxLength, String remedy) throws RejectedMarkerException {
         if (text == null || text.isBlank()) {
             throw new RejectedMarkerException("The %s of the marker is missing or blank; %s".formatted(name, remedy));
         }
         int length = text.codePointCount(0, text.length());
-        if (length > longest) {
+        if (length > maxLength) {
             throw new RejectedMarkerException("The %s of the marker has %,d characters, at most %,d are stored; %s"
-                    .formatted(name, length, longest, remedy));
+                    .formatted(name, length, maxLength, remedy));
         }
-        if (text.codePoints().anyMatch(sign -> Character.isISOControl(sign) && sign != '\n')) {
+        if (text.codePoints().anyMatch(codePoint -> Character.isISOControl(codePoint) && codePoint != '\n')) {
             throw new RejectedMarkerException(
                     "The %s of the marker holds control characters; write plain text".formatted(name));
         }

@@ -24,11 +24,12 @@ import io.furrow.mission.mongo.MongoRecordings;
 import io.furrow.mission.mongo.StoredDatabase;
 
 /**
- * The markers of all missions, in the collection {@code markers} beside these: {@code _id}, {@code mission} (as its collection has it), {@code
- * time} (a date), {@code note}, {@code author}, {@code created} (a date), with an index on mission and time. Not thread-safe.
+ * Stores the markers of all missions in the collection {@code markers}: {@code _id}, {@code mission} (encoded as in its
+ * collection's name), {@code time} (a date), {@code note}, {@code author}, {@code created} (a date), with an index on
+ * mission and time. Not thread-safe.
  */
 public final class Markers extends StoredDatabase {
-    /** At most so many are stored of a mission. */
+    /** Maximum markers per mission. */
     public static final int MAX = 10_000;
 
     private static final String COLLECTION = "markers";
@@ -42,47 +43,48 @@ public final class Markers extends StoredDatabase {
             Comparator.comparingLong(Marker::time).thenComparing(Marker::id);
 
     private final MongoCollection<Document> collection = database().getCollection(COLLECTION);
-    private final int most;
+    private final int max;
     private boolean indexed;
 
-    Markers(MongoRecordings at, int most) {
+    Markers(MongoRecordings at, int max) {
         super(at);
-        this.most = most;
+        this.max = max;
     }
 
     /**
-     * Does not wait for the server.
+     * Opens the markers without waiting for the server.
      *
      * @param database {@link MongoAccess#DATABASE} unless missions were moved
-     * @throws IllegalArgumentException if the URI is none
+     * @throws IllegalArgumentException if the URI is invalid
      */
     public static Markers open(String uri, String database) {
         return new Markers(new MongoRecordings(uri, database), MAX);
     }
 
     /**
-     * Stores a marker. One that is stored already stays once, so that this can be tried again. Whether there is such a mission, or
-     * such a moment in it, is not asked.
+     * Stores a marker; storing the same one again changes nothing, so that callers may retry. It does not check whether
+     * the mission and the moment exist.
      *
-     * @throws RejectedMarkerException if the mission or the id is missing or longer than 100 characters, the note is blank or longer than 1,000, the author longer
-     *     than 200, a time is not between 1970 and 9999, another marker has the id, or the mission has {@value #MAX}
-     * @throws RecordingException if MongoDB cannot be asked now
+     * @throws RejectedMarkerException if the mission or the id is missing or longer than 100 characters, the note is
+     * blank or longer than 1,000, the author longer than 200, a time is not between 1970 and 9999, another marker has
+     * the id, or the mission has {@value #MAX}
+     * @throws RecordingException if MongoDB is unavailable
      */
     public void add(Marker marker) throws RejectedMarkerException, RecordingException {
         MarkerRules.check(marker);
-        Optional<String> refusal = answer(unreachable(marker.mission()), () -> {
+        Optional<String> rejection = run(unreachable(marker.mission()), () -> {
             if (!indexed) {
                 collection.createIndex(Indexes.ascending(MISSION, TIME), new IndexOptions().name("mission-and-time"));
                 indexed = true;
             }
             return insert(marker, missionOf(marker.mission()));
         });
-        if (refusal.isPresent()) {
-            throw new RejectedMarkerException(refusal.get());
+        if (rejection.isPresent()) {
+            throw new RejectedMarkerException(rejection.get());
         }
     }
 
-    /** Empty if it is stored. */
+    /** Inserts a marker; returns why it was rejected, or empty. */
     private Optional<String> insert(Marker marker, String mission) {
         try {
             collection.insertOne(new Document(ID, marker.id())
@@ -101,34 +103,34 @@ public final class Markers extends StoredDatabase {
                     : Optional.of("There is another marker of id %s; write a new id, or remove that marker first"
                             .formatted(marker.id()));
         }
-        // Counted afterwards, as another may be added at the same time.
-        CountOptions few = new CountOptions().limit(most + 1);
-        if (collection.countDocuments(Filters.eq(MISSION, mission), few) <= most) {
+        // Counted afterwards, because another marker may be added at the same time.
+        CountOptions limit = new CountOptions().limit(max + 1);
+        if (collection.countDocuments(Filters.eq(MISSION, mission), limit) <= max) {
             return Optional.empty();
         }
         collection.deleteOne(Filters.eq(ID, marker.id()));
         return Optional.of("Mission %s has %,d markers, and no more are stored; remove some first"
-                .formatted(marker.mission(), most));
+                .formatted(marker.mission(), max));
     }
 
     /**
-     * All of a mission, in the order of their times and, of one time, of their ids.
+     * Returns all markers of a mission, in the order of their times, then ids.
      *
-     * @throws RecordingException if MongoDB cannot be asked now
+     * @throws RecordingException if MongoDB is unavailable
      */
     public List<Marker> list(String mission) throws RecordingException {
         return list(mission, 0, Long.MAX_VALUE);
     }
 
     /**
-     * Those of a part of a mission.
+     * Returns the markers of a part of a mission.
      *
      * @param from epoch ms
      * @param to epoch ms, exclusive
-     * @throws RecordingException if MongoDB cannot be asked now
+     * @throws RecordingException if MongoDB is unavailable
      */
     public List<Marker> list(String mission, long from, long to) throws RecordingException {
-        return answer(unreachable(mission), () -> {
+        return run(unreachable(mission), () -> {
             String key = missionOf(mission);
             List<Marker> markers = new ArrayList<>();
             collection
@@ -138,7 +140,7 @@ public final class Markers extends StoredDatabase {
                             Filters.lt(TIME, new Date(to)),
                             Filters.not(Filters.type(TIME, BsonType.ARRAY))))
                     .sort(Sorts.ascending(TIME))
-                    .limit(most)
+                    .limit(max)
                     .forEach(found -> markers.add(read(found, mission, key)));
             markers.sort(BY_TIME);
             return markers;
@@ -146,12 +148,12 @@ public final class Markers extends StoredDatabase {
     }
 
     /**
-     * Whether there was such a marker of the mission.
+     * Removes a marker; returns false if the mission has no such marker.
      *
-     * @throws RecordingException if MongoDB cannot be asked now
+     * @throws RecordingException if MongoDB is unavailable
      */
     public boolean remove(String mission, String id) throws RecordingException {
-        return answer(
+        return run(
                 unreachable(mission),
                 () -> collection
                                 .deleteOne(Filters.and(Filters.eq(ID, id), Filters.eq(MISSION, missionOf(mission))))
@@ -159,12 +161,12 @@ public final class Markers extends StoredDatabase {
                         > 0);
     }
 
-    /** @param asked the mission's name, where the document is of that mission */
-    private static Marker read(Document found, String asked, String key) {
+    /** @param requestedMission its name, used if the document is of that mission */
+    private static Marker read(Document found, String requestedMission, String key) {
         String mission = text(found, MISSION);
         return new Marker(
                 text(found, ID),
-                mission.equals(key) ? asked : mission,
+                mission.equals(key) ? requestedMission : mission,
                 time(found, TIME),
                 text(found, NOTE),
                 text(found, AUTHOR),
@@ -179,11 +181,12 @@ public final class Markers extends StoredDatabase {
         return found.get(field) instanceof Date date ? date.getTime() : 0;
     }
 
-    /** The mission's collection without its prefix: that which recordings of this name are read from. */
+    /** Returns the name of the mission's collection without its prefix. */
     private String missionOf(String mission) {
         boolean isPlain = MissionCollections.candidates(mission).size() == 1;
-        Optional<String> known = isPlain ? Optional.empty() : MongoRecordings.collectionOf(database(), mission);
-        return known.orElse(MissionCollections.nameOf(mission)).substring(MissionCollections.PREFIX.length());
+        Optional<String> collectionName =
+                isPlain ? Optional.empty() : MongoRecordings.collectionOf(database(), mission);
+        return collectionName.orElse(MissionCollections.nameOf(mission)).substring(MissionCollections.PREFIX.length());
     }
 
     private static String unreachable(String mission) {

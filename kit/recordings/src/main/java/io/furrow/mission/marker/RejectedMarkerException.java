@@ -1,6 +1,6 @@
 package io.furrow.mission.marker;
 
-/** A marker is not stored. The message says which, why, and what to do. */
+/** Thrown if a marker is not stored. The message says which, why, and what to do. */
 public final class RejectedMarkerException extends Exception {
     private static final long serialVersionUID = 1L;
 

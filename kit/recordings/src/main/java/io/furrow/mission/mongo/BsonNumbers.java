@@ -13,12 +13,12 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * JSON numbers in BSON, digit for digit: whole numbers as 32 or 64 bits where they fit; decimals as a double where the double
- * is written with the same digits, else as a Decimal128, which holds 34 digits. A number with more is refused.
+ * Converts JSON numbers to BSON without loss of digits: whole numbers as 32 or 64 bits if they fit; decimals as a
+ * double if it prints the same digits, otherwise as a Decimal128, which has 34 digits. Longer numbers are rejected.
  */
 final class BsonNumbers {
     private static final JsonNodeFactory NODES = new JsonNodeFactory(true);
-    /** Decimals that a double may be able to say; more need not be tried. */
+    /** Maximum digits that a double may represent exactly. */
     private static final int DIGITS_OF_A_DOUBLE = 17;
 
     private BsonNumbers() {}
@@ -71,7 +71,7 @@ final class BsonNumbers {
         }
     }
 
-    /** The number at the reader; it is of one of the four kinds. */
+    /** Reads a number of one of the four types. */
     static JsonNode read(BsonReader in) {
         return switch (in.getCurrentBsonType()) {
             case INT32 -> NODES.numberNode(in.readInt32());
@@ -83,7 +83,7 @@ final class BsonNumbers {
     }
 
     private static JsonNode ofDouble(double value) {
-        // What JSON cannot say was not written by us; the text is the nearest to it.
+        // JSON has no infinity and NaN, which ingest does not write; they become text.
         return Double.isFinite(value) ? NODES.numberNode(decimal(value)) : NODES.textNode(Double.toString(value));
     }
 

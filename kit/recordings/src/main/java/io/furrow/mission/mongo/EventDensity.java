@@ -15,14 +15,14 @@ import org.bson.conversions.Bson;
 import io.furrow.mission.RecordingException;
 
 /**
- * Counts the events of stored missions by event time. MongoDB counts, by its index on event time alone, where it keeps that; no
- * document comes here.
+ * Counts the events of stored missions by event time. MongoDB counts with its index on event time, if there is one, and
+ * returns no document.
  */
 public final class EventDensity extends StoredDatabase {
     private static final int COUNT_SECONDS = 30;
     private static final String COUNT = "count";
     private static final String TIME = "$" + EventDocumentCodec.TIME;
-    /** The bucket of an array of dates, which a comparison with a date finds too. */
+    /** Bucket of arrays of dates, which a comparison with a date also matches. */
     private static final int NONE = -1;
 
     EventDensity(MongoRecordings at) {
@@ -30,29 +30,30 @@ public final class EventDensity extends StoredDatabase {
     }
 
     /**
-     * Does not wait for the server.
+     * Opens the missions without waiting for the server.
      *
      * @param database {@link MongoAccess#DATABASE} unless missions were moved
-     * @throws IllegalArgumentException if the URI is none
+     * @throws IllegalArgumentException if the URI is invalid
      */
     public static EventDensity open(String uri, String database) {
         return new EventDensity(new MongoRecordings(uri, database));
     }
 
     /**
-     * How many events lie in each of the buckets {@code [from, from + width)}, {@code [from + width, from + 2 width)} and so on; empty if
-     * nothing is stored of the mission.
+     * Counts the events in each of the buckets {@code [from, from + width)}, {@code [from + width, from + 2 width)} and
+     * so on; empty if the mission is not stored.
      *
-     * @param mission its name, or what stands for it in topics and collections
+     * @param mission its name or its encoded name in topics and collections
      * @param from epoch ms
      * @param width ms
-     * @throws RecordingException if MongoDB cannot be asked now, or does not answer within 30 s
+     * @throws RecordingException if MongoDB is unavailable or does not answer within 30 s
      */
     public Optional<long[]> count(String mission, long from, long width, int buckets) throws RecordingException {
         if (width < 1 || buckets < 1) {
-            throw new IllegalArgumentException("%d buckets of %d ms are none".formatted(buckets, width));
+            throw new IllegalArgumentException(
+                    "buckets and width must be positive: buckets=%d, widthMillis=%d".formatted(buckets, width));
         }
-        return answer(
+        return run(
                 "The events of mission %s cannot be counted at".formatted(mission),
                 () -> MongoRecordings.collectionOf(database(), mission)
                         .map(name -> count(database().getCollection(name), from, width, buckets)));

@@ -22,10 +22,10 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * The document of an event: {@code _id} (event id), the entity as it was reported, {@code _time} (event time, a date) and
- * {@code _headers} (hop stamps as 64-bit numbers, the rest as text). A deletion has {@code id} and {@code _deleted}. Names
- * are written as {@link FieldName} says, numbers as {@link BsonNumbers} says; {@link #read} gives back what
- * {@link #write} was given.
+ * Encodes an event as a document: {@code _id} (event id), the reported entity, {@code _time} (event time, a date) and
+ * {@code _headers} (hop stamps as 64-bit numbers, the rest as text). A deletion has {@code id} and {@code _deleted}.
+ * {@link FieldName} encodes names and {@link BsonNumbers} numbers; {@link #read} returns exactly the event of {@link
+ * #write}.
  */
 public final class EventDocumentCodec {
     public static final String ID = "_id";
@@ -36,7 +36,7 @@ public final class EventDocumentCodec {
     private static final String DELETED = "_deleted";
     private static final String STAMP = "ts-";
     private static final Pattern STAMPED = Pattern.compile("[1-9]\\d{0,17}");
-    /** What the server takes, less what the command around the document may need. */
+    /** The server's limit less the room that the command around the document may need. */
     private static final int MAX_BYTES = 16 * 1024 * 1024 - 16 * 1024;
 
     private static final JsonNodeFactory NODES = new JsonNodeFactory(true);
@@ -44,7 +44,8 @@ public final class EventDocumentCodec {
     private EventDocumentCodec() {}
 
     /**
-     * @throws UnreadableException with {@link Reason#REFUSED} or {@link Reason#TOO_LARGE} for what no document can hold
+     * @throws UnreadableException with {@link Reason#REFUSED} or {@link Reason#TOO_LARGE} for an event that no document
+     * can hold
      */
     public static byte[] write(StoredEvent event) throws UnreadableException {
         try (BasicOutputBuffer buffer = new BasicOutputBuffer(2048);
@@ -83,7 +84,7 @@ public final class EventDocumentCodec {
         out.writeEndDocument();
     }
 
-    /** A number only where it gives back the same text. */
+    /** Returns whether a header can be stored as a number without changing its text. */
     private static boolean isStamp(String name, String text) {
         return name.startsWith(STAMP) && STAMPED.matcher(text).matches();
     }
@@ -138,7 +139,7 @@ public final class EventDocumentCodec {
                     readObject(in)
                             .properties()
                             .forEach(h -> headers.put(h.getKey(), h.getValue().asText()));
-                default -> entity.set(FieldName.decoded(field), readValue(in));
+                default -> entity.set(FieldName.decode(field), readValue(in));
             }
         }
         if (id == null || time == Long.MIN_VALUE || !entity.path(ENTITY_ID).isTextual()) {
@@ -152,7 +153,7 @@ public final class EventDocumentCodec {
         ObjectNode object = NODES.objectNode();
         in.readStartDocument();
         while (in.readBsonType() != BsonType.END_OF_DOCUMENT) {
-            object.set(FieldName.decoded(in.readName()), readValue(in));
+            object.set(FieldName.decode(in.readName()), readValue(in));
         }
         in.readEndDocument();
         return object;
@@ -187,7 +188,7 @@ public final class EventDocumentCodec {
         return array;
     }
 
-    /** The headers that are kept: those that the document does not say otherwise. */
+    /** Returns the headers to store, without those that repeat other fields of the document. */
     public static Map<String, String> kept(Map<String, String> headers) {
         Map<String, String> kept = new TreeMap<>(headers);
         kept.remove(HeaderNames.CE_ID);

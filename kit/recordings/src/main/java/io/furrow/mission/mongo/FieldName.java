@@ -3,23 +3,23 @@ package io.furrow.mission.mongo;
 import java.util.HexFormat;
 
 /**
- * Encodes JSON names as names of a document's fields, so that every name can be stored, queried and decoded: {@code
- * %25} for a percent sign, {@code %2E} for a dot (MongoDB reads it as a path), {@code %24} for a leading dollar sign
- * (MongoDB reads it as an operator), {@code %00} for a null byte (BSON ends a name there), {@code %5F} for a leading
- * underscore at the top of a document (names of Furrow's own begin so), {@code %} alone for the empty name. Other
- * names stand as they are.
+ * Encodes JSON names as field names of a document, so that every name can be stored, queried and decoded: {@code %25}
+ * for a percent sign, {@code %2E} for a dot (MongoDB reads it as a path), {@code %24} for a leading dollar sign
+ * (MongoDB reads it as an operator), {@code %00} for a null byte (it ends a name in BSON), {@code %5F} for a leading
+ * underscore at the top of a document (Furrow's own fields begin with it), {@code %} alone for the empty name. Other
+ * names are not changed.
  */
 final class FieldName {
     private static final String EMPTY = "%";
 
     private FieldName() {}
 
-    /** The field of an attribute: a name at the top of a document. */
+    /** Encodes the name of an attribute, at the top of a document. */
     static String ofAttribute(String name) {
         return name.startsWith("_") ? "%5F" + of(name.substring(1), false) : of(name);
     }
 
-    /** The field of a name further down. */
+    /** Encodes a name at a lower level. */
     static String of(String name) {
         return name.isEmpty() ? EMPTY : of(name, true);
     }
@@ -41,8 +41,8 @@ final class FieldName {
         return encoded == null ? name : encoded.toString();
     }
 
-    /** The name that a field stands for. */
-    static String decoded(String field) {
+    /** Decodes a field name. */
+    static String decode(String field) {
         if (field.indexOf('%') < 0) {
             return field;
         }

@@ -13,36 +13,35 @@ import org.bson.RawBsonDocument;
 import io.furrow.mission.RecordingException;
 
 /**
- * Lists the missions that are stored in MongoDB: by the names of collections, and by the first and last entry of their
+ * Lists the missions that are stored in MongoDB, from the names of collections and the first and last entry of their
  * index on event time.
  */
 public final class MissionCatalog extends StoredDatabase {
-    /** Of the missions that these recordings open. */
     MissionCatalog(MongoRecordings recordings) {
         super(recordings);
     }
 
     /**
-     * Does not wait for the server.
+     * Opens the catalog without waiting for the server.
      *
      * @param database {@link MongoAccess#DATABASE} unless missions were moved
-     * @throws IllegalArgumentException if the URI is none
+     * @throws IllegalArgumentException if the URI is invalid
      */
     public static MissionCatalog open(String uri, String database) {
         return new MissionCatalog(new MongoRecordings(uri, database));
     }
 
     /**
-     * All missions, by name.
+     * Returns all missions, sorted by name.
      *
-     * @throws RecordingException if MongoDB cannot be asked now
+     * @throws RecordingException if MongoDB is unavailable
      */
     List<StoredMission> list() throws RecordingException {
-        return answer(() -> {
+        return run(() -> {
             List<StoredMission> missions = new ArrayList<>();
             for (String name : database().listCollectionNames()) {
                 if (name.startsWith(MissionCollections.PREFIX)) {
-                    missions.add(stored(name));
+                    missions.add(describe(name));
                 }
             }
             missions.sort(Comparator.comparing(StoredMission::name));
@@ -51,12 +50,13 @@ public final class MissionCatalog extends StoredDatabase {
     }
 
     /**
-     * What stands for each mission in topics and collections, in alphabetical order; reads no document.
+     * Returns the encoded names of all missions, as in topics and collections, in alphabetical order; reads no
+     * document.
      *
-     * @throws RecordingException if MongoDB cannot be asked now
+     * @throws RecordingException if MongoDB is unavailable
      */
     public List<String> topicNames() throws RecordingException {
-        return answer(() -> {
+        return run(() -> {
             List<String> names = new ArrayList<>();
             for (String name : database().listCollectionNames()) {
                 if (name.startsWith(MissionCollections.PREFIX)) {
@@ -69,24 +69,24 @@ public final class MissionCatalog extends StoredDatabase {
     }
 
     /**
-     * A mission by its name, or by what stands for it in topics and collections; empty if it is not stored.
+     * Finds a mission by its name or its encoded name in topics and collections; empty if it is not stored.
      *
-     * @throws RecordingException if MongoDB cannot be asked now
+     * @throws RecordingException if MongoDB is unavailable
      */
     public Optional<StoredMission> find(String mission) throws RecordingException {
-        return answer(() -> MongoRecordings.collectionOf(database(), mission).map(this::stored));
+        return run(() -> MongoRecordings.collectionOf(database(), mission).map(this::describe));
     }
 
     /**
-     * Whether a replay of this mission finds it; reads no document.
+     * Returns whether a replay finds the mission; reads no document.
      *
-     * @throws RecordingException if MongoDB cannot be asked now
+     * @throws RecordingException if MongoDB is unavailable
      */
     boolean has(String mission) throws RecordingException {
-        return answer(() -> MongoRecordings.collectionOf(database(), mission).isPresent());
+        return run(() -> MongoRecordings.collectionOf(database(), mission).isPresent());
     }
 
-    private StoredMission stored(String name) {
+    private StoredMission describe(String name) {
         MongoCollection<RawBsonDocument> collection = database().getCollection(name, RawBsonDocument.class);
         String mission = MissionCollections.missionOf(
                 name,
@@ -97,7 +97,7 @@ public final class MissionCatalog extends StoredDatabase {
         return new StoredMission(mission, name, MongoRecording.span(collection));
     }
 
-    private <T> T answer(Supplier<T> question) throws RecordingException {
-        return answer("Which missions are stored cannot be read from", question);
+    private <T> T run(Supplier<T> query) throws RecordingException {
+        return run("The list of missions cannot be read from", query);
     }
 }

@@ -33,9 +33,9 @@ import org.slf4j.LoggerFactory;
 import io.furrow.model.topic.TopicName;
 
 /**
- * The collections {@code mission_<mission>} of the database {@code persistence}, each with an index on event time and one on
- * entity and event time. Retention is the server's business where it removes expired documents itself; {@link #purge} does it
- * where it does not. Several threads may use it.
+ * Manages the collections {@code mission_<mission>} of the database {@code persistence}, each with an index on event
+ * time and one on entity and event time. If the server removes expired documents, it applies the retention; otherwise
+ * {@link #purge} does. Thread-safe.
  */
 public final class MissionCollections {
     private static final Logger LOG = LoggerFactory.getLogger(MissionCollections.class);
@@ -43,33 +43,33 @@ public final class MissionCollections {
     public static final String PREFIX = "mission_";
     private static final String BY_TIME = "event-time";
     static final String BY_ENTITY = "entity-and-event-time";
-    /** An index of the same name with other options, and one of the same keys under another name. */
+    /** Error codes for an index of the same name with other options, and of the same keys under another name. */
     private static final Set<Integer> OTHER_OPTIONS = Set.of(85, 86);
 
     /**
-     * The server alters no index, or not this one: no right, no such field, name or command; before MongoDB 5.1 one that removes
-     * nothing so far.
+     * Error codes if the server cannot alter an index, or not this one: no permission, no such field, name or command;
+     * before MongoDB 5.1 also an index without expiry.
      */
     private static final Set<Integer> NOT_ALTERABLE = Set.of(2, 9, 13, 27, 59, 72, 115, 238, 40415);
-    /** The most that a server takes; an index that removes documents cannot be told to remove none. */
-    private static final long FOR_EVER_SECONDS = Integer.MAX_VALUE;
+    /** Maximum expiry of a server; an index with expiry cannot be altered to one without. */
+    private static final long MAX_EXPIRY_SECONDS = Integer.MAX_VALUE;
 
-    private static final Duration PREPARED_FOR = Duration.ofMinutes(1);
+    private static final Duration INDEX_CHECK_INTERVAL = Duration.ofMinutes(1);
 
     private final MongoDatabase database;
     private final Retention retention;
     private final Clock clock;
-    /** When the indexes of a collection were made. */
+    /** Until when the indexes of a collection count as existing. */
     private final Map<String, Instant> prepared = new ConcurrentHashMap<>();
 
     private volatile Boolean expires;
 
-    /** @param retention null to leave that of each collection as it is */
+    /** @param retention null to keep that of each collection */
     public MissionCollections(MongoClient client, Retention retention, Clock clock) {
         this(client, retention, clock, null);
     }
 
-    /** @param expires whether the server removes what has expired; null to ask it */
+    /** @param expires whether the server removes expired documents; null to ask it */
     public MissionCollections(MongoClient client, Retention retention, Clock clock, Boolean expires) {
         this.expires = expires;
         this.database = client.getDatabase(MongoAccess.DATABASE);
@@ -77,15 +77,18 @@ public final class MissionCollections {
         this.clock = clock;
     }
 
-    /** The mission's name is encoded as in topics, so that no two missions share a collection. */
+    /**
+     * Returns the collection of a mission; names are encoded as in topics, so that no two missions share a collection.
+     */
     public static String nameOf(String mission) {
         return PREFIX + TopicName.of(mission);
     }
 
     /**
-     * The mission of a collection. A hash is the name that an event of its mission bears, where it bears one, else it stays.
+     * Returns the mission of a collection. If the collection's name contains a hash, the name is read from an event of
+     * the mission; if the event has none, the hash is returned.
      *
-     * @param event of the mission, asked for only where it is needed; may give null
+     * @param event an event of the mission, read only for a hash; may return null
      */
     public static String missionOf(String collection, Supplier<? extends BsonDocument> event) {
         String part = collection.substring(PREFIX.length());
@@ -93,14 +96,17 @@ public final class MissionCollections {
             BsonDocument found = event.get();
             BsonValue attribute = found == null ? null : found.get("Mission");
             BsonValue value = attribute instanceof BsonDocument own ? own.get("value") : null;
-            boolean isIt = value != null
+            boolean isOfCollection = value != null
                     && value.isString()
                     && nameOf(value.asString().getValue()).equals(collection);
-            return isIt ? value.asString().getValue() : part;
+            return isOfCollection ? value.asString().getValue() : part;
         });
     }
 
-    /** The collections that may hold a mission, the likeliest first: by its name, or by what stands for it in topics. */
+    /**
+     * Returns the possible collections of a mission, the most likely first, given its name or its encoded name in
+     * topics.
+     */
     public static List<String> candidates(String mission) {
         boolean looksEncoded = mission.startsWith("_x-") || mission.startsWith("_h-");
         return looksEncoded ? List.of(nameOf(mission), PREFIX + mission) : List.of(nameOf(mission));
@@ -110,7 +116,7 @@ public final class MissionCollections {
         return database.getCollection(name, RawBsonDocument.class);
     }
 
-    /** All that exist, in alphabetical order. */
+    /** Returns the names of all collections in alphabetical order. */
     public List<String> names() {
         return StreamSupport.stream(database.listCollectionNames().spliterator(), false)
                 .filter(name -> name.startsWith(PREFIX))
@@ -118,20 +124,20 @@ public final class MissionCollections {
                 .toList();
     }
 
-    /** The collection with its indexes, which are made at the first use; once a minute again, as it may have been dropped. */
+    /** Returns the collection after creating its indexes; repeated once a minute, because it may have been dropped. */
     public MongoCollection<RawBsonDocument> prepared(String name) {
         MongoCollection<RawBsonDocument> collection = get(name);
         Instant now = clock.instant();
         if (now.isAfter(prepared.getOrDefault(name, Instant.MIN))) {
             IndexOptions byTime = new IndexOptions().name(BY_TIME);
-            Optional<Duration> kept = retention != null && serverExpires() ? retention.of(name) : Optional.empty();
-            kept.ifPresent(time -> byTime.expireAfter(time.toSeconds(), TimeUnit.SECONDS));
+            Optional<Duration> expiry = retention != null && serverExpires() ? retention.of(name) : Optional.empty();
+            expiry.ifPresent(time -> byTime.expireAfter(time.toSeconds(), TimeUnit.SECONDS));
             ensureIndex(collection, Indexes.ascending(EventDocumentCodec.TIME), byTime);
             ensureIndex(
                     collection,
                     Indexes.ascending(EventDocumentCodec.ENTITY_ID, EventDocumentCodec.TIME),
                     new IndexOptions().name(BY_ENTITY));
-            prepared.put(name, now.plus(PREPARED_FOR));
+            prepared.put(name, now.plus(INDEX_CHECK_INTERVAL));
         }
         return collection;
     }
@@ -143,21 +149,25 @@ public final class MissionCollections {
             if (!OTHER_OPTIONS.contains(e.getErrorCode())) {
                 throw e;
             }
-            if (retention != null && !isAltered(collection, options)) {
+            if (retention != null && !alter(collection, options)) {
                 collection.dropIndex(keys);
                 collection.createIndex(keys, options);
             }
         }
     }
 
-    /** Whether the server keeps the index with another retention: to build it anew takes hours where a mission is large. */
-    private boolean isAltered(MongoCollection<?> collection, IndexOptions options) {
+    /**
+     * Tries to alter the retention of an index, because rebuilding it takes hours for a large mission.
+     *
+     * @return whether the server altered it
+     */
+    private boolean alter(MongoCollection<?> collection, IndexOptions options) {
         if (!BY_TIME.equals(options.getName())) {
             return false;
         }
         Long seconds = options.getExpireAfter(TimeUnit.SECONDS);
         Document index = new Document("name", BY_TIME)
-                .append("expireAfterSeconds", seconds == null ? FOR_EVER_SECONDS : seconds);
+                .append("expireAfterSeconds", seconds == null ? MAX_EXPIRY_SECONDS : seconds);
         try {
             database.runCommand(
                     new Document("collMod", collection.getNamespace().getCollectionName()).append("index", index));
@@ -171,21 +181,21 @@ public final class MissionCollections {
         }
     }
 
-    /** The indexes of a collection by name, and of each after what time it removes documents, if at all. */
+    /** Returns the indexes of a collection by name, with the time after which they remove documents, if any. */
     public Map<String, Optional<Duration>> indexes(String collection) {
         Map<String, Optional<Duration>> indexes = new TreeMap<>();
         for (Document index : database.getCollection(collection).listIndexes()) {
             Object seconds = index.get("expireAfterSeconds");
             indexes.put(
                     index.getString("name"),
-                    seconds instanceof Number number && number.longValue() < FOR_EVER_SECONDS
+                    seconds instanceof Number number && number.longValue() < MAX_EXPIRY_SECONDS
                             ? Optional.of(Duration.ofSeconds(number.longValue()))
                             : Optional.empty());
         }
         return indexes;
     }
 
-    /** Of a collection's documents; −1 if the server does not report it. */
+    /** Returns the size of a collection's documents; −1 if the server does not report it. */
     public long bytes(String collection) {
         try {
             Object size =
@@ -197,7 +207,7 @@ public final class MissionCollections {
         }
     }
 
-    /** Whether it can be reached at this moment. */
+    /** Returns whether the server answers a ping. */
     public boolean serverAnswers() {
         try {
             database.runCommand(new Document("ping", 1));
@@ -207,7 +217,7 @@ public final class MissionCollections {
         }
     }
 
-    /** Whether the server has an index that removes what has expired; a server that keeps its data by other means has not. */
+    /** Returns whether the server removes expired documents; servers with another storage do not. */
     public boolean serverExpires() {
         if (expires == null) {
             expires = hasIndexes(database);
@@ -215,22 +225,22 @@ public final class MissionCollections {
         return expires;
     }
 
-    /** Whether the server keeps indexes and removes what has expired. */
+    /** Returns whether the server uses indexes and removes expired documents. */
     static boolean hasIndexes(MongoDatabase database) {
         return database.runCommand(new Document("buildInfo", 1)).containsKey("storageEngines");
     }
 
     /**
-     * Removes what has expired.
+     * Removes expired documents.
      *
-     * @return how many documents
+     * @return number of removed documents
      */
     public long purge() {
         long removed = 0;
         for (String name : names()) {
-            Optional<Duration> kept = retention.of(name);
-            if (kept.isPresent()) {
-                Date expired = Date.from(clock.instant().minus(kept.get()));
+            Optional<Duration> expiry = retention.of(name);
+            if (expiry.isPresent()) {
+                Date expired = Date.from(clock.instant().minus(expiry.get()));
                 removed += get(name)
                         .deleteMany(Filters.lt(EventDocumentCodec.TIME, expired))
                         .getDeletedCount();

@@ -11,19 +11,19 @@ import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoClients;
 
 /**
- * How MongoDB is reached.
+ * Opens clients of MongoDB.
  *
- * @param uri a connection string; what it says of timeouts and of the write concern goes before what is set here
+ * @param uri a connection string; its timeouts and write concern override the defaults here
  */
 public record MongoAccess(String uri, Waits waits) implements Serializable {
     /**
-     * How long documents are tried again.
+     * How long documents are retried.
      *
      * @param away while the server is unavailable
-     * @param unknown where it does not take them for a reason that may or may not pass
+     * @param unknown while the server rejects them for an unknown reason
      */
     public record Waits(Duration away, Duration unknown) implements Serializable {
-        /** The same for both. */
+        /** Returns the same timeout for both. */
         public static Waits of(Duration timeout) {
             return new Waits(timeout, timeout);
         }
@@ -32,46 +32,47 @@ public record MongoAccess(String uri, Waits waits) implements Serializable {
     /** The database of all missions. */
     public static final String DATABASE = "persistence";
 
-    /** How long a command waits for a server that is unavailable. */
+    /** How long a command waits for an unavailable server. */
     static final Duration SELECTION_TIMEOUT = Duration.ofSeconds(5);
 
     private static final int CONNECT_SECONDS = 5;
     private static final int ANSWER_SECONDS = 60;
 
     /**
-     * Does not wait for the server.
+     * Opens a client without waiting for the server.
      *
-     * @throws IllegalArgumentException if the URI is none
+     * @throws IllegalArgumentException if the URI is invalid
      */
     public MongoClient open() {
         return open(uri, SELECTION_TIMEOUT);
     }
 
-    /** @param selectionTimeout how long a command waits for a server that is unavailable, unless the URI says so */
+    /** @param selectionTimeout how long a command waits for an unavailable server, unless the URI sets it */
     public static MongoClient open(String uri, Duration selectionTimeout) {
-        ConnectionString given = new ConnectionString(uri);
+        ConnectionString connection = new ConnectionString(uri);
         MongoClientSettings.Builder settings = MongoClientSettings.builder()
                 .applicationName("furrow")
-                // Acknowledged means on the disk of most members: a checkpoint skips what was acknowledged.
+                // Acknowledged documents must be on the disks of a majority, because a checkpoint does not send them
+                // again.
                 .writeConcern(WriteConcern.MAJORITY.withJournal(true))
                 .applyToClusterSettings(
                         it -> it.serverSelectionTimeout(selectionTimeout.toMillis(), TimeUnit.MILLISECONDS))
                 .applyToSocketSettings(it -> it.connectTimeout(CONNECT_SECONDS, TimeUnit.SECONDS)
                         .readTimeout(ANSWER_SECONDS, TimeUnit.SECONDS))
-                .applyConnectionString(given);
+                .applyConnectionString(connection);
         return MongoClients.create(settings.build());
     }
 
     /**
-     * Says what is wrong with a URI, without it: it may hold a password.
+     * Returns what is wrong with a URI without printing it, because it may contain a password.
      *
-     * @param uri of an option; one that still begins with {@code @} is a file that could not be read
+     * @param uri of an option; one that still begins with {@code @} names a file that cannot be read
      */
-    public static String fault(String uri, IllegalArgumentException refusal) {
-        return uri.startsWith("@") ? uri.substring(1) + " cannot be read" : refusal.getMessage();
+    public static String fault(String uri, IllegalArgumentException failure) {
+        return uri.startsWith("@") ? uri.substring(1) + " cannot be read" : failure.getMessage();
     }
 
-    /** Holds no password. */
+    /** Returns the hosts without the password. */
     @Override
     public String toString() {
         return String.join(",", new ConnectionString(uri).getHosts());

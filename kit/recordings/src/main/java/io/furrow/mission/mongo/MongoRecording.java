@@ -36,9 +36,9 @@ import io.furrow.mission.StepBack;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** A mission in MongoDB. Pages that follow on one another share a query; any other begins one by event time. */
+/** Reads a mission from MongoDB. Consecutive pages share a query; any other page starts a new one by event time. */
 final class MongoRecording implements Recording {
-    /** Dates alone: MongoDB compares a date with no value of another type. */
+    /** Matches dates only, because MongoDB does not compare a date with a value of another type. */
     private static final Bson TIMED = Filters.gte(EventDocumentCodec.TIME, new BsonDateTime(Long.MIN_VALUE));
 
     private static final Bson UNTIMED = Filters.or(
@@ -53,17 +53,17 @@ final class MongoRecording implements Recording {
     private final MongoCollection<RawBsonDocument> collection;
     private final String where;
     private final OrderedDocumentReader.Sizes sizes;
-    /** What the next page may continue with; null if it begins again. */
+    /** The open query; null before the first page and after an error. */
     private OrderedDocumentReader documents;
 
     private Cursor position = Cursor.START;
-    /** Counted once, as no index helps; null until then. */
+    /** Number of documents without an event time; counted once, because no index helps. Null before. */
     private Long untimed;
 
-    /** Null until the server is asked. */
+    /** Whether the server uses indexes; null until it is asked. */
     private Boolean indexed;
 
-    /** @param where for messages */
+    /** @param where named in messages */
     MongoRecording(
             String mission,
             SharedMongoClient client,
@@ -79,7 +79,7 @@ final class MongoRecording implements Recording {
 
     @Override
     public Optional<RecordingExtent> span() throws RecordingException {
-        return answer(() -> span(collection));
+        return run(() -> span(collection));
     }
 
     static Optional<RecordingExtent> span(MongoCollection<RawBsonDocument> collection) {
@@ -92,7 +92,7 @@ final class MongoRecording implements Recording {
 
     private static RawBsonDocument outermost(MongoCollection<RawBsonDocument> collection, Bson order) {
         return collection
-                .find(Filters.and(TIMED, OrderedDocumentReader.ONE_TIME))
+                .find(Filters.and(TIMED, OrderedDocumentReader.NOT_ARRAY))
                 .sort(order)
                 .projection(Projections.include(EventDocumentCodec.TIME))
                 .first();
@@ -100,12 +100,12 @@ final class MongoRecording implements Recording {
 
     @Override
     public EventPage read(Cursor after, PageLimits limits) throws RecordingException {
-        boolean goesOn = documents != null && after.equals(position);
-        EventPage eventPage = goesOn ? retried(after, limits) : begun(after, limits);
+        boolean continues = documents != null && after.equals(position);
+        EventPage eventPage = continues ? continueOrRestart(after, limits) : restart(after, limits);
         position = eventPage.next();
         if (eventPage.last()) {
-            begin(); // what comes later is asked for again
-            if (!answer(this::exists)) {
+            reset(); // later documents need a new query
+            if (!run(this::exists)) {
                 throw new RecordingDeletedException(
                         "Mission %s has been deleted from %s while it was read".formatted(mission, where));
             }
@@ -113,18 +113,18 @@ final class MongoRecording implements Recording {
         return eventPage;
     }
 
-    /** A query that rests for long is forgotten by the server, and lost with its connection: then it begins once more. */
-    private EventPage retried(Cursor after, PageLimits limits) throws RecordingException {
+    /** Continues the query, or restarts it if the server closed it after a long pause or the connection was lost. */
+    private EventPage continueOrRestart(Cursor after, PageLimits limits) throws RecordingException {
         try {
             return page(after, limits);
         } catch (MongoException e) {
-            return begun(after, limits);
+            return restart(after, limits);
         }
     }
 
-    private EventPage begun(Cursor after, PageLimits limits) throws RecordingException {
-        begin();
-        return answer(() -> {
+    private EventPage restart(Cursor after, PageLimits limits) throws RecordingException {
+        reset();
+        return run(() -> {
             documents = new OrderedDocumentReader(collection, after, sizes);
             return page(after, limits);
         });
@@ -154,7 +154,7 @@ final class MongoRecording implements Recording {
         return new EventPage(events, skipped, next, head == null);
     }
 
-    /** Zero where that is not known within a few seconds: a mission begins though it is long. */
+    /** Counts the documents without an event time; zero after a timeout, so that long missions begin without delay. */
     private long countUntimed() {
         try {
             return collection.countDocuments(UNTIMED, new CountOptions().maxTime(COUNT_SECONDS, TimeUnit.SECONDS));
@@ -173,7 +173,7 @@ final class MongoRecording implements Recording {
         }
     }
 
-    /** By a query that reads backwards; the pages are not disturbed. */
+    /** Uses a separate query that reads backwards; pages continue. */
     @Override
     public Cursor back(Cursor from, Cursor first, long count, Predicate<StoredEvent> desired, PageLimits limits)
             throws RecordingException {
@@ -186,7 +186,7 @@ final class MongoRecording implements Recording {
         }
     }
 
-    /** From the newest documents; from all where that would take too many, or the mission has no index. */
+    /** Reads the newest documents, or the whole mission if that needs too many of them or the mission has no index. */
     @Override
     public List<StoredEvent> stateBefore(long time, Set<String> entities, PageLimits limits) throws RecordingException {
         Optional<List<StoredEvent>> found;
@@ -212,16 +212,16 @@ final class MongoRecording implements Recording {
         return MongoRecordings.exists(database(), collection.getNamespace().getCollectionName());
     }
 
-    private <T> T answer(Supplier<T> question) throws RecordingException {
+    private <T> T run(Supplier<T> query) throws RecordingException {
         try {
-            return question.get();
+            return query.get();
         } catch (MongoException e) {
-            begin();
+            reset();
             throw MongoRecordings.unreadable(mission, where, e);
         }
     }
 
-    private void begin() {
+    private void reset() {
         if (documents != null) {
             OrderedDocumentReader open = documents;
             documents = null;
@@ -231,7 +231,7 @@ final class MongoRecording implements Recording {
 
     @Override
     public void close() {
-        begin();
+        reset();
         client.close();
     }
 }

@@ -16,19 +16,20 @@ import io.furrow.mission.Recordings;
 import io.furrow.model.text.FailureText;
 
 /**
- * The missions that {@code ingest} keeps in MongoDB. All recordings of a server that are open in one process share a client.
+ * Opens the missions that {@code ingest} stores in MongoDB. All open recordings of a server in a process share a
+ * client.
  *
- * @param uri a connection string; what it says of timeouts goes before what is said here
+ * @param uri a connection string; its timeouts override those given here
  * @param database {@link MongoAccess#DATABASE} unless missions were moved
- * @param selectionTimeout how long a question waits for a server that is unavailable before it fails
+ * @param selectionTimeout how long a read waits for an unavailable server
  */
 public record MongoRecordings(String uri, String database, Duration selectionTimeout) implements Recordings {
-    /** With a timeout of 5 s. */
+    /** Uses a selection timeout of 5 s. */
     public MongoRecordings(String uri, String database) {
         this(uri, database, MongoAccess.SELECTION_TIMEOUT);
     }
 
-    /** @throws IllegalArgumentException if the URI is none */
+    /** @throws IllegalArgumentException if the URI is invalid */
     public MongoRecordings {
         new ConnectionString(uri);
     }
@@ -36,11 +37,11 @@ public record MongoRecordings(String uri, String database, Duration selectionTim
     @Override
     public Optional<Recording> open(String mission) throws RecordingException {
         SharedMongoClient client = SharedMongoClient.of(uri, selectionTimeout);
-        boolean known = false;
+        boolean isStored = false;
         try {
             MongoDatabase missions = client.client().getDatabase(database);
             Optional<String> collection = collectionOf(missions, mission);
-            known = collection.isPresent();
+            isStored = collection.isPresent();
             return collection.map(name -> new MongoRecording(
                     mission,
                     client,
@@ -50,13 +51,13 @@ public record MongoRecordings(String uri, String database, Duration selectionTim
         } catch (MongoException e) {
             throw unreadable(mission, where(), e);
         } finally {
-            if (!known) {
+            if (!isStored) {
                 client.close();
             }
         }
     }
 
-    /** The collection of a mission; empty if there is none. */
+    /** Returns the collection of a mission; empty if there is none. */
     public static Optional<String> collectionOf(MongoDatabase database, String mission) {
         return MissionCollections.candidates(mission).stream()
                 .filter(name -> exists(database, name))
@@ -86,7 +87,7 @@ public record MongoRecordings(String uri, String database, Duration selectionTim
         return "MongoDB at " + String.join(",", new ConnectionString(uri).getHosts()) + ", " + database;
     }
 
-    /** Holds no password. */
+    /** Returns server and database without the password. */
     @Override
     public String toString() {
         return where();

@@ -28,48 +28,48 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
 
 /**
- * Reads the documents of a mission in the order of events, beginning after a cursor. Queries ask for event time alone, which has
- * an index; the documents of one millisecond are sorted here, in the order of Java's strings, which is not MongoDB's for every id.
- * Holds the documents of one millisecond, and of a crowded one their ids.
+ * Reads the documents of a mission in the order of events after a cursor. Queries sort by event time only, which has an
+ * index; the documents of a millisecond are sorted here, because MongoDB orders some ids differently from Java's
+ * strings. Holds the documents of one millisecond; if there are too many, their ids.
  */
 final class OrderedDocumentReader implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(OrderedDocumentReader.class);
     private static final int BATCH = 500;
 
-    /** What a comparison with a date finds besides dates: arrays that hold one. */
-    static final Bson ONE_TIME = Filters.not(Filters.type(EventDocumentCodec.TIME, BsonType.ARRAY));
+    /** Excludes arrays with a date, which a comparison with a date also matches. */
+    static final Bson NOT_ARRAY = Filters.not(Filters.type(EventDocumentCodec.TIME, BsonType.ARRAY));
 
     private final MongoCollection<RawBsonDocument> collection;
     private final Cursor after;
     private final Sizes sizes;
     private final Deque<Ordered> ready = new ArrayDeque<>();
     private Bson range;
-    /** Null between queries. */
+    /** The open query; null between queries. */
     private MongoCursor<RawBsonDocument> query;
 
-    /** Of the present query, or the next. */
+    /** Limit of the current or next query. */
     private int limit;
 
     private int fetched;
     private long fetchedBytes;
     /** The next document of the query; null at its end. */
-    private RawBsonDocument ahead;
-    /** Null unless a crowded millisecond is being read. */
-    private SameTimeCursor crowd;
+    private RawBsonDocument following;
+    /** Reads a millisecond with too many documents; otherwise null. */
+    private SameTimeCursor sameTimeCursor;
 
     /**
-     * How much is read at once.
+     * Sizes of reads.
      *
-     * @param perQuery documents of the first query
-     * @param queryBytes a query that follows on a full one is twice as long, as long as its documents are expected to be within
-     *     these: the embedded server holds in memory what a query may return
-     * @param crowd more documents of one millisecond than these are read by ids; less than {@code perQuery}
-     * @param crowdBytes as are more bytes of one millisecond than these, this many at a time
+     * @param firstLimit documents of the first query
+     * @param queryBytes the limit is doubled after a full query while the expected bytes of its documents stay within
+     * this size, because the embedded server holds the possible result of a query in memory
+     * @param maxSameTime documents of one millisecond above which they are read by id; less than {@code firstLimit}
+     * @param maxSameTimeBytes bytes of one millisecond above which documents are read by id, in parts of this size
      */
-    record Sizes(int perQuery, long queryBytes, int crowd, long crowdBytes) {
+    record Sizes(int firstLimit, long queryBytes, int maxSameTime, long maxSameTimeBytes) {
         private static final long MAX_BYTES = 64L * 1024 * 1024;
         private static final long MIN_BYTES = 2L * 1024 * 1024;
-        /** The embedded server has twenty times the bytes of a query's documents on the heap until it is read to its end. */
+        /** The embedded server needs twenty times the bytes of a query's documents on the heap until all are read. */
         private static final long HEAP_SHARE = 256;
 
         static final Sizes DEFAULT =
@@ -80,7 +80,11 @@ final class OrderedDocumentReader implements AutoCloseable {
             return Math.max(MIN_BYTES, Math.min(MAX_BYTES, heap / HEAP_SHARE));
         }
 
-        /** @param bytes of the documents of a query with this limit that was full */
+        /**
+         * Returns the next limit.
+         *
+         * @param bytes of the documents of a full query with this limit
+         */
         int next(int limit, long bytes) {
             return bytes <= queryBytes / 2 && limit <= Integer.MAX_VALUE / 2 ? 2 * limit : limit;
         }
@@ -89,7 +93,7 @@ final class OrderedDocumentReader implements AutoCloseable {
     /**
      * A document and its place in the order.
      *
-     * @param id the text of its {@code _id}
+     * @param id its {@code _id} as text
      */
     record Ordered(long time, String id, RawBsonDocument document) {
         static final Comparator<Ordered> BY_ID = Comparator.comparing(Ordered::id);
@@ -107,19 +111,19 @@ final class OrderedDocumentReader implements AutoCloseable {
             return new Cursor(time, id);
         }
 
-        /** @throws UnreadableException for a document that holds no event */
+        /** @throws UnreadableException if the document is not an event */
         StoredEvent event() throws UnreadableException {
             return OrderedDocumentReader.event(document);
         }
     }
 
-    /** @throws UnreadableException for a document that holds no event */
+    /** @throws UnreadableException if the document is not an event */
     static StoredEvent event(BsonDocument document) throws UnreadableException {
         BsonValue id = document.get(EventDocumentCodec.ID);
         Reason.NOT_AN_EVENT.refuseIf(!id.isString() || text(id).isEmpty(), "_id is not an event id");
         try {
             return EventDocumentCodec.read(document);
-        } catch (BSONException | ArithmeticException e) { // the latter for a decimal −0
+        } catch (BSONException | ArithmeticException e) { // ArithmeticException for a decimal −0
             throw new UnreadableException(Reason.NOT_AN_EVENT, FailureText.of(e));
         }
     }
@@ -128,19 +132,19 @@ final class OrderedDocumentReader implements AutoCloseable {
         this.collection = collection;
         this.after = after;
         this.sizes = sizes;
-        this.limit = sizes.perQuery();
+        this.limit = sizes.firstLimit();
         this.range = Filters.gte(EventDocumentCodec.TIME, new BsonDateTime(after.time()));
     }
 
-    /** The next document, which stays the next; null if there is none at this moment. */
+    /** Returns the next document without consuming it; null if there is none now. */
     Ordered peek() {
         while (ready.isEmpty()) {
-            if (crowd != null) {
-                readCrowd();
+            if (sameTimeCursor != null) {
+                readSameTimeCursor();
             } else if (head() == null) {
                 return null;
             } else {
-                gather(time(ahead));
+                readMillisecond(time(following));
             }
         }
         return ready.peek();
@@ -150,18 +154,18 @@ final class OrderedDocumentReader implements AutoCloseable {
         ready.remove();
     }
 
-    private void readCrowd() {
-        if (crowd.hasNext()) {
-            ready.addAll(crowd.next());
+    private void readSameTimeCursor() {
+        if (sameTimeCursor.hasNext()) {
+            ready.addAll(sameTimeCursor.next());
         } else {
-            crowd = null;
+            sameTimeCursor = null;
         }
     }
 
     private RawBsonDocument head() {
         if (query == null) {
             query = collection
-                    .find(Filters.and(range, ONE_TIME))
+                    .find(Filters.and(range, NOT_ARRAY))
                     .sort(Sorts.ascending(EventDocumentCodec.TIME))
                     .limit(limit)
                     .batchSize(BATCH)
@@ -170,46 +174,46 @@ final class OrderedDocumentReader implements AutoCloseable {
             fetchedBytes = 0;
             advance();
         }
-        return ahead;
+        return following;
     }
 
     private void advance() {
-        ahead = query.hasNext() ? query.next() : null;
-        if (ahead != null) {
+        following = query.hasNext() ? query.next() : null;
+        if (following != null) {
             fetched++;
-            fetchedBytes += ahead.getByteBuffer().remaining();
+            fetchedBytes += following.getByteBuffer().remaining();
         }
     }
 
     /** Reads the documents of one millisecond. */
-    private void gather(long time) {
-        List<Ordered> same = new ArrayList<>();
+    private void readMillisecond(long time) {
+        List<Ordered> documents = new ArrayList<>();
         int read = 0;
         long bytes = 0;
-        while (ahead != null && time(ahead) == time) {
-            if (read == sizes.crowd() || bytes > sizes.crowdBytes()) {
+        while (following != null && time(following) == time) {
+            if (read == sizes.maxSameTime() || bytes > sizes.maxSameTimeBytes()) {
                 closeQuery();
-                crowd = new SameTimeCursor(collection, time, after, sizes.crowdBytes());
+                sameTimeCursor = new SameTimeCursor(collection, time, after, sizes.maxSameTimeBytes());
                 range = Filters.gt(EventDocumentCodec.TIME, new BsonDateTime(time));
                 return;
             }
-            Ordered next = Ordered.of(ahead);
+            Ordered next = Ordered.of(following);
             if (next.cursor().compareTo(after) > 0) {
-                same.add(next);
+                documents.add(next);
                 bytes += next.bytes();
             }
             read++;
             advance();
         }
-        boolean cutOff = ahead == null && fetched == limit;
-        if (cutOff) {
+        boolean truncated = following == null && fetched == limit;
+        if (truncated) {
             closeQuery();
             limit = sizes.next(limit, fetchedBytes);
             range = Filters.gte(EventDocumentCodec.TIME, new BsonDateTime(time));
             return;
         }
-        same.sort(Ordered.BY_ID);
-        ready.addAll(same);
+        documents.sort(Ordered.BY_ID);
+        ready.addAll(documents);
     }
 
     static long time(RawBsonDocument document) {
@@ -228,7 +232,7 @@ final class OrderedDocumentReader implements AutoCloseable {
                 open.close();
             }
         } catch (MongoException e) {
-            LOG.debug("a query could not be ended; the server forgets it by itself", e);
+            LOG.debug("Cannot close a query; the server closes it after a timeout", e);
         }
     }
 

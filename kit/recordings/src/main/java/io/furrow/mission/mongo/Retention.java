@@ -6,31 +6,32 @@ import java.util.Collection;
 import java.util.Map;
 import java.util.Optional;
 import java.util.TreeMap;
+import java.util.stream.Stream;
 
 /**
- * How long the documents of each mission are kept after their event time.
+ * How long the documents of each mission are stored after their event time.
  *
- * @param everywhere for missions that are not named; null to keep them forever
- * @param byCollection for those that are
+ * @param byDefault for other missions; null to store them forever
+ * @param byCollection by collection
  */
-public record Retention(Duration everywhere, TreeMap<String, Duration> byCollection) implements Serializable {
+public record Retention(Duration byDefault, TreeMap<String, Duration> byCollection) implements Serializable {
     public static final Retention FOR_EVER = new Retention(null, new TreeMap<>());
 
-    public static Retention of(Duration everywhere, Map<String, Duration> byMission) {
+    public static Retention of(Duration byDefault, Map<String, Duration> byMission) {
         TreeMap<String, Duration> named = new TreeMap<>();
-        byMission.forEach((mission, kept) -> named.put(MissionCollections.nameOf(mission), kept));
-        return new Retention(everywhere, named);
+        byMission.forEach((mission, duration) -> named.put(MissionCollections.nameOf(mission), duration));
+        return new Retention(byDefault, named);
     }
 
-    /** Empty forever. */
+    /** Returns the retention of a collection; empty to store it forever. */
     public Optional<Duration> of(String collection) {
-        return Optional.ofNullable(byCollection.getOrDefault(collection, everywhere));
+        return Optional.ofNullable(byCollection.getOrDefault(collection, byDefault));
     }
 
-    /** The shortest that is asked for. */
+    /** Returns the shortest retention. */
     public Optional<Duration> shortest() {
         Collection<Duration> named = byCollection.values();
-        return java.util.stream.Stream.concat(Optional.ofNullable(everywhere).stream(), named.stream())
+        return Stream.concat(Optional.ofNullable(byDefault).stream(), named.stream())
                 .min(Duration::compareTo);
     }
 }

@@ -21,11 +21,11 @@ import io.furrow.mission.StoredEvent;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Counts the wanted events of a mission backwards. Queries ask for event time alone, newest first; what one cuts off within a
- * millisecond is read again by its time. Holds the ids of one millisecond, and no document.
+ * Counts the matching events of a mission backwards. Queries sort by event time only, newest first; a millisecond that
+ * the limit truncates is read again by its time. Holds the ids of one millisecond, and no documents.
  */
 final class ReverseEventCounter {
-    private static final int LARGEST_BATCH = 500;
+    private static final int MAX_BATCH = 500;
 
     private final MongoCollection<RawBsonDocument> collection;
     private final Cursor first;
@@ -34,13 +34,13 @@ final class ReverseEventCounter {
     private final List<Counted> millisecond = new ArrayList<>();
     private long remaining;
 
-    /** A document of the millisecond that is being read. */
+    /** A document of the current millisecond. */
     private record Counted(Cursor cursor, boolean isDesired) {
         static final Comparator<Counted> NEWEST_FIRST =
                 Comparator.comparing(Counted::cursor).reversed();
     }
 
-    /** @param first documents up to this cursor are not looked at */
+    /** @param first documents up to this cursor are not read */
     ReverseEventCounter(
             MongoCollection<RawBsonDocument> collection,
             Cursor first,
@@ -52,7 +52,9 @@ final class ReverseEventCounter {
         this.sizes = sizes;
     }
 
-    /** The cursor that lies so many wanted events before another; the first where there are fewer. */
+    /**
+     * Returns the position that lies {@code count} matching events before another; the first one if there are fewer.
+     */
     Cursor cursor(Cursor from, long count) throws RecordingInterruptedException {
         remaining = count;
         Bson until = Filters.lte(EventDocumentCodec.TIME, new BsonDateTime(from.time()));
@@ -60,15 +62,15 @@ final class ReverseEventCounter {
             RecordingInterruptedException.check();
             Query query = new Query(from);
             Optional<Cursor> found = query.read(until);
-            if (found.isPresent() || query.fetched < sizes.perQuery()) {
-                return found.or(this::before).orElse(first);
+            if (found.isPresent() || query.fetched < sizes.firstLimit()) {
+                return found.or(this::position).orElse(first);
             }
-            long cutOff = query.time;
-            found = whole(cutOff, from);
+            long truncatedTime = query.time;
+            found = readMillisecond(truncatedTime, from);
             if (found.isPresent()) {
                 return found.get();
             }
-            until = Filters.lt(EventDocumentCodec.TIME, new BsonDateTime(cutOff));
+            until = Filters.lt(EventDocumentCodec.TIME, new BsonDateTime(truncatedTime));
         }
     }
 
@@ -82,22 +84,22 @@ final class ReverseEventCounter {
             this.from = from;
         }
 
-        /** Leaves the documents of its oldest millisecond uncounted. */
+        /** Reads and counts the documents, except those of the oldest millisecond. */
         Optional<Cursor> read(Bson until) throws RecordingInterruptedException {
             FindIterable<RawBsonDocument> newest = collection
                     .find(Filters.and(
-                            OrderedDocumentReader.ONE_TIME,
+                            OrderedDocumentReader.NOT_ARRAY,
                             Filters.gte(EventDocumentCodec.TIME, new BsonDateTime(first.time())),
                             until))
                     .sort(Sorts.descending(EventDocumentCodec.TIME))
-                    .limit(sizes.perQuery())
-                    .batchSize((int) Math.min(remaining + 2, LARGEST_BATCH));
+                    .limit(sizes.firstLimit())
+                    .batchSize((int) Math.min(remaining + 2, MAX_BATCH));
             try (MongoCursor<RawBsonDocument> documents = newest.cursor()) {
                 while (documents.hasNext()) {
                     RecordingInterruptedException.check();
                     OrderedDocumentReader.Ordered next = OrderedDocumentReader.Ordered.of(documents.next());
                     if (fetched++ > 0 && next.time() != time) {
-                        Optional<Cursor> found = before();
+                        Optional<Cursor> found = position();
                         if (found.isPresent()) {
                             return found;
                         }
@@ -110,19 +112,19 @@ final class ReverseEventCounter {
         }
     }
 
-    private Optional<Cursor> whole(long time, Cursor from) throws RecordingInterruptedException {
+    private Optional<Cursor> readMillisecond(long time, Cursor from) throws RecordingInterruptedException {
         millisecond.clear();
         try (MongoCursor<RawBsonDocument> documents = collection
                 .find(Filters.and(
-                        OrderedDocumentReader.ONE_TIME, Filters.eq(EventDocumentCodec.TIME, new BsonDateTime(time))))
-                .batchSize(LARGEST_BATCH)
+                        OrderedDocumentReader.NOT_ARRAY, Filters.eq(EventDocumentCodec.TIME, new BsonDateTime(time))))
+                .batchSize(MAX_BATCH)
                 .cursor()) {
             while (documents.hasNext()) {
                 RecordingInterruptedException.check();
                 add(OrderedDocumentReader.Ordered.of(documents.next()), from);
             }
         }
-        return before();
+        return position();
     }
 
     private void add(OrderedDocumentReader.Ordered document, Cursor from) {
@@ -136,12 +138,12 @@ final class ReverseEventCounter {
         try {
             return desired.test(document.event());
         } catch (UnreadableException e) {
-            return false; // a page names it
+            return false; // reported with its page
         }
     }
 
-    /** Counts the millisecond; the cursor of the wanted event before those that are counted, if it is among these. */
-    private Optional<Cursor> before() {
+    /** Counts the millisecond and returns the position if it lies there. */
+    private Optional<Cursor> position() {
         millisecond.sort(Counted.NEWEST_FIRST);
         for (Counted document : millisecond) {
             if (remaining == 0 && document.isDesired()) {

@@ -16,26 +16,29 @@ import org.bson.RawBsonDocument;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.mongo.OrderedDocumentReader.Ordered;
 
-/** The documents of a millisecond that has too many to be held at once: holds their ids and reads a few at a time, large ones alone. */
+/**
+ * Reads a millisecond with too many documents for the memory: holds their ids and reads a few documents at a time,
+ * large ones one by one.
+ */
 final class SameTimeCursor implements Iterator<List<Ordered>> {
-    private static final int MAX_AT_A_TIME = 16;
-    private static final int BATCH = 10_000;
+    private static final int MAX_BATCH = 16;
+    private static final int ID_BATCH = 10_000;
 
     private final MongoCollection<RawBsonDocument> collection;
-    private final long mostBytes;
+    private final long maxBytes;
     private final List<BsonValue> ids = new ArrayList<>();
     private int next;
-    private int atATime = MAX_AT_A_TIME;
+    private int batch = MAX_BATCH;
 
-    /** @param mostBytes of documents that are given at once, unless it is one */
-    SameTimeCursor(MongoCollection<RawBsonDocument> collection, long time, Cursor after, long mostBytes) {
+    /** @param maxBytes maximum bytes of documents returned at once, unless a single one is larger */
+    SameTimeCursor(MongoCollection<RawBsonDocument> collection, long time, Cursor after, long maxBytes) {
         this.collection = collection;
-        this.mostBytes = mostBytes;
+        this.maxBytes = maxBytes;
         try (MongoCursor<RawBsonDocument> found = collection
                 .find(Filters.and(
-                        Filters.eq(EventDocumentCodec.TIME, new BsonDateTime(time)), OrderedDocumentReader.ONE_TIME))
+                        Filters.eq(EventDocumentCodec.TIME, new BsonDateTime(time)), OrderedDocumentReader.NOT_ARRAY))
                 .projection(Projections.include(EventDocumentCodec.ID))
-                .batchSize(BATCH)
+                .batchSize(ID_BATCH)
                 .cursor()) {
             while (found.hasNext()) {
                 BsonValue id = found.next().get(EventDocumentCodec.ID);
@@ -52,27 +55,27 @@ final class SameTimeCursor implements Iterator<List<Ordered>> {
         return next < ids.size();
     }
 
-    /** The next documents; fewer where some have gone. */
+    /** Returns the next documents; fewer if some were deleted. */
     @Override
     public List<Ordered> next() {
         List<Ordered> documents = read();
-        if (atATime > 1 && bytes(documents) > mostBytes) {
-            documents.clear(); // not all were read, and a later one may be the first by id
-            atATime = 1;
+        if (batch > 1 && bytes(documents) > maxBytes) {
+            documents.clear(); // the read is incomplete, and a later document may be the first by id
+            batch = 1;
             documents = read();
         }
-        next = Math.min(next + atATime, ids.size());
-        atATime = Math.min(2 * atATime, MAX_AT_A_TIME);
+        next = Math.min(next + batch, ids.size());
+        batch = Math.min(2 * batch, MAX_BATCH);
         return documents;
     }
 
-    /** Ends with the document that passes the limit. */
+    /** Reads until a document exceeds the limit. */
     private List<Ordered> read() {
-        List<BsonValue> some = ids.subList(next, Math.min(next + atATime, ids.size()));
+        List<BsonValue> some = ids.subList(next, Math.min(next + batch, ids.size()));
         List<Ordered> documents = new ArrayList<>();
         try (MongoCursor<RawBsonDocument> found =
                 collection.find(Filters.in(EventDocumentCodec.ID, some)).cursor()) {
-            while (bytes(documents) <= mostBytes && found.hasNext()) {
+            while (bytes(documents) <= maxBytes && found.hasNext()) {
                 documents.add(Ordered.of(found.next()));
             }
         }

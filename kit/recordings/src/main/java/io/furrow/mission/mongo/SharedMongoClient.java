@@ -6,9 +6,9 @@ import java.util.Map;
 
 import com.mongodb.client.MongoClient;
 
-/** A use of the client that all in this process share who ask the same server; the client is closed with its last use. */
+/** A reference to the client that all users of a server in this process share; it is closed with the last reference. */
 public final class SharedMongoClient implements AutoCloseable {
-    private static final Map<Server, Uses> OPEN = new HashMap<>();
+    private static final Map<Server, References> OPEN = new HashMap<>();
 
     private final Server server;
     private final MongoClient client;
@@ -16,7 +16,7 @@ public final class SharedMongoClient implements AutoCloseable {
 
     private record Server(String uri, Duration selectionTimeout) {}
 
-    private record Uses(MongoClient client, int number) {}
+    private record References(MongoClient client, int count) {}
 
     private SharedMongoClient(Server server, MongoClient client) {
         this.server = server;
@@ -24,16 +24,16 @@ public final class SharedMongoClient implements AutoCloseable {
     }
 
     /**
-     * Does not wait for the server.
+     * Returns a reference without waiting for the server.
      *
-     * @throws IllegalArgumentException if the URI is none
+     * @throws IllegalArgumentException if the URI is invalid
      */
     public static SharedMongoClient of(String uri, Duration selectionTimeout) {
         Server server = new Server(uri, selectionTimeout);
         synchronized (OPEN) {
-            Uses uses = OPEN.get(server);
-            MongoClient client = uses == null ? MongoAccess.open(uri, selectionTimeout) : uses.client();
-            OPEN.put(server, new Uses(client, uses == null ? 1 : uses.number() + 1));
+            References references = OPEN.get(server);
+            MongoClient client = references == null ? MongoAccess.open(uri, selectionTimeout) : references.client();
+            OPEN.put(server, new References(client, references == null ? 1 : references.count() + 1));
             return new SharedMongoClient(server, client);
         }
     }
@@ -42,7 +42,7 @@ public final class SharedMongoClient implements AutoCloseable {
         return client;
     }
 
-    /** How many servers somebody uses. */
+    /** Returns the number of open clients. */
     static int open() {
         synchronized (OPEN) {
             return OPEN.size();
@@ -56,9 +56,9 @@ public final class SharedMongoClient implements AutoCloseable {
                 return;
             }
             closed = true;
-            Uses uses = OPEN.get(server);
-            if (uses.number() > 1) {
-                OPEN.put(server, new Uses(client, uses.number() - 1));
+            References references = OPEN.get(server);
+            if (references.count() > 1) {
+                OPEN.put(server, new References(client, references.count() - 1));
                 return;
             }
             OPEN.remove(server);

@@ -29,14 +29,15 @@ import io.furrow.mission.StoredEvent;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Finds the last known state of a mission's entities from their newest documents before a point: one query for the oldest document of
- * each entity, one for the newest documents of all, then some for each entity that these do not settle, by the index on entity and event
- * time. An entity is settled by its deletion, by all its documents, or by its newest document if that has every attribute of the
- * {@value #ENOUGH} before and of the oldest: the context broker notifies whole entities. Others report changes alone.
+ * Finds the last state of a mission's entities from their newest documents before a point: one query for the oldest
+ * document of each entity, one for the newest documents of all, then further ones for each unsettled entity, with the
+ * index on entity and event time. An entity is settled by its deletion, by all of its documents, or by its newest
+ * document if that has every attribute of the {@value #MIN_EVENTS} documents before it and of the oldest, as is the
+ * case if the context broker notifies whole entities. Other entities report only changes.
  */
 final class StateBefore {
-    private static final int ENOUGH = 8;
-    private static final int FIRST_LIMIT = 2 * ENOUGH;
+    private static final int MIN_EVENTS = 8;
+    private static final int FIRST_LIMIT = 2 * MIN_EVENTS;
     private static final int GROWTH = 4;
     private static final String OLDEST = "oldest";
 
@@ -47,12 +48,12 @@ final class StateBefore {
     private final Bounds bounds;
 
     /**
-     * Beyond which the mission is rather read from its beginning.
+     * Limits above which the mission is read from its beginning instead.
      *
      * @param newest documents of the query for all entities
-     * @param lookups entities that are looked up each by itself
-     * @param perEntity documents of one entity that are read at once, at least {@value #FIRST_LIMIT}
-     * @param bytes of documents that are read at once
+     * @param lookups entities with a query of their own
+     * @param perEntity documents of one entity per query, at least {@value #FIRST_LIMIT}
+     * @param bytes of documents per query
      */
     record Bounds(int newest, int lookups, int perEntity, long bytes) {
         private static final long BYTES = 8L * 1024 * 1024;
@@ -61,16 +62,16 @@ final class StateBefore {
     }
 
     /**
-     * The newest documents.
+     * The newest documents of a query.
      *
-     * @param events in their order; those that hold none are left out
+     * @param events in their order; invalid documents are omitted
      * @param all whether there are no others
      */
     private record Newest(List<StoredEvent> events, boolean all) {}
 
     /**
      * @param time epoch ms
-     * @param entities ids of those that are requested; empty for all
+     * @param entities ids of the requested entities; empty for all
      */
     StateBefore(MongoCollection<RawBsonDocument> collection, long time, Set<String> entities, Bounds bounds) {
         this.collection = collection;
@@ -78,31 +79,31 @@ final class StateBefore {
         this.entities = entities;
         this.bounds = bounds;
         Bson earlier = Filters.lt(EventDocumentCodec.TIME, new BsonDateTime(time));
-        before = Filters.and(OrderedDocumentReader.ONE_TIME, earlier);
+        before = Filters.and(OrderedDocumentReader.NOT_ARRAY, earlier);
     }
 
-    /** The states, in the order of their newest events; empty if that takes more than the bounds allow. */
+    /** Returns the states, in the order of their newest events; empty if the bounds are exceeded. */
     Optional<List<StoredEvent>> read() throws RecordingInterruptedException {
         Map<String, Optional<StoredEvent>> oldest = oldest();
         if (oldest.size() > bounds.newest() + bounds.lookups()) {
             return Optional.empty();
         }
-        Newest together = newest(requested(), bounds.newest());
+        Newest shared = newest(requested(), bounds.newest());
         Map<String, List<StoredEvent>> byEntity = new HashMap<>();
-        together.events()
+        shared.events()
                 .forEach(event -> byEntity.computeIfAbsent(event.entityId(), id -> new ArrayList<>())
                         .add(event));
         List<StoredEvent> state = new ArrayList<>();
         List<String> unsettled = new ArrayList<>();
         oldest.forEach((id, first) -> {
-            Newest own = new Newest(byEntity.getOrDefault(id, List.of()), together.all());
+            Newest own = new Newest(byEntity.getOrDefault(id, List.of()), shared.all());
             settled(own, first).ifPresentOrElse(state::addAll, () -> unsettled.add(id));
         });
         if (unsettled.size() > bounds.lookups()) {
             return Optional.empty();
         }
         for (String id : unsettled) {
-            Optional<List<StoredEvent>> found = lookUp(id, oldest.get(id));
+            Optional<List<StoredEvent>> found = readEntity(id, oldest.get(id));
             if (found.isEmpty()) {
                 return Optional.empty();
             }
@@ -112,7 +113,7 @@ final class StateBefore {
         return Optional.of(state);
     }
 
-    /** The oldest document of each entity that may have one before the point; empty for one that holds no event. */
+    /** Returns the oldest event of each entity that may have one before the point; empty for an invalid document. */
     private Map<String, Optional<StoredEvent>> oldest() throws RecordingInterruptedException {
         List<Bson> stages = new ArrayList<>();
         if (!entities.isEmpty()) {
@@ -157,12 +158,12 @@ final class StateBefore {
             }
         }
         boolean all = read.size() < limit && bytes <= bounds.bytes();
-        long cutOff = all || read.isEmpty()
+        long truncatedTime = all || read.isEmpty()
                 ? Long.MIN_VALUE
                 : read.get(read.size() - 1).time();
         List<StoredEvent> events = new ArrayList<>();
         for (OrderedDocumentReader.Ordered document : read) {
-            if (all || document.time() > cutOff) { // of the oldest millisecond there may be more
+            if (all || document.time() > truncatedTime) { // the oldest millisecond may be incomplete
                 event(document.document()).ifPresent(events::add);
             }
         }
@@ -170,7 +171,7 @@ final class StateBefore {
         return new Newest(events, all);
     }
 
-    private Optional<List<StoredEvent>> lookUp(String id, Optional<StoredEvent> oldest)
+    private Optional<List<StoredEvent>> readEntity(String id, Optional<StoredEvent> oldest)
             throws RecordingInterruptedException {
         Bson own = Filters.and(Filters.eq(EventDocumentCodec.ENTITY_ID, id), before);
         for (int limit = FIRST_LIMIT; limit <= bounds.perEntity(); limit *= GROWTH) {
@@ -182,11 +183,14 @@ final class StateBefore {
         return Optional.empty();
     }
 
-    /** The state of an id, of which tenants and types may have one entity each; empty where its newest events do not say it. */
+    /**
+     * Returns the states of an id, which entities of several tenants and types may share; empty if its newest events do
+     * not determine them.
+     */
     private static Optional<List<StoredEvent>> settled(Newest newest, Optional<StoredEvent> oldest) {
         List<StoredEvent> events = newest.events();
         boolean settled = newest.all()
-                || isOfOneEntity(events, oldest) && (hasDeletion(events) || isWhole(events, oldest.orElseThrow()));
+                || isOfOneEntity(events, oldest) && (hasDeletion(events) || isComplete(events, oldest.orElseThrow()));
         return settled ? Optional.of(LatestState.of(events)) : Optional.empty();
     }
 
@@ -198,9 +202,9 @@ final class StateBefore {
         return events.stream().anyMatch(event -> event.entity() == null);
     }
 
-    /** Whether the newest event has all attributes of the others. */
-    private static boolean isWhole(List<StoredEvent> events, StoredEvent oldest) {
-        if (events.size() <= ENOUGH) {
+    /** Returns whether the newest event has all attributes of the others. */
+    private static boolean isComplete(List<StoredEvent> events, StoredEvent oldest) {
+        if (events.size() <= MIN_EVENTS) {
             return false;
         }
         Set<String> names = names(events.get(events.size() - 1));
@@ -218,7 +222,7 @@ final class StateBefore {
     private static Optional<StoredEvent> event(BsonDocument document) {
         try {
             return Optional.of(OrderedDocumentReader.event(document));
-        } catch (UnreadableException e) { // a page names it
+        } catch (UnreadableException e) { // reported with its page
             return Optional.empty();
         }
     }

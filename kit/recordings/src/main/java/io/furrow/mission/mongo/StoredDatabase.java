@@ -8,17 +8,21 @@ import com.mongodb.client.MongoDatabase;
 import io.furrow.mission.RecordingException;
 import io.furrow.model.text.FailureText;
 
-/** The database of the stored missions, by the client that all in this process share. */
+/** Base of classes that query the database of missions with the shared client. */
 public class StoredDatabase implements AutoCloseable {
     private final SharedMongoClient client;
     private final MongoDatabase database;
     private final String where;
 
-    /** Does not wait for the server. @throws IllegalArgumentException if the URI is none */
-    protected StoredDatabase(MongoRecordings at) {
-        this.client = SharedMongoClient.of(at.uri(), at.selectionTimeout());
-        this.database = client.client().getDatabase(at.database());
-        this.where = at.toString();
+    /**
+     * Opens the database without waiting for the server.
+     *
+     * @throws IllegalArgumentException if the URI is invalid
+     */
+    protected StoredDatabase(MongoRecordings recordings) {
+        this.client = SharedMongoClient.of(recordings.uri(), recordings.selectionTimeout());
+        this.database = client.client().getDatabase(recordings.database());
+        this.where = recordings.toString();
     }
 
     protected final MongoDatabase database() {
@@ -26,12 +30,14 @@ public class StoredDatabase implements AutoCloseable {
     }
 
     /**
-     * @param failed the beginning of a sentence that ends with where MongoDB is
-     * @throws RecordingException if MongoDB cannot be asked now
+     * Runs a query.
+     *
+     * @param failed beginning of the message of a failure; the address of MongoDB follows
+     * @throws RecordingException if MongoDB is unavailable
      */
-    protected final <T> T answer(String failed, Supplier<T> question) throws RecordingException {
+    protected final <T> T run(String failed, Supplier<T> query) throws RecordingException {
         try {
-            return question.get();
+            return query.get();
         } catch (MongoException e) {
             throw new RecordingException(
                     "%s %s: %s. Check that MongoDB runs there and answers.".formatted(failed, where, FailureText.of(e)),

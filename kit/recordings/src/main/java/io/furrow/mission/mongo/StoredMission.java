@@ -5,9 +5,9 @@ import java.util.Optional;
 import io.furrow.mission.RecordingExtent;
 
 /**
- * A mission that is stored.
+ * A stored mission.
  *
- * @param name of the mission; what stands for it in {@code collection} where only a hash of a long name is there and no event names it
+ * @param name of the mission; the hash in the collection's name if no event contains the name
  * @param collection of its documents
  * @param span its first and last event time; empty if it has no event with a time yet
  */

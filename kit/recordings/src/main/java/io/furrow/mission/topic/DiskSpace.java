@@ -8,8 +8,8 @@ import java.nio.file.Path;
 import io.furrow.mission.RecordingDeletedException;
 
 /**
- * What may be written to a disk: as much as leaves a tenth of it free, and no less than 1 GiB. Kafka's logs and the state of jobs
- * may lie on the same one.
+ * Limits writes to a disk, so that a tenth of it and at least 1 GiB stays free for Kafka's logs and the state of jobs,
+ * which may be on the same disk.
  *
  * @param reserved bytes that stay free
  */
@@ -17,7 +17,7 @@ record DiskSpace(Path folder, long reserved, FreeBytes free) {
     private static final long MIN_FREE_BYTES = 1L << 30;
     private static final int MEBIBYTE = 1 << 20;
 
-    /** How many bytes can be written at this moment. */
+    /** Returns the free bytes. */
     interface FreeBytes {
         long get() throws IOException;
     }
@@ -27,7 +27,7 @@ record DiskSpace(Path folder, long reserved, FreeBytes free) {
         return new DiskSpace(folder, Math.max(MIN_FREE_BYTES, disk.getTotalSpace() / 10), disk::getUsableSpace);
     }
 
-    /** @throws RecordingDeletedException if there is no room for so many bytes more: to try again would fill the disk again */
+    /** @throws RecordingDeletedException if the bytes do not fit; a retry would fill the disk again */
     void require(long bytes) throws IOException {
         long now = free.get();
         if (now - bytes < reserved) {

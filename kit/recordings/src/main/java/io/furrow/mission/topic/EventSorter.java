@@ -16,45 +16,45 @@ import java.util.PriorityQueue;
 import io.furrow.mission.RecordingInterruptedException;
 
 /**
- * Sorts events on disk: sorts as many as memory may hold into a file, then merges the files. Of duplicates, events of
- * one time and id, the first by partition and offset stands.
+ * Sorts events on disk: writes sorted runs of limited size, then merges them. Of events with the same time and id, the
+ * first by partition and offset is kept.
  */
 final class EventSorter {
-    private static final int MERGED_AT_ONCE = 64;
-    /** Room is looked for before each so many bytes that are merged. */
+    private static final int MAX_MERGED = 64;
+    /** Free space is checked before each step of this size. */
     private static final long STEP_BYTES = 8L * 1024 * 1024;
 
-    private final DiskSpace room;
-    private final long mostBytes;
+    private final DiskSpace diskSpace;
+    private final long maxBytes;
     private final List<SortedEvent> events = new ArrayList<>();
     private long bytes;
     private final Deque<Path> runs = new ArrayDeque<>();
     private int files;
 
-    /** Takes events in their order. */
+    /** Accepts events in their order. */
     private interface Output {
         void write(SortedEvent event) throws IOException;
     }
 
     /**
-     * @param room for its files, which stay
-     * @param mostBytes of events that are held in memory, about
+     * @param diskSpace folder of its files; the caller deletes them
+     * @param maxBytes approximate maximum of events in memory
      */
-    EventSorter(DiskSpace room, long mostBytes) {
-        this.room = room;
-        this.mostBytes = mostBytes;
+    EventSorter(DiskSpace diskSpace, long maxBytes) {
+        this.diskSpace = diskSpace;
+        this.maxBytes = maxBytes;
     }
 
     void add(SortedEvent event) throws IOException {
         events.add(event);
         bytes += event.bytes();
-        if (bytes >= mostBytes) {
+        if (bytes >= maxBytes) {
             writeRun();
         }
     }
 
     private void writeRun() throws IOException {
-        room.require(bytes);
+        diskSpace.require(bytes);
         events.sort(SortedEvent.ORDER);
         Path run = nextFile();
         try (DataOutputStream out = SortedRun.create(run)) {
@@ -69,13 +69,13 @@ final class EventSorter {
     }
 
     private Path nextFile() {
-        return room.folder().resolve("run-" + files++);
+        return diskSpace.folder().resolve("run-" + files++);
     }
 
-    /** Writes the lines of all events. */
+    /** Writes the lines of all events in order. */
     void writeLines(Path file) throws IOException {
         writeRun();
-        while (runs.size() > MERGED_AT_ONCE) {
+        while (runs.size() > MAX_MERGED) {
             mergeSome();
         }
         try (OutputStream lines = new BufferedOutputStream(Files.newOutputStream(file))) {
@@ -89,7 +89,7 @@ final class EventSorter {
 
     private void mergeSome() throws IOException {
         List<Path> some = new ArrayList<>();
-        while (some.size() < MERGED_AT_ONCE) {
+        while (some.size() < MAX_MERGED) {
             some.add(runs.remove());
         }
         Path merged = nextFile();
@@ -100,7 +100,7 @@ final class EventSorter {
         runs.add(merged);
     }
 
-    /** Deletes what it has merged. */
+    /** Merges files and deletes them. */
     private void merge(List<Path> some, Output output) throws IOException {
         PriorityQueue<SortedRun> heads = new PriorityQueue<>(Comparator.comparing(SortedRun::peek, SortedEvent.ORDER));
         List<SortedRun> open = new ArrayList<>();
@@ -133,7 +133,7 @@ final class EventSorter {
             if (last == null || !next.at().equals(last.at())) {
                 if (allowed < next.bytes()) {
                     allowed = Math.max(STEP_BYTES, next.bytes());
-                    room.require(allowed);
+                    diskSpace.require(allowed);
                 }
                 allowed -= next.bytes();
                 output.write(next);

@@ -26,41 +26,41 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Reads the records of a topic from its beginning to the end that it has now, and takes the events among them to a sorter. */
+/** Reads the records of a topic from its beginning to its current end and passes the events to a sorter. */
 final class EventTopicReader {
     private static final Duration POLL = Duration.ofMillis(500);
 
     private final KafkaConsumer<byte[], byte[]> consumer;
     private final List<TopicPartition> partitions;
-    private final long until;
+    private final long endTime;
     private final EventSorter sorter;
     private long skipped;
     private String example;
 
     /**
-     * @param consumer of committed records; assigned here
-     * @param partitions all of the topic
-     * @param until event time, epoch ms, from which on events are left out
+     * @param consumer reads committed records; this class assigns it
+     * @param partitions all partitions of the topic
+     * @param endTime event time, epoch ms, exclusive
      */
     EventTopicReader(
-            KafkaConsumer<byte[], byte[]> consumer, List<TopicPartition> partitions, long until, EventSorter sorter) {
+            KafkaConsumer<byte[], byte[]> consumer, List<TopicPartition> partitions, long endTime, EventSorter sorter) {
         this.consumer = consumer;
         this.partitions = partitions;
-        this.until = until;
+        this.endTime = endTime;
         this.sorter = sorter;
     }
 
-    /** How many records hold no event. */
+    /** Returns the number of records that are not events. */
     long skipped() {
         return skipped;
     }
 
-    /** Which record holds no event, and why; null if all do. */
+    /** Returns the first record that is not an event, and why; null if there is none. */
     String example() {
         return example;
     }
 
-    /** @param timeout after which a broker that sends nothing is taken to be unavailable */
+    /** @param timeout after which a silent broker counts as unavailable */
     void read(Duration timeout) throws IOException {
         consumer.assign(partitions);
         consumer.seekToBeginning(partitions);
@@ -72,7 +72,7 @@ final class EventTopicReader {
             RecordingInterruptedException.check();
             for (ConsumerRecord<byte[], byte[]> record : consumer.poll(POLL)) {
                 if (record.offset() < ends.get(new TopicPartition(record.topic(), record.partition()))) {
-                    take(record);
+                    sort(record);
                 }
             }
             for (TopicPartition partition : List.copyOf(open)) {
@@ -91,10 +91,10 @@ final class EventTopicReader {
         }
     }
 
-    private void take(ConsumerRecord<byte[], byte[]> record) throws IOException {
+    private void sort(ConsumerRecord<byte[], byte[]> record) throws IOException {
         try {
             StoredEvent event = event(record);
-            if (event.time() < until) {
+            if (event.time() < endTime) {
                 sorter.add(new SortedEvent(
                         Cursor.after(event), record.partition(), record.offset(), ArchiveLine.write(event)));
             }
@@ -114,10 +114,10 @@ final class EventTopicReader {
                 headers.put(header.key(), new String(header.value(), StandardCharsets.UTF_8));
             }
         }
-        String given = headers.get(HeaderNames.CE_ID);
-        String id = given == null || given.isEmpty()
+        String eventId = headers.get(HeaderNames.CE_ID);
+        String id = eventId == null || eventId.isEmpty()
                 ? record.topic() + "-" + record.partition() + "-" + record.offset()
-                : given;
+                : eventId;
         Entity entity = record.value() == null ? null : Entity.parse(record.value());
         return new StoredEvent(
                 id,

@@ -9,10 +9,10 @@ import java.util.Comparator;
 import io.furrow.mission.Cursor;
 
 /**
- * An event of a topic on its way into the order of events.
+ * An event of a topic to be sorted.
  *
- * @param at its place in that order
- * @param partition and offset: of duplicates the first stands
+ * @param at its place in the order
+ * @param partition with the offset, orders duplicates
  * @param line of the archive
  */
 record SortedEvent(Cursor at, int partition, long offset, byte[] line) {
@@ -20,10 +20,10 @@ record SortedEvent(Cursor at, int partition, long offset, byte[] line) {
             .thenComparingInt(SortedEvent::partition)
             .thenComparingLong(SortedEvent::offset);
 
-    /** What the object takes besides its text. */
+    /** Bytes of the object in addition to its text. */
     private static final int OVERHEAD = 120;
 
-    /** About what it takes in memory. */
+    /** Returns the approximate bytes in memory. */
     int bytes() {
         return OVERHEAD + 2 * at.id().length() + line.length;
     }

@@ -8,7 +8,7 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
-/** Reads a file of events that are in their order: a flag before each, and one after the last. */
+/** Reads a file of sorted events: a flag precedes each event and ends the file. */
 final class SortedRun implements AutoCloseable {
     private static final int BUFFER = 64 * 1024;
 
@@ -33,12 +33,12 @@ final class SortedRun implements AutoCloseable {
         out.writeBoolean(false);
     }
 
-    /** Null at the end. */
+    /** Returns the next event without consuming it; null at the end. */
     SortedEvent peek() {
         return head;
     }
 
-    /** Continues after {@link #peek}. */
+    /** Consumes the event of {@link #peek}. */
     void remove() throws IOException {
         head = in.readBoolean() ? SortedEvent.read(in) : null;
     }

@@ -21,11 +21,11 @@ import io.furrow.mission.RecordingExtent;
 import io.furrow.mission.SkippedRecords;
 
 /**
- * The events of a topic in a file of this recording's own, which goes with it.
+ * The sorted events of a topic in a temporary file, which is deleted on close.
  *
  * @param lines of the file
  * @param folder of the file
- * @param skipped records of the topic that hold no event
+ * @param skipped records of the topic that are not events
  */
 record TopicRecording(Recording lines, Path folder, List<SkippedRecords> skipped) implements Recording {
     private static final Logger LOG = LoggerFactory.getLogger(TopicRecording.class);
@@ -52,7 +52,7 @@ record TopicRecording(Recording lines, Path folder, List<SkippedRecords> skipped
         delete(folder);
     }
 
-    /** Deletes a folder and the files in it, if they are there. */
+    /** Deletes a folder and its files if it exists. */
     static void delete(Path folder) {
         if (!Files.exists(folder)) {
             return;

@@ -28,17 +28,17 @@ import io.furrow.mission.file.FileRecordings;
 import io.furrow.model.text.FailureText;
 
 /**
- * Topics of events, {@code data.*}, as recordings: the committed records between the beginning and the end that the topic has when
- * it is opened. Event time is the record's timestamp, the event id its header {@code ce_id}, or topic, partition and offset
- * if there is none; the value is an entity in normalized form, or null for a deletion. A record that holds none is skipped and
- * counted. Opening reads the whole topic and sorts it on disk, which has to hold it twice and keeps some room for others; the file is
- * deleted when the recording is closed.
+ * Opens topics of events, {@code data.*}, as recordings: the committed records up to the end that the topic has when it
+ * is opened. Event time is the record's timestamp; the event id is the header {@code ce_id}, or topic, partition and
+ * offset without one; the value is an entity in normalized form, or null for a deletion. Other records are skipped and
+ * counted. Opening reads the whole topic and sorts it on disk, which needs twice its size and some free space; the file
+ * is deleted when the recording is closed.
  *
- * @param kafka settings of a consumer: {@code bootstrap.servers}, what security needs, and {@code default.api.timeout.ms}, how long an
- *     answer is waited for, 30 s unless said
- * @param until event time, epoch ms, from which on events are left out: a topic that continues is the same recording when it is opened
- *     again, but for what comes late and what retention deletes
- * @param folder for temporary files, made where it is missing
+ * @param kafka settings of a consumer: {@code bootstrap.servers}, security, and {@code default.api.timeout.ms}, the
+ * timeout of requests, 30 s by default
+ * @param until event time, epoch ms, exclusive: a topic that is still written to is the same recording when it is
+ * opened again, except for late events and those that retention deletes
+ * @param folder for temporary files, created if it does not exist
  */
 public record TopicRecordings(TreeMap<String, String> kafka, long until, String folder) implements Recordings {
     private static final String EVENTS = "data.";
@@ -46,34 +46,34 @@ public record TopicRecordings(TreeMap<String, String> kafka, long until, String 
     private static final long SORTED_BYTES = 32L * 1024 * 1024;
     private static final int FETCH_BYTES = 8 * 1024 * 1024;
 
-    /** In the folder that Java has for temporary files. */
+    /** Uses Java's folder for temporary files. */
     public TopicRecordings(Map<String, String> kafka, long until) {
         this(new TreeMap<>(kafka), until, System.getProperty("java.io.tmpdir"));
     }
 
     /**
-     * Opens a topic; empty if there is none.
+     * Opens a topic; empty if it does not exist.
      *
-     * @throws RecordingDeletedException if it is not a topic of events, or larger than the disk
+     * @throws RecordingDeletedException if it is not a topic of events, or too large for the disk
      * @throws RecordingInterruptedException if the thread is interrupted
-     * @throws RecordingException if Kafka or the disk cannot be used now
+     * @throws RecordingException if Kafka or the disk is unavailable
      */
     @Override
     public Optional<Recording> open(String topic) throws RecordingException {
         return open(topic, DiskSpace::of);
     }
 
-    /** What room there is for the files in a folder. */
-    interface Room {
+    /** Determines the disk space for the files in a folder. */
+    interface SpaceOf {
         DiskSpace in(Path folder) throws IOException;
     }
 
-    Optional<Recording> open(String topic, Room room) throws RecordingException {
+    Optional<Recording> open(String topic, SpaceOf diskSpace) throws RecordingException {
         if (!topic.startsWith(EVENTS)) {
             throw new RecordingDeletedException(
                     "Topic %s holds no events; name one that begins with %s".formatted(topic, EVENTS));
         }
-        Path own = null;
+        Path temporary = null;
         Recording opened = null;
         try (KafkaConsumer<byte[], byte[]> consumer = new KafkaConsumer<>(settings())) {
             List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
@@ -82,8 +82,8 @@ public record TopicRecordings(TreeMap<String, String> kafka, long until, String 
             if (partitions.isEmpty()) {
                 return Optional.empty();
             }
-            own = Files.createTempDirectory(Files.createDirectories(Path.of(folder)), "furrow-topic-");
-            opened = sorted(topic, new Sorted(consumer, partitions, room.in(own)));
+            temporary = Files.createTempDirectory(Files.createDirectories(Path.of(folder)), "furrow-topic-");
+            opened = sort(topic, new Input(consumer, partitions, diskSpace.in(temporary)));
             return Optional.of(opened);
         } catch (RecordingException e) {
             throw e;
@@ -100,28 +100,29 @@ public record TopicRecordings(TreeMap<String, String> kafka, long until, String 
                             .formatted(topic, folder, FailureText.of(e)),
                     e);
         } finally {
-            if (own != null && opened == null) {
-                TopicRecording.delete(own);
+            if (temporary != null && opened == null) {
+                TopicRecording.delete(temporary);
             }
         }
     }
 
-    /** What the records of a topic are sorted with. */
-    private record Sorted(KafkaConsumer<byte[], byte[]> consumer, List<TopicPartition> partitions, DiskSpace room) {}
+    /** The input of the sort. */
+    private record Input(
+            KafkaConsumer<byte[], byte[]> consumer, List<TopicPartition> partitions, DiskSpace diskSpace) {}
 
-    private Recording sorted(String topic, Sorted sorted) throws IOException {
-        EventSorter sorter = new EventSorter(sorted.room(), SORTED_BYTES);
-        EventTopicReader reader = new EventTopicReader(sorted.consumer(), sorted.partitions(), until, sorter);
+    private Recording sort(String topic, Input input) throws IOException {
+        EventSorter sorter = new EventSorter(input.diskSpace(), SORTED_BYTES);
+        EventTopicReader reader = new EventTopicReader(input.consumer(), input.partitions(), until, sorter);
         String timeout = kafka.getOrDefault(ConsumerConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, TIMEOUT_MILLIS);
         reader.read(Duration.ofMillis(Long.parseLong(timeout)));
-        Path lines = sorted.room().folder().resolve("events.ndjson");
+        Path lines = input.diskSpace().folder().resolve("events.ndjson");
         sorter.writeLines(lines);
         List<SkippedRecords> skipped = reader.skipped() == 0
                 ? List.of()
                 : List.of(new SkippedRecords(
                         "records of " + topic, "the first is " + reader.example(), reader.skipped()));
         Recording events = new FileRecordings(lines.toString()).open(topic).orElseThrow();
-        return new TopicRecording(events, sorted.room().folder(), skipped);
+        return new TopicRecording(events, input.diskSpace().folder(), skipped);
     }
 
     private Properties settings() {
@@ -133,12 +134,12 @@ public record TopicRecordings(TreeMap<String, String> kafka, long until, String 
         settings.setProperty(ConsumerConfig.ISOLATION_LEVEL_CONFIG, "read_committed");
         settings.setProperty(ConsumerConfig.ENABLE_AUTO_COMMIT_CONFIG, "false");
         settings.setProperty(ConsumerConfig.ALLOW_AUTO_CREATE_TOPICS_CONFIG, "false");
-        settings.setProperty(ConsumerConfig.AUTO_OFFSET_RESET_CONFIG, "earliest"); // retention deletes while it is read
+        settings.setProperty(ConsumerConfig.AUTO_OFFSET_RESET_CONFIG, "earliest"); // retention may delete records
         settings.setProperty(ConsumerConfig.FETCH_MAX_BYTES_CONFIG, String.valueOf(FETCH_BYTES));
         return settings;
     }
 
-    /** Holds no password. */
+    /** Returns the bootstrap servers without the password. */
     @Override
     public String toString() {
         return "Kafka at " + kafka.get(ConsumerConfig.BOOTSTRAP_SERVERS_CONFIG);

@@ -37,8 +37,8 @@ class MongoFailureTest {
         14031 | out of disk space                       | UNAVAILABLE
         11000 | E11000 duplicate key index: _id_ dup    | UNAVAILABLE
         11000 | E11000 index: persistence.m.$_id_ dup   | UNAVAILABLE
-        11000 | E11000 duplicate key index: serial dup  | REFUSED
-        11000 | E11000 index: device_id_1 dup           | REFUSED
+        11000 | E11000 duplicate key index: serial dup  | REJECTED
+        11000 | E11000 index: device_id_1 dup           | REJECTED
         13    | not authorized                          | SETTING
         18    | authentication failed                   | SETTING
         166   | is a view                               | SETTING
@@ -53,15 +53,15 @@ class MongoFailureTest {
         8     | unknown error                           | UNKNOWN
         -1    | no code at all                          | UNKNOWN
         777777| a code of a server to come              | UNKNOWN
-        2     | bad value                               | REFUSED
-        9     | failed to parse                         | REFUSED
-        14    | type mismatch                           | REFUSED
-        17280 | key too long to index                   | REFUSED
-        16755 | can't extract geo keys                  | REFUSED
-        121   | document failed validation              | REFUSED
-        10334 | object too large                        | REFUSED
+        2     | bad value                               | REJECTED
+        9     | failed to parse                         | REJECTED
+        14    | type mismatch                           | REJECTED
+        17280 | key too long to index                   | REJECTED
+        16755 | can't extract geo keys                  | REJECTED
+        121   | document failed validation              | REJECTED
+        10334 | object too large                        | REJECTED
         """)
-    void tellsByTheServersCode(int code, String message, MongoFailure failure) {
+    void classifiesServerCodes(int code, String message, MongoFailure failure) {
         BsonDocument answer = new BsonDocument("code", new BsonInt32(code)).append("errmsg", new BsonString(message));
 
         assertThat(MongoFailure.of(new MongoCommandException(answer, SERVER))).isEqualTo(failure);
@@ -69,7 +69,7 @@ class MongoFailureTest {
     }
 
     @Test
-    void takesTheLabelOfABusyServerForItsWord() {
+    void classifiesTheLabelOfAnOverloadedServerAsUnavailable() {
         BsonDocument answer = new BsonDocument("code", new BsonInt32(777_777))
                 .append("errmsg", new BsonString("shed"))
                 .append("errorLabels", new BsonArray(List.of(new BsonString("SystemOverloadedError"))));
@@ -79,14 +79,14 @@ class MongoFailureTest {
 
     @Test
     void namesEachCodeOnce() {
-        List<Integer> all = Stream.of(MongoCodes.OF_DOCUMENT, MongoCodes.OF_SETTING, MongoCodes.OF_TIME)
+        List<Integer> all = Stream.of(MongoCodes.OF_DOCUMENT, MongoCodes.OF_SETTING, MongoCodes.TRANSIENT)
                 .flatMap(Set::stream)
                 .toList();
 
         assertThat(all).doesNotHaveDuplicates();
     }
 
-    static Stream<Arguments> whatTheDriverSays() {
+    static Stream<Arguments> driverFailures() {
         MongoSocketOpenException refused = new MongoSocketOpenException("refused", SERVER);
         return Stream.of(
                 arguments(refused, MongoFailure.UNAVAILABLE),
@@ -97,8 +97,8 @@ class MongoFailureTest {
     }
 
     @ParameterizedTest
-    @MethodSource("whatTheDriverSays")
-    void takesWhatTheDriverSaysForNoFaultOfADocument(MongoException said, MongoFailure failure) {
-        assertThat(MongoFailure.of(said)).isEqualTo(failure);
+    @MethodSource("driverFailures")
+    void classifiesFailuresOfTheDriver(MongoException driverFailure, MongoFailure failure) {
+        assertThat(MongoFailure.of(driverFailure)).isEqualTo(failure);
     }
 }

@@ -23,7 +23,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class GeoJsonExportTest {
     @Test
-    void drawsATrackOfWhatMovedAndAPointForWhatStoodStill() throws Exception {
+    void writesALineForMovingEntitiesAndAPointForOthers() throws Exception {
         ByteArrayOutputStream out = new ByteArrayOutputStream();
         try (Recording recording = new FileRecordings("src/test/resources/export/mission.ndjson")
                 .open("hoeing")
@@ -71,7 +71,7 @@ class GeoJsonExportTest {
     }
 
     @Test
-    void writesMarkersAsFeaturesWithoutAPlace(@TempDir Path folder) throws Exception {
+    void writesMarkersAsFeaturesWithoutGeometry(@TempDir Path folder) throws Exception {
         ByteArrayOutputStream out = new ByteArrayOutputStream();
         Path events = folder.resolve("hoeing.ndjson");
         Files.write(events, List.of());

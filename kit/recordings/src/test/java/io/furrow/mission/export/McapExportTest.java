@@ -23,9 +23,12 @@ class McapExportTest {
     @TempDir
     Path folder;
 
-    /** The file was read with mcap 1.6.0 of PyPI, its checksums checked: {@code ./furrow soak mcap} does that again. */
+    /**
+     * The expected file was verified with mcap 1.6.0 of PyPI, including checksums; {@code ./furrow soak mcap} repeats
+     * that.
+     */
     @Test
-    void writesTheBytesThatAnIndependentReaderUnderstands() throws Exception {
+    void writesTheBytesThatAnIndependentReaderVerified() throws Exception {
         byte[] written = exported(RESOURCES.resolve("mission.ndjson"), new ExportResult(10, 0, Optional.empty()));
 
         assertThat(written).isEqualTo(Files.readAllBytes(RESOURCES.resolve("mission.mcap")));
@@ -74,7 +77,7 @@ class McapExportTest {
     }
 
     @Test
-    void writesAMissionWithoutEventsAndLeavesOutTimesThatMcapDoesNotHave() throws Exception {
+    void writesAMissionWithoutEventsAndSkipsTimesThatMcapDoesNotHave() throws Exception {
         Path mission = folder.resolve("mission.ndjson");
         Files.write(mission, List.of());
         assertThat(new McapFile(exported(mission, new ExportResult(0, 0, Optional.empty()))).messages)
@@ -130,9 +133,9 @@ class McapExportTest {
             MissionExport.Source mission = new MissionExport.Source("hoeing", recording, markers);
             assertThat(new McapExport().write(mission, out, ignored -> {})).isEqualTo(expected);
         }
-        String kept = System.getProperty("furrow.mcap.folder");
-        if (kept != null && markers.isEmpty()) { // for ./furrow soak mcap, which compares events
-            Path copy = Files.createTempFile(Path.of(kept), "mission", ".ndjson");
+        String target = System.getProperty("furrow.mcap.folder");
+        if (target != null && markers.isEmpty()) { // for ./furrow soak mcap, which compares events
+            Path copy = Files.createTempFile(Path.of(target), "mission", ".ndjson");
             Files.copy(lines, copy, StandardCopyOption.REPLACE_EXISTING);
             Files.write(Path.of(copy.toString().replace(".ndjson", ".mcap")), out.toByteArray());
         }

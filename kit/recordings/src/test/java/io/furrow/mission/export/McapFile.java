@@ -12,7 +12,7 @@ import java.util.zip.CRC32;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Reads an MCAP file by its specification, and checks every length, offset, count and checksum in it. */
+/** Parses an MCAP file according to its specification and checks every length, offset, count and checksum. */
 final class McapFile {
     private static final byte[] MAGIC = {(byte) 0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
     private static final int FOOTER_BYTES = 1 + 8 + 8 + 8 + 4;
@@ -136,7 +136,7 @@ final class McapFile {
         assertThat(indexed).isEqualTo(messages.size());
     }
 
-    /** How many messages its message indexes name. */
+    /** Returns the number of messages in its message indexes. */
     private int readChunkIndex(ByteBuffer in) {
         long first = in.getLong();
         long last = in.getLong();
@@ -181,12 +181,12 @@ final class McapFile {
         assertThat(in.getInt()).isEqualTo(chunks);
         assertThat(in.getLong()).isEqualTo(messages.isEmpty() ? 0 : messages.get(0).nanos);
         assertThat(in.getLong()).isEqualTo(messages.isEmpty() ? 0 : messages.get(messages.size() - 1).nanos);
-        Map<Integer, Long> told = new TreeMap<>();
+        Map<Integer, Long> statistics = new TreeMap<>();
         assertThat(in.getInt()).isEqualTo(in.remaining());
         while (in.hasRemaining()) {
-            told.put((int) in.getShort(), in.getLong());
+            statistics.put((int) in.getShort(), in.getLong());
         }
-        assertThat(told).isEqualTo(counts);
+        assertThat(statistics).isEqualTo(counts);
     }
 
     private void readOffsets(long summary, long offsets, long end) {

@@ -52,7 +52,7 @@ class FileRecordingTest extends RecordingContract {
     }
 
     @Test
-    void findsTheFileOfAMissionAndReadsWhatIsCompressed() throws Exception {
+    void findsTheFileOfAMissionAndReadsCompressedFiles() throws Exception {
         Files.write(folder.resolve("hoeing.ndjson.gz"), Gzip.of(lines(List.of(RandomEvents.event("a", 1, 0)))));
         Files.write(folder.resolve("_x-a-2Eb.jsonl"), lines(List.of(RandomEvents.event("b", 1, 0))));
         FileRecordings recordings = new FileRecordings(folder.toString());
@@ -66,7 +66,7 @@ class FileRecordingTest extends RecordingContract {
     }
 
     @Test
-    void takesNoMarkersForEvents() throws Exception {
+    void ignoresFilesOfMarkers() throws Exception {
         Path archive = Files.createDirectory(folder.resolve("mission_weeding"));
         byte[] event = lines(List.of(RandomEvents.event("a", 1, 0)));
         Files.write(archive.resolve("2026-11-20-0001.jsonl"), event);
@@ -125,7 +125,7 @@ class FileRecordingTest extends RecordingContract {
     }
 
     @Test
-    void readsOnInAFileOfSeveralDaysThatIsNamedAfterTheFirst() throws Exception {
+    void continuesInAFileOfSeveralDaysNamedAfterTheFirst() throws Exception {
         long evening = Instant.parse("2026-11-20T20:00:00Z").toEpochMilli();
         StoredEvent first = RandomEvents.event("a", evening, 0);
         StoredEvent second = RandomEvents.event("b", evening + 8 * 3_600_000, 0);
@@ -138,7 +138,7 @@ class FileRecordingTest extends RecordingContract {
     }
 
     @Test
-    void namesTheLinesThatHoldNoEvent() throws Exception {
+    void reportsInvalidLines() throws Exception {
         Path file = folder.resolve("hoeing.ndjson");
         String good = new String(lines(List.of(RandomEvents.event("a", 1, 0))), UTF_8);
         String noEntity = "{\"id\":\"b\",\"time\":2,\"headers\":{}}\n";
@@ -158,7 +158,7 @@ class FileRecordingTest extends RecordingContract {
     }
 
     @Test
-    void refusesLinesThatAreOutOfOrderAndSaysWhich() throws Exception {
+    void rejectsLinesThatAreOutOfOrder() throws Exception {
         Path file = folder.resolve("hoeing.ndjson");
         List<StoredEvent> events =
                 List.of(RandomEvents.event("a", 1, 0), RandomEvents.event("b", 3, 0), RandomEvents.event("c", 2, 0));
@@ -174,9 +174,9 @@ class FileRecordingTest extends RecordingContract {
         }
     }
 
-    /** A jump reads a long file for minutes. */
+    /** A seek may read a long file for minutes. */
     @Test
-    void stopsLookingForAnEventAndMeasuringWhenItsThreadIsInterrupted() throws Exception {
+    void stopsSeekingAndMeasuringWhenItsThreadIsInterrupted() throws Exception {
         Path file = folder.resolve("hoeing.ndjson");
         Files.write(file, lines(ordered(RandomEvents.of(new Random(1), 100))));
         RecordingFiles interrupting = new InterruptingFiles();
@@ -217,7 +217,7 @@ class FileRecordingTest extends RecordingContract {
     }
 
     @Test
-    void refusesFilesThatAreNotWholeOrGone() throws Exception {
+    void rejectsTruncatedAndDeletedFiles() throws Exception {
         Path file = folder.resolve("hoeing.ndjson.gz");
         byte[] whole = Gzip.of(lines(ordered(RandomEvents.of(new Random(1), 500))));
         Files.write(file, Arrays.copyOf(whole, whole.length / 2));

@@ -18,7 +18,7 @@ class ImageUsageTest {
     Path folder;
 
     @Test
-    void addsUpWhatAllTenantsAndServicePathsHaveOfAMission() throws Exception {
+    void addsTheImagesOfAMissionOverTenantsAndServicePaths() throws Exception {
         for (FiwareScope scope :
                 List.of(FiwareScope.DEFAULT, new FiwareScope("farm", "/"), new FiwareScope("farm", "/north"))) {
             write(ImageName.of(scope, "north", "weeding", "c", TIME));

@@ -38,7 +38,7 @@ class MarkersTest {
     }
 
     @Test
-    void refusesWhatATerminalWouldObey() {
+    void rejectsControlCharactersOfTerminals() {
         try (Markers markers = Markers.open(mongo.uri(), "refused")) {
             assertThatThrownBy(() -> markers.add(new Marker("e", "hoeing", TIME, "\u001b[2J", "Ada", TIME)))
                     .isInstanceOf(RejectedMarkerException.class)
@@ -70,7 +70,7 @@ class MarkersTest {
     }
 
     @Test
-    void liesBesideTheMissionsWithAnIndexOnMissionAndTime() throws Exception {
+    void storesMarkersInTheirOwnCollectionWithAnIndexOnMissionAndTime() throws Exception {
         try (Markers markers = Markers.open(mongo.uri(), "beside")) {
             markers.add(new Marker("a", "a.b", TIME, "turns", "Ada", TIME + 1));
         }
@@ -84,9 +84,9 @@ class MarkersTest {
                 .contains("{\"mission\": 1, \"time\": 1}");
     }
 
-    /** As recordings are opened by both names. */
+    /** Recordings are opened by both names, too. */
     @Test
-    void knowsAMissionByTheNameOfItsCollectionToo() throws Exception {
+    void findsAMissionByItsEncodedName() throws Exception {
         client.getDatabase("named").createCollection("mission__x-a-2Eb");
         try (Markers markers = Markers.open(mongo.uri(), "named")) {
             markers.add(new Marker("a", "a.b", TIME, "turns", "Ada", TIME));
@@ -99,30 +99,30 @@ class MarkersTest {
     }
 
     @Test
-    void storesAMarkerThatIsAddedAgainOnceAndRefusesAnotherOfItsId() throws Exception {
+    void storesADuplicateOnceAndRejectsAnotherMarkerOfItsId() throws Exception {
         try (Markers markers = Markers.open(mongo.uri(), "again")) {
             Marker marker = new Marker("a", "hoeing", TIME, "turns", "Ada", TIME);
             markers.add(marker);
             markers.add(marker);
 
             assertThat(markers.list("hoeing")).containsExactly(marker);
-            assertRefused(
+            assertRejected(
                     markers,
                     new Marker("a", "hoeing", TIME, "stops", "Ada", TIME),
                     "There is another marker of id a; write a new id, or remove that marker first");
-            assertRefused(markers, new Marker("a", "weeding", TIME, "turns", "Ada", TIME), "There is another marker");
+            assertRejected(markers, new Marker("a", "weeding", TIME, "turns", "Ada", TIME), "There is another marker");
         }
     }
 
     @Test
-    void storesNoMoreOfAMissionThanMayBe() throws Exception {
+    void rejectsMarkersAboveTheMaximum() throws Exception {
         try (Markers markers = new Markers(new MongoRecordings(mongo.uri(), "full"), 3)) {
             for (String id : List.of("a", "b", "c")) {
                 markers.add(new Marker(id, "hoeing", TIME, "turns", "", TIME));
             }
             Marker fourth = new Marker("d", "hoeing", TIME, "turns", "", TIME);
 
-            assertRefused(markers, fourth, "Mission hoeing has 3 markers, and no more are stored; remove some first");
+            assertRejected(markers, fourth, "Mission hoeing has 3 markers, and no more are stored; remove some first");
             assertThat(markers.list("hoeing")).hasSize(3);
             markers.add(new Marker("a", "hoeing", TIME, "turns", "", TIME));
             markers.add(new Marker("e", "weeding", TIME, "turns", "", TIME));
@@ -133,23 +133,23 @@ class MarkersTest {
     }
 
     @Test
-    void refusesWhatIsNoMarker() throws Exception {
+    void rejectsInvalidMarkers() throws Exception {
         try (Markers markers = Markers.open(mongo.uri(), "refused")) {
-            assertRefused(markers, note(null), "The note of the marker is missing or blank; write what");
-            assertRefused(markers, note(" \n"), "The note of the marker is missing or blank");
-            assertRefused(
+            assertRejected(markers, note(null), "The note of the marker is missing or blank; write what");
+            assertRejected(markers, note(" \n"), "The note of the marker is missing or blank");
+            assertRejected(
                     markers,
                     note("\uD83D\uDE9C".repeat(1_001)),
                     "The note of the marker has 1,001 characters, at most 1,000 are stored; write what");
-            assertRefused(markers, note("\uD83D"), "The note of the marker holds half a character");
-            assertRefused(markers, new Marker("", "m", TIME, "n", "", TIME), "The id of the marker is missing");
-            assertRefused(markers, new Marker("a", "", TIME, "n", "", TIME), "The mission of the marker is missing");
-            assertRefused(markers, new Marker("a", "m", TIME, "n", null, TIME), "The author of the marker is missing");
-            assertRefused(
+            assertRejected(markers, note("\uD83D"), "The note of the marker holds half a character");
+            assertRejected(markers, new Marker("", "m", TIME, "n", "", TIME), "The id of the marker is missing");
+            assertRejected(markers, new Marker("a", "", TIME, "n", "", TIME), "The mission of the marker is missing");
+            assertRejected(markers, new Marker("a", "m", TIME, "n", null, TIME), "The author of the marker is missing");
+            assertRejected(
                     markers,
                     new Marker("a", "m", -1, "n", "", TIME),
                     "The time -1 of the marker is not between 1970 and 9999; write milliseconds since 1970");
-            assertRefused(
+            assertRejected(
                     markers, new Marker("a", "m", TIME, "n", "", Long.MAX_VALUE), "The created 9223372036854775807 of");
             assertThat(markers.list("m")).isEmpty();
 
@@ -159,10 +159,11 @@ class MarkersTest {
     }
 
     @Test
-    void saysThatMongoIsAway() throws Exception {
+    void reportsThatMongoIsUnavailable() throws Exception {
         int port = FreePort.orFree(0);
-        MongoRecordings nobody = new MongoRecordings("mongodb://127.0.0.1:" + port, "away", Duration.ofMillis(100));
-        try (Markers markers = new Markers(nobody, 3)) {
+        MongoRecordings unavailable =
+                new MongoRecordings("mongodb://127.0.0.1:" + port, "away", Duration.ofMillis(100));
+        try (Markers markers = new Markers(unavailable, 3)) {
             assertThatThrownBy(() -> markers.list("hoeing"))
                     .isInstanceOf(RecordingException.class)
                     .hasMessageStartingWith(
@@ -172,7 +173,7 @@ class MarkersTest {
     }
 
     @Test
-    void writesALineForEach() throws Exception {
+    void writesOneLinePerMarker() throws Exception {
         ByteArrayOutputStream out = new ByteArrayOutputStream();
 
         MarkerFile.write(List.of(new Marker("a", "hoeing", TIME, "turns", "Ada", TIME + 1)), out);
@@ -189,7 +190,7 @@ class MarkersTest {
         return new Marker("a", "m", TIME, note, "", TIME);
     }
 
-    private static void assertRefused(Markers markers, Marker marker, String message) {
+    private static void assertRejected(Markers markers, Marker marker, String message) {
         assertThatThrownBy(() -> markers.add(marker))
                 .isInstanceOf(RejectedMarkerException.class)
                 .hasMessageStartingWith(message);

@@ -73,7 +73,7 @@ class EventDensityTest {
     }
 
     @Test
-    void countsWhatHasATimeAlone() throws Exception {
+    void countsOnlyDocumentsWithATime() throws Exception {
         MongoCollection<Document> events = collection("odd", "hoeing");
         events.insertMany(List.of(
                 at(new Date(TIME)),
@@ -89,17 +89,17 @@ class EventDensityTest {
     }
 
     @Test
-    void knowsNothingOfAMissionThatIsNotStored() throws Exception {
+    void returnsEmptyForAMissionThatIsNotStored() throws Exception {
         try (EventDensity density = EventDensity.open(mongo.uri(), "nothing")) {
             assertThat(density.count("sowing", TIME, 10, 2)).isEmpty();
         }
     }
 
     @Test
-    void saysThatMongoIsAway() {
-        MongoRecordings nobody =
+    void reportsThatMongoIsUnavailable() {
+        MongoRecordings unavailable =
                 new MongoRecordings("mongodb://127.0.0.1:" + FreePort.orFree(0), "away", Duration.ofMillis(100));
-        try (EventDensity density = new EventDensity(nobody)) {
+        try (EventDensity density = new EventDensity(unavailable)) {
             assertThatThrownBy(() -> density.count("hoeing", TIME, 10, 2))
                     .isInstanceOf(RecordingException.class)
                     .hasMessageStartingWith("The events of mission hoeing cannot be counted at MongoDB at 127.0.0.1:")

@@ -63,7 +63,7 @@ class EventDocumentCodecTest {
     }
 
     @Test
-    void givesBackWhatItWasGiven() throws Exception {
+    void readsBackTheSameEvent() throws Exception {
         String json = """
                 {"id":"t1","type":"T","a.b":{"$in":[1,2.50,null,true,{"x.y":"\\u0000\\n°"},[],{}],"":{"%":1}},"_time":{"value":3},\
                 "_id":{"value":"mine"},"$where":{"value":"1"}}""";

@@ -25,20 +25,20 @@ class FieldNameTest {
                     _$x         | %5F$x
                     ""          | %
                     """)
-    void writesWhatMongoWouldMisreadInAnotherWay(String name, String field) {
+    void encodesNamesThatMongoWouldMisread(String name, String field) {
         assertThat(FieldName.ofAttribute(name)).isEqualTo(field);
-        assertThat(FieldName.decoded(field)).isEqualTo(name);
+        assertThat(FieldName.decode(field)).isEqualTo(name);
     }
 
     @Test
-    void leavesAnUnderscoreFurtherDown() {
+    void keepsAnUnderscoreAtALowerLevel() {
         assertThat(FieldName.of("_id")).isEqualTo("_id");
     }
 
     @Test
-    void writesANullByte() {
+    void encodesANullByte() {
         assertThat(FieldName.of("a\0b")).isEqualTo("a%00b");
-        assertThat(FieldName.decoded("a%00b")).isEqualTo("a\0b");
+        assertThat(FieldName.decode("a%00b")).isEqualTo("a\0b");
     }
 
     @Test
@@ -55,7 +55,7 @@ class FieldNameTest {
             names.add(name.toString());
             String field = FieldName.ofAttribute(name.toString());
             fields.add(field);
-            assertThat(FieldName.decoded(field)).as("seed %d", seed).isEqualTo(name.toString());
+            assertThat(FieldName.decode(field)).as("seed %d", seed).isEqualTo(name.toString());
             assertThat(field).doesNotContain(".", "\0").doesNotStartWith("$").doesNotStartWith("_");
         }
         assertThat(fields).hasSameSizeAs(names);

@@ -70,7 +70,7 @@ class MissionCatalogTest {
     }
 
     @Test
-    void learnsALongNameFromTheNewestEvent() throws Exception {
+    void readsALongNameFromTheNewestEvent() throws Exception {
         String collection = MissionCollections.nameOf(LONG);
         assertThat(collection).startsWith("mission__h-");
         String hash = collection.substring(MissionCollections.PREFIX.length());
@@ -92,7 +92,7 @@ class MissionCatalogTest {
         }
     }
 
-    /** What an index serves is a matter of the query's form. */
+    /** Whether an index is used depends on the form of the query. */
     @Test
     void readsOneDocumentAtEachEndOfTheIndexOnEventTime() throws Exception {
         store("mission_weeding", 30, 10, 20);
@@ -120,14 +120,14 @@ class MissionCatalogTest {
     }
 
     @Test
-    void saysThatMongoIsAway() throws Exception {
+    void reportsThatMongoIsUnavailable() throws Exception {
         int port = FreePort.orFree(0);
-        MongoRecordings nobody = new MongoRecordings("mongodb://127.0.0.1:" + port, "away", Duration.ofMillis(100));
-        try (MissionCatalog catalog = new MissionCatalog(nobody)) {
+        MongoRecordings unavailable =
+                new MongoRecordings("mongodb://127.0.0.1:" + port, "away", Duration.ofMillis(100));
+        try (MissionCatalog catalog = new MissionCatalog(unavailable)) {
             assertThatThrownBy(() -> catalog.has("hoeing"))
                     .isInstanceOf(RecordingException.class)
-                    .hasMessageStartingWith(
-                            "Which missions are stored cannot be read from MongoDB at 127.0.0.1:" + port)
+                    .hasMessageStartingWith("The list of missions cannot be read from MongoDB at 127.0.0.1:" + port)
                     .hasMessageEndingWith("Check that MongoDB runs there and answers.");
         }
     }

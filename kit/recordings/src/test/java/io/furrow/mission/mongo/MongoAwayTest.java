@@ -41,14 +41,14 @@ class MongoAwayTest {
     private static final PageLimits TWO = new PageLimits(2, 10_000);
 
     @Test
-    void saysThatMongoIsAwayAndGoesOnWhenItIsBack(@TempDir Path directory) throws Exception {
+    void reportsThatMongoIsUnavailableAndContinuesWhenItIsBack(@TempDir Path directory) throws Exception {
         int port = FreePort.orFree(0);
         MongoRecordings recordings = new MongoRecordings(
                 "mongodb://u:secret@127.0.0.1:" + port, MongoAccess.DATABASE, Duration.ofMillis(300));
         MongoRecordings reachable = new MongoRecordings("mongodb://127.0.0.1:" + port, MongoAccess.DATABASE);
-        MongoRecordings impatient =
+        MongoRecordings shortTimeout =
                 new MongoRecordings("mongodb://127.0.0.1:" + port, MongoAccess.DATABASE, Duration.ofMillis(300));
-        assertThatThrownBy(() -> impatient.open("hoeing"))
+        assertThatThrownBy(() -> shortTimeout.open("hoeing"))
                 .isInstanceOf(RecordingException.class)
                 .hasMessageStartingWith("Mission hoeing cannot be read from MongoDB at 127.0.0.1:" + port)
                 .hasMessageEndingWith("Check that MongoDB runs there and answers.");
@@ -80,20 +80,21 @@ class MongoAwayTest {
         }
     }
 
-    /** A page from the query that is open may still come. */
+    /** The open query may still return a page. */
     private static void readTwice(Recording recording, Cursor next) throws RecordingException {
         recording.read(next, TWO);
         recording.read(Cursor.before(0), TWO);
     }
 
-    /** What an index serves is a matter of the query's form: this is that of the index that missions are made with. */
+    /** Whether an index is used depends on the form of the query, which must match the index of the missions. */
     @Test
-    void asksByTheKeyOfAnIndexThatIngestMakes() throws Exception {
+    void queriesByTheKeyOfAnIndexOfIngest() throws Exception {
         List<BsonDocument> commands = new ArrayList<>();
         try (EmbeddedMongo mongo = EmbeddedMongo.inMemory();
                 MongoClient client = listening(mongo.uri(), commands)) {
-            MissionCollections made = new MissionCollections(client, Retention.FOR_EVER, java.time.Clock.systemUTC());
-            MongoCollection<RawBsonDocument> collection = made.prepared("mission_hoeing");
+            MissionCollections collections =
+                    new MissionCollections(client, Retention.FOR_EVER, java.time.Clock.systemUTC());
+            MongoCollection<RawBsonDocument> collection = collections.prepared("mission_hoeing");
             collection.insertOne(new RawBsonDocument(EventDocumentCodec.write(RandomEvents.event("a", 1, 0))));
             BsonDocument key = commands.stream()
                     .filter(command -> command.containsKey("createIndexes"))
@@ -123,26 +124,26 @@ class MongoAwayTest {
         }
     }
 
-    /** With whatever the next write makes anew. */
+    /** The next write recreates the collection. */
     @Test
-    void makesTheIndexesOfACollectionAgainThatMayHaveBeenDropped() throws Exception {
+    void createsIndexesAgainAfterACollectionMayHaveBeenDropped() throws Exception {
         List<BsonDocument> commands = new ArrayList<>();
         AtomicReference<Instant> now = new AtomicReference<>(Instant.ofEpochSecond(1_700_000_000));
         try (EmbeddedMongo mongo = EmbeddedMongo.inMemory();
                 MongoClient client = listening(mongo.uri(), commands)) {
             InstantSource clock = now::get;
-            var made = new MissionCollections(client, Retention.FOR_EVER, clock.withZone(ZoneOffset.UTC));
-            made.prepared("mission_hoeing");
-            made.prepared("mission_hoeing").drop();
-            assertThat(indexesMade(commands)).isEqualTo(2);
+            var collections = new MissionCollections(client, Retention.FOR_EVER, clock.withZone(ZoneOffset.UTC));
+            collections.prepared("mission_hoeing");
+            collections.prepared("mission_hoeing").drop();
+            assertThat(createdIndexes(commands)).isEqualTo(2);
 
             now.set(now.get().plusSeconds(61));
-            made.prepared("mission_hoeing");
-            assertThat(indexesMade(commands)).isEqualTo(4);
+            collections.prepared("mission_hoeing");
+            assertThat(createdIndexes(commands)).isEqualTo(4);
         }
     }
 
-    private static long indexesMade(List<BsonDocument> commands) {
+    private static long createdIndexes(List<BsonDocument> commands) {
         return commands.stream()
                 .filter(command -> command.containsKey("createIndexes"))
                 .count();

@@ -46,7 +46,7 @@ import io.furrow.mission.StoredEvent;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
-/** On the embedded server, or on another by {@code -Dfurrow.test.mongo=URI}; its database goes at the end. */
+/** Runs on the embedded server, or on the one of {@code -Dfurrow.test.mongo=URI}; drops its database at the end. */
 class MongoRecordingTest extends RecordingContract {
     private static final String DATABASE = "test-" + UUID.randomUUID();
     private static final PageLimits ALL = new PageLimits(1_000_000, Integer.MAX_VALUE);
@@ -68,7 +68,7 @@ class MongoRecordingTest extends RecordingContract {
     }
 
     @AfterAll
-    static void leaveNothingBehind() {
+    static void dropDatabase() {
         client.getDatabase(DATABASE).drop();
         client.close();
         if (embedded != null) {
@@ -76,7 +76,7 @@ class MongoRecordingTest extends RecordingContract {
         }
     }
 
-    /** Every query is short, and few events of one millisecond are a crowd. */
+    /** Uses small queries and a low limit of documents per millisecond. */
     @Override
     public Recording recorded(List<StoredEvent> events) throws Exception {
         MongoCollection<RawBsonDocument> collection = stored("mission_" + UUID.randomUUID(), events);
@@ -108,7 +108,7 @@ class MongoRecordingTest extends RecordingContract {
     }
 
     @Test
-    void knowsTheMissionsThatAreStored() throws Exception {
+    void opensStoredMissions() throws Exception {
         stored("mission_hoeing", List.of(RandomEvents.event("a", 1, 0)));
         stored("mission__x-a-2Eb", List.of(RandomEvents.event("b", 1, 0)));
         MongoRecordings recordings = new MongoRecordings(uri, DATABASE);
@@ -120,7 +120,7 @@ class MongoRecordingTest extends RecordingContract {
     }
 
     @Test
-    void asksForTwiceAsManyDocumentsAsLongAsTheyAreSmall() throws Exception {
+    void doublesTheLimitWhileDocumentsAreSmall() throws Exception {
         List<StoredEvent> events = IntStream.range(0, 60)
                 .mapToObj(i -> RandomEvents.event("e" + i, i, 0))
                 .toList();
@@ -131,7 +131,7 @@ class MongoRecordingTest extends RecordingContract {
         assertThat(limits(collection, 20L * size)).startsWith(4, 8, 16, 16, 16);
     }
 
-    /** Of the queries that read all documents. */
+    /** Returns the limits of the queries that read all documents. */
     private static List<Integer> limits(MongoCollection<RawBsonDocument> collection, long queryBytes) {
         List<Integer> limits = new ArrayList<>();
         CommandListener finds = new CommandListener() {
@@ -162,7 +162,7 @@ class MongoRecordingTest extends RecordingContract {
     }
 
     @Test
-    void readsAMillisecondAndAMissionThatAreLargerThanAQuery() throws Exception {
+    void readsAMillisecondAndAMissionLargerThanAQuery() throws Exception {
         List<StoredEvent> events = new ArrayList<>();
         for (int i = 0; i < 9_980; i++) {
             events.add(RandomEvents.event("e" + i, i, 0));
@@ -179,15 +179,15 @@ class MongoRecordingTest extends RecordingContract {
     }
 
     @Test
-    void holdsNoMoreOfACrowdedMillisecondThanItMay() throws Exception {
+    void boundsTheDocumentsOfAMillisecondInMemory() throws Exception {
         List<StoredEvent> events = IntStream.range(0, 200)
                 .mapToObj(i -> RandomEvents.event("e" + i, 1, i % 50 == 0 ? 4_000 : i % 7 * 100))
                 .toList();
         MongoCollection<RawBsonDocument> collection = stored("mission_crowded", events);
-        SameTimeCursor crowd = new SameTimeCursor(collection, 1, Cursor.START, 2_000);
+        SameTimeCursor sameTime = new SameTimeCursor(collection, 1, Cursor.START, 2_000);
         List<StoredEvent> read = new ArrayList<>();
-        while (crowd.hasNext()) {
-            List<OrderedDocumentReader.Ordered> some = crowd.next();
+        while (sameTime.hasNext()) {
+            List<OrderedDocumentReader.Ordered> some = sameTime.next();
             int bytes =
                     some.stream().mapToInt(OrderedDocumentReader.Ordered::bytes).sum();
             assertThat(some.size() == 1 || bytes <= 2_000)
@@ -201,7 +201,7 @@ class MongoRecordingTest extends RecordingContract {
     }
 
     @Test
-    void namesTheDocumentsThatHoldNoEventAndReadsTheOthers() throws Exception {
+    void reportsInvalidDocumentsAndReadsTheOthers() throws Exception {
         MongoCollection<BsonDocument> collection = stored(
                         "mission_broken", List.of(RandomEvents.event("a", 1, 0), RandomEvents.event("z", 9, 0)))
                 .withDocumentClass(BsonDocument.class);
@@ -251,9 +251,9 @@ class MongoRecordingTest extends RecordingContract {
         }
     }
 
-    /** An array matches a comparison where one of its elements does. */
+    /** An array matches a comparison if one of its elements does. */
     @Test
-    void skipsArraysOfTimesHoweverManyThereAre() throws Exception {
+    void skipsManyArraysOfTimes() throws Exception {
         MongoCollection<BsonDocument> collection = stored(
                         "mission_arrays",
                         List.of(
@@ -281,7 +281,7 @@ class MongoRecordingTest extends RecordingContract {
     }
 
     @Test
-    void doesNotCountDocumentsThatHoldNoEvent() throws Exception {
+    void stepsBackOverInvalidDocuments() throws Exception {
         MongoCollection<BsonDocument> collection = stored(
                         "mission_back", List.of(RandomEvents.event("a", 1, 0), RandomEvents.event("z", 9, 0)))
                 .withDocumentClass(BsonDocument.class);
@@ -316,7 +316,7 @@ class MongoRecordingTest extends RecordingContract {
     }
 
     @Test
-    void tellsThatTheMissionHasGone() throws Exception {
+    void reportsThatTheMissionWasDeleted() throws Exception {
         MongoCollection<RawBsonDocument> collection =
                 stored("mission_going", List.of(RandomEvents.event("a", 1, 0), RandomEvents.event("b", 2, 0)));
         try (Recording recording =
@@ -332,7 +332,7 @@ class MongoRecordingTest extends RecordingContract {
     }
 
     @Test
-    void beginsThoughTheServerIsTooSlowToCountDocumentsWithoutATime() throws Exception {
+    void beginsWithoutTheCountOfDocumentsThatTakesTooLong() throws Exception {
         MongoCollection<RawBsonDocument> collection = stored("mission_slow", List.of(RandomEvents.event("a", 1, 0)));
         try (Recording recording = recording(slowToCount(collection))) {
             EventPage eventPage = recording.read(Cursor.START, ALL);
@@ -359,7 +359,7 @@ class MongoRecordingTest extends RecordingContract {
     }
 
     @Test
-    void goesOnWhereEventsWereAddedAfterItsEnd() throws Exception {
+    void readsEventsThatWereAddedAfterItsEnd() throws Exception {
         MongoCollection<RawBsonDocument> collection = stored("mission_growing", List.of(RandomEvents.event("a", 1, 0)));
         try (Recording recording =
                 new MongoRecordings(uri, DATABASE).open("growing").orElseThrow()) {

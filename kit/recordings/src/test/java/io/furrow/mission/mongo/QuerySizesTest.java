@@ -5,11 +5,11 @@ import org.junit.jupiter.params.provider.CsvSource;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** How much one query may return, in MiB. */
+/** Tests the maximum size of a query, in MiB. */
 class QuerySizesTest {
     @ParameterizedTest
     @CsvSource({"256, 2", "1024, 4", "6144, 24", "65536, 64"})
-    void growsWithTheHeapThatTheEmbeddedServerShares(long heap, long most) {
-        assertThat(OrderedDocumentReader.Sizes.queryBytes(heap << 20)).isEqualTo(most << 20);
+    void growsWithTheHeap(long heap, long expected) {
+        assertThat(OrderedDocumentReader.Sizes.queryBytes(heap << 20)).isEqualTo(expected << 20);
     }
 }

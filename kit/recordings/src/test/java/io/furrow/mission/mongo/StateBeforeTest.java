@@ -38,7 +38,7 @@ import io.furrow.model.event.HeaderNames;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** On the embedded server, or on another by {@code -Dfurrow.test.mongo=URI}; its database goes at the end. */
+/** Runs on the embedded server, or on the one of {@code -Dfurrow.test.mongo=URI}; drops its database at the end. */
 class StateBeforeTest {
     private static final String DATABASE = "test-" + UUID.randomUUID();
     private static final StateBefore.Bounds FEW = new StateBefore.Bounds(40, 3, 64, 1_000_000);
@@ -65,7 +65,7 @@ class StateBeforeTest {
     }
 
     @AfterAll
-    static void leaveNothingBehind() {
+    static void dropDatabase() {
         client.getDatabase(DATABASE).drop();
         client.close();
         if (embedded != null) {
@@ -82,7 +82,7 @@ class StateBeforeTest {
         mission.createIndex(Indexes.ascending(EventDocumentCodec.TIME));
     }
 
-    /** What the driver asks of the server. */
+    /** Records the queries of the driver. */
     private static final class Queries implements CommandListener {
         @Override
         public void commandStarted(CommandStartedEvent event) {
@@ -122,7 +122,7 @@ class StateBeforeTest {
     }
 
     @Test
-    void readsTheNewestDocumentsAloneWhereAllEntitiesHaveReported() throws Exception {
+    void readsOnlyTheNewestDocumentsWhenAllEntitiesHaveReported() throws Exception {
         List<StoredEvent> events = IntStream.range(0, 1_000)
                 .mapToObj(number -> event(number, 10 + number, "d" + number % 4, "x", "y"))
                 .toList();
@@ -134,7 +134,7 @@ class StateBeforeTest {
     }
 
     @Test
-    void looksUpAnEntityThatHasBeenSilent() throws Exception {
+    void queriesASilentEntity() throws Exception {
         List<StoredEvent> events = new ArrayList<>();
         for (int number = 0; number < 1_000; number++) {
             String device = number < 100 ? "silent" : number % 2 == 0 ? "a" : "b";
@@ -152,7 +152,7 @@ class StateBeforeTest {
     }
 
     @Test
-    void readsFurtherBackUntilADeletionOfWhatReportsChangesAlone() throws Exception {
+    void readsBackToTheDeletionOfAnEntityThatReportsOnlyChanges() throws Exception {
         List<StoredEvent> events = new ArrayList<>();
         for (int number = 0; number < 300; number++) {
             events.add(event(number, 10 + number, "d", number % 30 == 0 ? "battery" : "x"));
@@ -170,7 +170,7 @@ class StateBeforeTest {
     }
 
     @Test
-    void givesUpOnWhatReportsChangesAloneAndOnTooManySilentEntities() throws Exception {
+    void givesUpOnEntitiesThatReportOnlyChangesAndOnTooManySilentOnes() throws Exception {
         List<StoredEvent> events = IntStream.range(0, 300)
                 .mapToObj(number -> event(number, 10 + number, "d", number == 0 ? "battery" : "x"))
                 .toList();
@@ -186,7 +186,7 @@ class StateBeforeTest {
     }
 
     @Test
-    void readsOnWhereALimitLiesWithinAMillisecond() throws Exception {
+    void readsFurtherWhenALimitSplitsAMillisecond() throws Exception {
         StoredEvent deletion = deleted(1, 10, "d");
         StoredEvent again = event(2, 10, "d", "z");
         for (List<StoredEvent> stored : List.of(List.of(deletion, again), List.of(again, deletion))) {
@@ -205,7 +205,7 @@ class StateBeforeTest {
     }
 
     @Test
-    void knowsWhatAScanKnows() throws Exception {
+    void findsTheSameStateAsAScan() throws Exception {
         long seed = System.nanoTime();
         Random random = new Random(seed);
         int found = 0;
@@ -219,7 +219,7 @@ class StateBeforeTest {
                 long bytes = random.nextInt(3) == 0 ? 2_000 : FEW.bytes();
                 Optional<List<StoredEvent>> state = before(time, devices, new StateBefore.Bounds(40, 3, 64, bytes));
                 found += state.isPresent() ? 1 : 0;
-                state.ifPresent(known -> assertThat(known)
+                state.ifPresent(states -> assertThat(states)
                         .as("seed %d, before %d", seed, time)
                         .isEqualTo(scanned(events, time, devices)));
             }
@@ -227,7 +227,7 @@ class StateBeforeTest {
         assertThat(found).as("seed %d", seed).isGreaterThan(30);
     }
 
-    /** Several events a millisecond, so that limits lie within one. */
+    /** Generates several events per millisecond, so that limits split some. */
     private static List<StoredEvent> mission(Random random) {
         List<StoredEvent> events = new ArrayList<>();
         for (int device = 1 + random.nextInt(5); device >= 0; device--) {
@@ -243,7 +243,7 @@ class StateBeforeTest {
             boolean tenants = random.nextInt(8) == 0;
             for (int i = 0; i < count; i++) {
                 int number = events.size();
-                int time = times.get(i) + (i == 0 ? 0 : 5); // the first is alone in its millisecond
+                int time = times.get(i) + (i == 0 ? 0 : 5); // the first is the only one of its millisecond
                 StoredEvent event = (!tenants || i % 2 == 1) && random.nextInt(25) == 0
                         ? deleted(number, time, "d" + device)
                         : event(number, time, "d" + device, reporter.attributes(i, period));
@@ -258,20 +258,20 @@ class StateBeforeTest {
                 event.id(), event.time(), event.entityId(), Map.of(HeaderNames.SERVICE, "barn"), event.entity());
     }
 
-    /** What an entity reports. Numbers of one millisecond grow as ids do. */
+    /** How an entity reports its attributes. Numbers of one millisecond have the order of ids. */
     private enum Reporter {
-        ONE_AFTER_THE_OTHER,
-        ALL_THAT_IT_HAS,
-        ALL_BUT_SOME,
-        ONE_AT_FIRST_AND_NEVER_AGAIN;
+        ONE_IN_TURN,
+        WHOLE,
+        ALL_EXCEPT_SOME,
+        ONE_ONLY_AT_FIRST;
 
         String[] attributes(int number, int period) {
             return switch (this) {
-                case ONE_AFTER_THE_OTHER -> new String[] {"abc".substring(number % 3, number % 3 + 1)};
-                case ALL_THAT_IT_HAS -> number < period ? new String[] {"a"} : new String[] {"a", "b"};
-                case ALL_BUT_SOME ->
+                case ONE_IN_TURN -> new String[] {"abc".substring(number % 3, number % 3 + 1)};
+                case WHOLE -> number < period ? new String[] {"a"} : new String[] {"a", "b"};
+                case ALL_EXCEPT_SOME ->
                     number % period == 1 ? new String[] {number == 1 + period ? "d" : "c"} : new String[] {"a", "b"};
-                case ONE_AT_FIRST_AND_NEVER_AGAIN -> number == 0 ? new String[] {"z"} : new String[] {"a", "b"};
+                case ONE_ONLY_AT_FIRST -> number == 0 ? new String[] {"z"} : new String[] {"a", "b"};
             };
         }
     }

@@ -23,7 +23,7 @@ class EventSorterTest {
     private static final String[] SIGNS = {"a", "b", "Z", "é", "\uFFFD", "\uD83D\uDE9C"};
 
     @Test
-    void ordersMoreEventsThanItHoldsAndKeepsTheFirstOfDuplicates(@TempDir Path folder) throws Exception {
+    void sortsMoreEventsThanFitIntoMemoryAndKeepsTheFirstOfDuplicates(@TempDir Path folder) throws Exception {
         long seed = System.nanoTime();
         Random random = new Random(seed);
         for (int events : new int[] {0, 1, 30, 3_000}) {
@@ -64,7 +64,7 @@ class EventSorterTest {
     }
 
     @Test
-    void leavesRoomOnTheDiskAlsoWhileItMerges(@TempDir Path folder) throws Exception {
+    void leavesSpaceOnTheDiskWhileItMerges(@TempDir Path folder) throws Exception {
         AtomicLong free = new AtomicLong(30_000_000);
         EventSorter sorter = new EventSorter(new DiskSpace(folder, 20_000_000, free::get), 2_000);
         sorter.add(new SortedEvent(new Cursor(1, "a"), 0, 0, new byte[3_000]));

@@ -43,7 +43,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 @Tag("full")
 class TopicRecordingsIT {
     private static final PageLimits ALL = new PageLimits(1_000_000, Integer.MAX_VALUE);
-    private static final long NEVER = Long.MAX_VALUE;
+    private static final long NO_END = Long.MAX_VALUE;
 
     @TempDir
     static Path log;
@@ -106,20 +106,20 @@ class TopicRecordingsIT {
         Locale usual = Locale.getDefault();
         Locale.setDefault(Locale.forLanguageTag("ar-EG"));
         try {
-            assertThat(ids(recordings(NEVER), "data.arabic")).containsExactly("data.arabic-3-0");
+            assertThat(ids(recordings(NO_END), "data.arabic")).containsExactly("data.arabic-3-0");
         } finally {
             Locale.setDefault(usual);
         }
     }
 
     @Test
-    void opensNoTopicThatIsLargerThanTheDiskAndLeavesNothingThere() throws Exception {
+    void rejectsATopicLargerThanTheDiskAndDeletesItsFiles() throws Exception {
         create("data.large");
         try (KafkaProducer<String, String> producer = producer(Map.of())) {
             send(producer, event("data.large", 3, 10, null, "{\"id\":\"t1\",\"type\":\"T\"}"));
         }
 
-        assertThatThrownBy(() -> recordings(NEVER)
+        assertThatThrownBy(() -> recordings(NO_END)
                         .open("data.large", folder -> new DiskSpace(folder, 1_000_000, () -> 1_000_001)))
                 .isInstanceOf(RecordingDeletedException.class)
                 .hasMessageContaining("do not fit into " + temporary);
@@ -127,7 +127,7 @@ class TopicRecordingsIT {
     }
 
     @Test
-    void readsWhatIsCommitted() throws Exception {
+    void readsCommittedRecords() throws Exception {
         create("data.committed");
         try (KafkaProducer<String, String> producer = producer(Map.of("transactional.id", "one"))) {
             producer.initTransactions();
@@ -137,19 +137,19 @@ class TopicRecordingsIT {
             producer.beginTransaction();
             producer.send(event("data.committed", 0, 2, "aborted", "{\"id\":\"t\",\"type\":\"T\"}"));
             producer.abortTransaction();
-            assertThat(ids(recordings(NEVER), "data.committed")).containsExactly("a");
+            assertThat(ids(recordings(NO_END), "data.committed")).containsExactly("a");
 
             producer.beginTransaction();
             producer.send(event("data.committed", 0, 3, "b", "{\"id\":\"t\",\"type\":\"T\"}"))
                     .get();
-            assertThat(ids(recordings(NEVER), "data.committed")).containsExactly("a");
+            assertThat(ids(recordings(NO_END), "data.committed")).containsExactly("a");
             producer.commitTransaction();
         }
-        assertThat(ids(recordings(NEVER), "data.committed")).containsExactly("a", "b");
+        assertThat(ids(recordings(NO_END), "data.committed")).containsExactly("a", "b");
     }
 
     @Test
-    void countsRecordsThatHoldNoEvent() throws Exception {
+    void countsInvalidRecords() throws Exception {
         create("data.broken");
         try (KafkaProducer<String, String> producer = producer(Map.of())) {
             send(producer, event("data.broken", 0, 1, "a", "nonsense"));
@@ -157,7 +157,7 @@ class TopicRecordingsIT {
             send(producer, new ProducerRecord<>("data.broken", 0, 3L, (String) null, (String) null));
             send(producer, event("data.broken", 0, 4, "c", "{\"id\":\"t\",\"type\":\"T\"}"));
         }
-        try (Recording recording = recordings(NEVER).open("data.broken").orElseThrow()) {
+        try (Recording recording = recordings(NO_END).open("data.broken").orElseThrow()) {
             EventPage eventPage = recording.read(Cursor.START, ALL);
 
             assertThat(eventPage.events()).extracting(StoredEvent::id).containsExactly("c");
@@ -171,9 +171,9 @@ class TopicRecordingsIT {
     }
 
     @Test
-    void leavesNothingBehind() throws Exception {
+    void deletesItsFiles() throws Exception {
         create("data.small");
-        TopicRecordings recordings = recordings(NEVER);
+        TopicRecordings recordings = recordings(NO_END);
         Recording empty = recordings.open("data.small").orElseThrow();
         assertThat(empty.span()).isEmpty();
         assertThat(temporary).isNotEmptyDirectory();
@@ -189,27 +189,27 @@ class TopicRecordingsIT {
     }
 
     @Test
-    void knowsNoTopicThatIsNotThereAndRefusesThoseOfNoEvents() throws Exception {
-        assertThat(recordings(NEVER).open("data.nowhere")).isEmpty();
+    void opensNoMissingTopicAndRejectsTopicsWithoutEvents() throws Exception {
+        assertThat(recordings(NO_END).open("data.nowhere")).isEmpty();
         assertThat(admin.listTopics().names().get()).doesNotContain("data.nowhere");
-        assertThatThrownBy(() -> recordings(NEVER).open("service.missions"))
+        assertThatThrownBy(() -> recordings(NO_END).open("service.missions"))
                 .isInstanceOf(RecordingDeletedException.class)
                 .hasMessage("Topic service.missions holds no events; name one that begins with data.");
     }
 
     @Test
-    void saysWhatIsAway() throws Exception {
+    void reportsWhatIsUnavailable() throws Exception {
         create("data.away");
         int port = FreePort.orFree(0);
-        TopicRecordings nobody = new TopicRecordings(
-                Map.of("bootstrap.servers", "127.0.0.1:" + port, "default.api.timeout.ms", "500"), NEVER);
-        assertThatThrownBy(() -> nobody.open("data.away"))
+        TopicRecordings unavailable = new TopicRecordings(
+                Map.of("bootstrap.servers", "127.0.0.1:" + port, "default.api.timeout.ms", "500"), NO_END);
+        assertThatThrownBy(() -> unavailable.open("data.away"))
                 .isInstanceOf(RecordingException.class)
                 .hasMessageStartingWith("Topic data.away cannot be read from Kafka at 127.0.0.1:" + port)
                 .hasMessageEndingWith("Check that Kafka runs there and answers.");
 
         Path file = Files.createFile(temporary.resolve("file"));
-        TopicRecordings nowhere = new TopicRecordings(recordings(NEVER).kafka(), NEVER, file.toString());
+        TopicRecordings nowhere = new TopicRecordings(recordings(NO_END).kafka(), NO_END, file.toString());
         assertThatThrownBy(() -> nowhere.open("data.away"))
                 .isInstanceOf(RecordingException.class)
                 .hasMessageStartingWith("Topic data.away cannot be sorted in " + file)
@@ -217,7 +217,7 @@ class TopicRecordingsIT {
     }
 
     @Test
-    void isCarriedByAJob() throws Exception {
+    void isSerializable() throws Exception {
         ByteArrayOutputStream out = new ByteArrayOutputStream();
         try (ObjectOutputStream objects = new ObjectOutputStream(out)) {
             objects.writeObject(recordings(7));
