@@ -30,7 +30,7 @@ final class CodePage {
                             .split(" "))
             .map(pair -> pair.split(":"))
             .collect(Collectors.toMap(pair -> Integer.valueOf(pair[0]), pair -> Integer.valueOf(pair[1])));
-    /** Those of other names than {@code IBM…} and {@code windows-…}. */
+    /** Charsets of code pages that Java names neither {@code IBM…} nor {@code windows-…}. */
     private static final Map<Integer, String> NAMES = Map.of(
             932, "windows-31j",
             936, "GBK",
@@ -50,7 +50,7 @@ final class CodePage {
 
     private CodePage() {}
 
-    /** The code page of a name, as .cpg files have it: {@code UTF-8}, {@code 1252}, {@code OEM 850}, {@code 88591}. */
+    /** Parses the name of a code page as written in .cpg files: {@code UTF-8}, {@code 1252}, {@code OEM 850}, {@code 88591}. */
     static Optional<Charset> named(String name) {
         Matcher iso = ISO.matcher(name);
         if (UTF_8.matcher(name).matches()) {
@@ -79,20 +79,20 @@ final class CodePage {
         }
     }
 
-    /** The code page that a table names itself; empty if it names none that is known. */
+    /** Returns the code page that the header of a table names; empty if it is missing or unknown. */
     static Optional<Charset> of(byte[] table) {
         return table.length <= DRIVER
                 ? Optional.empty()
                 : Optional.ofNullable(DRIVERS.get(table[DRIVER] & 0xff)).flatMap(CodePage::numbered);
     }
 
-    /** Whether a table says Latin, or nothing: programs write this whatever their texts are. */
+    /** Whether a table names Latin-1, Windows-1252 or no code page: programs write these as defaults, whatever the actual encoding. */
     static boolean isDefault(byte[] table) {
         int page = table.length <= DRIVER ? LATIN_1 : DRIVERS.getOrDefault(table[DRIVER] & 0xff, LATIN_1);
         return page == LATIN_1 || page == 1252;
     }
 
-    /** What the texts of a table are. */
+    /** Encoding of the text columns of a table. */
     enum Texts {
         ASCII,
         UTF_8,
@@ -124,7 +124,7 @@ final class CodePage {
         return all;
     }
 
-    /** A text may end within a character, where its column does. */
+    /** A text may be truncated within a character at the end of its column. */
     private static Texts textOf(byte[] table, int from, int width) {
         boolean isAscii = true;
         for (int at = from; at < from + width; at++) {

@@ -33,23 +33,23 @@ public final class FieldFiles {
         }
         Georeference georeference = Georeference.of(crs);
         FeatureNaming naming = FeatureNaming.of(file, layer.features(), options);
-        Map<String, Integer> taken = new HashMap<>();
+        Map<String, Integer> numberById = new HashMap<>();
         List<ImportedField> fields = new ArrayList<>();
-        List<RejectedFeature> refused = new ArrayList<>();
+        List<RejectedFeature> rejected = new ArrayList<>();
         for (SourceFeature feature : layer.features()) {
             try {
                 String id = naming.id(feature);
-                Integer earlier = taken.putIfAbsent(id, feature.number());
+                Integer earlier = numberById.putIfAbsent(id, feature.number());
                 if (earlier != null) {
                     throw new RejectedFeatureException(
                             "has the id of feature " + earlier + "; give each field a unique id");
                 }
                 fields.add(field(feature, georeference, naming));
             } catch (RejectedFeatureException e) {
-                refused.add(new RejectedFeature(feature.number(), naming.called(feature), e.getMessage()));
+                rejected.add(new RejectedFeature(feature.number(), naming.called(feature), e.getMessage()));
             }
         }
-        return new FieldFile(georeference.name(), georeference.accuracyMeters(), fields, refused, layer.notes());
+        return new FieldFile(georeference.name(), georeference.accuracyMeters(), fields, rejected, layer.notes());
     }
 
     private static ImportedField field(SourceFeature feature, Georeference georeference, FeatureNaming naming)

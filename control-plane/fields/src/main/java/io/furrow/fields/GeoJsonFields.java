@@ -22,7 +22,7 @@ import io.furrow.model.text.Counts;
  */
 final class GeoJsonFields {
     private static final String WGS84 = "CRS84";
-    /** With which editors on Windows begin a file in UTF-8. */
+    /** Editors on Windows write it at the start of UTF-8 files. */
     private static final byte[] BYTE_ORDER_MARK = {(byte) 0xef, (byte) 0xbb, (byte) 0xbf};
 
     private GeoJsonFields() {}
@@ -44,7 +44,7 @@ final class GeoJsonFields {
         return new FieldLayer(crs(file, json), read, List.of());
     }
 
-    /** Where the text of a file in UTF-8 begins. */
+    /** Returns the index after the byte order mark, if there is one. */
     static int begin(byte[] file) {
         return Arrays.mismatch(BYTE_ORDER_MARK, file) == BYTE_ORDER_MARK.length ? BYTE_ORDER_MARK.length : 0;
     }
@@ -78,14 +78,14 @@ final class GeoJsonFields {
     }
 
     private static SourceFeature feature(int number, JsonNode feature) {
-        JsonNode id = feature.path("id");
-        String named = id.isTextual() || id.isIntegralNumber() ? id.asText() : null;
+        JsonNode member = feature.path("id");
+        String id = member.isTextual() || member.isIntegralNumber() ? member.asText() : null;
         ObjectNode properties =
                 feature.path("properties") instanceof ObjectNode some ? some.deepCopy() : NgsiJson.object();
         try {
-            return new SourceFeature(number, named, properties, outline(feature.path("geometry")), null);
+            return new SourceFeature(number, id, properties, outline(feature.path("geometry")), null);
         } catch (RejectedFeatureException e) {
-            return new SourceFeature(number, named, properties, null, e.getMessage());
+            return new SourceFeature(number, id, properties, null, e.getMessage());
         }
     }
 
@@ -93,9 +93,9 @@ final class GeoJsonFields {
         List<List<List<Coordinate>>> polygons = new ArrayList<>();
         List<String> notes = new ArrayList<>();
         collect(geometry, polygons, notes);
-        int turned = Rings.turned(polygons, true);
-        if (turned > 0) {
-            notes.add("reversed " + Counts.of(turned, "ring") + " to the orientation of RFC 7946");
+        int reversed = Rings.countReversed(polygons, true);
+        if (reversed > 0) {
+            notes.add("reversed " + Counts.of(reversed, "ring") + " to the orientation of RFC 7946");
         }
         return new Outline(polygons, notes);
     }

@@ -16,9 +16,7 @@ import io.furrow.model.field.InvalidFileException;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
-/**
- * Reads a feature layer of a GeoPackage (OGC 12-128), an SQLite database. The order is x, y in every coordinate system.
- */
+/** Reads a feature layer of a GeoPackage (OGC 12-128), an SQLite database. The order is x, y in every coordinate system. */
 record GeoPackageFields(Path file, Connection database) {
     private static final String LAYERS = """
         SELECT c.table_name, g.column_name, g.srs_id, s.organization, s.organization_coordsys_id, s.definition
@@ -42,7 +40,7 @@ record GeoPackageFields(Path file, Connection database) {
         }
     }
 
-    /** Whether changes are not in the file itself yet, as while QGIS has it open. */
+    /** Whether a write-ahead log holds changes that are not in the file yet, as while QGIS has it open. */
     private static boolean hasLog(Path file) {
         return file.resolveSibling(file.getFileName() + "-wal").toFile().length() > 0;
     }

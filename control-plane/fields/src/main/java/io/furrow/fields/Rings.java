@@ -59,10 +59,7 @@ final class Rings {
         return polygons;
     }
 
-    /**
-     * Whether the first corner of the inner ring that is not on the outer ring lies inside; false if there is no such
-     * corner.
-     */
+    /** Whether the first corner of the inner ring that is not on the outer ring lies inside; false if there is no such corner. */
     private static boolean contains(List<Coordinate> outer, List<Coordinate> inner) {
         if (!isArea(outer)) {
             return false;
@@ -77,17 +74,17 @@ final class Rings {
         return false;
     }
 
-    /** Counts rings of the wrong orientation. @param counterClockwise whether shells are so, and holes clockwise */
-    static int turned(List<List<List<Coordinate>>> polygons, boolean counterClockwise) {
-        int turned = 0;
+    /** Counts rings of the wrong orientation. @param counterClockwise expected orientation of shells; holes have the opposite */
+    static int countReversed(List<List<List<Coordinate>>> polygons, boolean counterClockwise) {
+        int reversed = 0;
         for (List<List<Coordinate>> polygon : polygons) {
             for (int ring = 0; ring < polygon.size(); ring++) {
                 boolean expected = counterClockwise == (ring == 0);
-                turned += isArea(polygon.get(ring)) && Orientation.isCCWArea(closed(polygon.get(ring))) != expected
+                reversed += isArea(polygon.get(ring)) && Orientation.isCCWArea(closed(polygon.get(ring))) != expected
                         ? 1
                         : 0;
             }
         }
-        return turned;
+        return reversed;
     }
 }

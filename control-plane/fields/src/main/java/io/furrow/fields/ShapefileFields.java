@@ -107,14 +107,14 @@ final class ShapefileFields {
         return attributes;
     }
 
-    /** The code page that .cpg names, or else the table, or else the one that its texts are in. */
+    /** Returns the code page that .cpg names, else the one that the table names, else the detected one. */
     private Charset charset(byte[] table) throws InvalidFileException {
         Optional<Path> cpg = beside(".cpg");
         String named = cpg.isPresent() ? text(cpg.get()) : "";
         if (!named.isEmpty()) {
             return CodePage.named(named)
                     .orElseThrow(() -> new InvalidFileException(
-                            "%s names the unknown code page '%s'; write into it what the texts of the .dbf file are in, for instance UTF-8 or 1252"
+                            "%s names the unknown code page '%s'; write the encoding of the .dbf file into it, for instance UTF-8 or 1252"
                                     .formatted(cpg.get(), named)));
         }
         Optional<Charset> own = CodePage.of(table);
@@ -127,7 +127,7 @@ final class ShapefileFields {
         return assumed;
     }
 
-    /** Without a byte order mark and the blanks around it. */
+    /** Reads a file without byte order mark and surrounding blanks. */
     private static String text(Path file) throws InvalidFileException {
         byte[] bytes = bytes(file);
         int begin = GeoJsonFields.begin(bytes);

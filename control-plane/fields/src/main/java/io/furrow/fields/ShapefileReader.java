@@ -106,9 +106,9 @@ record ShapefileReader(Path file, ByteBuffer bytes) {
         if (type != POLYGON) {
             notes.add(type == POLYGON_Z ? Outline.HEIGHTS_LEFT_OUT : Outline.MEASURES_LEFT_OUT);
         }
-        int turned = Rings.turned(polygons, false);
-        if (turned > 0) {
-            notes.add("distinguished shells from holes by their position, because " + Counts.of(turned, "ring")
+        int reversed = Rings.countReversed(polygons, false);
+        if (reversed > 0) {
+            notes.add("distinguished shells from holes by their position, because " + Counts.of(reversed, "ring")
                     + " had the wrong orientation");
         }
         return notes;

@@ -5,6 +5,6 @@
  *
  * <p><b>Out</b>: versions of fields, a report of repairs and rejections.
  *
- * <p><b>Must not know</b>: who calls it; command line and REST API do.
+ * <p><b>Must not know</b>: its callers, command line and REST API.
  */
 package io.furrow.fields;

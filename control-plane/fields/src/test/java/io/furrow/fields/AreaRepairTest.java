@@ -33,7 +33,7 @@ class AreaRepairTest {
         [[[179,0],[181,0],[181,2],[179,2],[179,0]]]                     | cut at the antimeridian
         [[[179,0],[-179,0],[-179,2],[179,2],[179,0]]]                   | cut at the antimeridian
         """)
-    void repairsAndReportsSo(String coordinates, String note) throws Exception {
+    void reportsRepairs(String coordinates, String note) throws Exception {
         FieldFile read = read("Polygon", coordinates);
 
         assertThat(read.refused()).isEmpty();
@@ -61,7 +61,7 @@ class AreaRepairTest {
         Polygon    | [[[0,80],[90,80],[180,80],[-90,80],[0,80]]]    | goes round a pole
         MultiPolygon | []                                           | has no geometry
         """)
-    void namesWhatCannotBeMended(String type, String coordinates, String reason) throws Exception {
+    void rejectsFeaturesThatCannotBeRepaired(String type, String coordinates, String reason) throws Exception {
         FieldFile read = read(type, coordinates);
 
         assertThat(read.fields()).isEmpty();
@@ -89,7 +89,7 @@ class AreaRepairTest {
     }
 
     @Test
-    void joinsPartsThatOverlap() throws Exception {
+    void joinsOverlappingParts() throws Exception {
         ImportedField joined = read(
                         "MultiPolygon", "[[[[0,0],[2,0],[2,2],[0,2],[0,0]]],[[[1,0],[3,0],[3,2],[1,2],[1,0]]]]")
                 .fields()
@@ -102,7 +102,7 @@ class AreaRepairTest {
     }
 
     @Test
-    void retainsTheGoodAndNamesTheRest() throws Exception {
+    void importsValidFeaturesAndReportsTheOthers() throws Exception {
         String area = "\"geometry\": {\"type\": \"Polygon\", \"coordinates\": [[[0,0],[2,0],[2,2],[0,0]]]}";
         Path file = Files.writeString(folder.resolve("some.geojson"), """
             {"type": "FeatureCollection", "features": [

@@ -29,7 +29,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
 
-/** Files made by GDAL, see {@code make.sh} beside them: its positions are what ours are compared with. */
+/** Compares positions with those of GDAL, which created the files, see {@code make.sh} next to them. */
 public class FieldFilesTest {
     public static final ImportOptions PLAIN = new ImportOptions(null, null, null, null, null, Instant.EPOCH);
     private static final double METERS_PER_DEGREE = 111_195;
@@ -37,7 +37,7 @@ public class FieldFilesTest {
     @TempDir
     private Path folder;
 
-    /** PROJ takes other parameters from ED50 (EPSG:23030): meters apart, where without any it would be 150 m. */
+    /** For ED50 (EPSG:23030) PROJ uses other parameters, which differ by meters; without any the error would be 150 m. */
     @ParameterizedTest
     @CsvSource({
         "shapefile-25830.shp,    farm.geojson,    0.01",
@@ -60,7 +60,7 @@ public class FieldFilesTest {
         "geopackage-23030.gpkg,  farm.geojson,    15",
         "geojson-23030.geojson,  farm.geojson,    15",
     })
-    void putsFieldsWhereGdalPutsThem(String file, String expected, double meters) throws Exception {
+    void locatesFieldsAsGdalDoes(String file, String expected, double meters) throws Exception {
         FieldFile read = FieldFiles.read(resource(file), named("code"));
 
         assertThat(read.refused()).isEmpty();
@@ -94,7 +94,7 @@ public class FieldFilesTest {
 
     @ParameterizedTest
     @CsvSource({"shapefile-25830.shp", "shapefile-4326.shp", "geopackage-25830.gpkg", "farm.geojson"})
-    void takesNamesAndAttributes(String file) throws Exception {
+    void readsNamesAndAttributes(String file) throws Exception {
         ImportOptions options = new ImportOptions(null, null, "code", null, null, Instant.ofEpochMilli(7));
         FieldFile read = FieldFiles.read(resource(file), options);
 
@@ -129,7 +129,7 @@ public class FieldFilesTest {
     }
 
     @Test
-    void takesTheCoordinateSystemFromTheCommandWhereTheFileHasNone() throws Exception {
+    void usesTheGivenCoordinateSystemIfTheFileNamesNone() throws Exception {
         Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("bare.SHP"));
         Files.copy(resource("shapefile-25830.dbf"), folder.resolve("bare.DBF"));
 
@@ -143,7 +143,7 @@ public class FieldFilesTest {
         assertUnusable(shp, wrong, "'EPSG:99999' is not a known coordinate system");
     }
 
-    /** The code page of a .cpg file, or else of the table, or else of its texts; as GDAL has it but for the last. */
+    /** The code page of the .cpg file, else of the table, as GDAL does; else the detected one. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', nullValues = "-", textBlock = """
         850          | 0   | IBM850       | Höhe | -
@@ -180,7 +180,7 @@ public class FieldFilesTest {
         -            | 0   | ISO-8859-1   | Höhe | ISO-8859-1
         -            | 0   | US-ASCII     | Hohe | -
         """)
-    void readsTextsInTheCodePageThatIsNamed(String cpg, int driver, String charset, String name, String assumed)
+    void readsTextsInTheNamedCodePage(String cpg, int driver, String charset, String name, String assumed)
             throws Exception {
         Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("coded.shp"));
         Files.copy(resource("shapefile-25830.prj"), folder.resolve("coded.prj"));
@@ -208,7 +208,7 @@ public class FieldFilesTest {
     }
 
     @Test
-    void reportsWhatToDoWithAFeaturePerLine() throws Exception {
+    void explainsHowToConvertAFeaturePerLine() throws Exception {
         Path file = Files.writeString(folder.resolve("x.geojsonl"), "{\"type\":\"Feature\"}\n{\"type\":\"Feature\"}\n");
 
         assertThatThrownBy(() -> FieldFiles.read(file, PLAIN))
@@ -218,14 +218,17 @@ public class FieldFilesTest {
     }
 
     @Test
-    void reportsWhatToWriteIntoACpgFileThatNamesNoCodePage() throws Exception {
+    void explainsHowToCorrectACpgFile() throws Exception {
         Path shp = copy("coded");
         Files.writeString(folder.resolve("coded.cpg"), "Klingon");
 
-        assertUnusable(shp, named("code"), "names the unknown code page 'Klingon'; write into it");
+        assertUnusable(
+                shp,
+                named("code"),
+                "names the unknown code page 'Klingon'; write the encoding of the .dbf file into it");
     }
 
-    /** Well-known text may define the northing first; the file has the easting first all the same. */
+    /** Well-known text may define the northing first, but files have the easting first. */
     @Test
     void readsEastingFirstWhateverTheTextDefines() throws Exception {
         Path shp = copy("north");
@@ -246,7 +249,7 @@ public class FieldFilesTest {
         LOCAL_CS["somewhere"]
         nonsense
         """)
-    void rejectsACoordinateSystemThatLeadsNowhere(String prj) throws Exception {
+    void rejectsACoordinateSystemWithoutTransformation(String prj) throws Exception {
         Path shp = copy("lost");
         Files.writeString(folder.resolve("lost.prj"), prj);
 
@@ -254,7 +257,7 @@ public class FieldFilesTest {
     }
 
     @Test
-    void readsWhatAnotherProgramHasChangedInAGeoPackageThatItHasOpen() throws Exception {
+    void readsUncheckpointedChangesOfAnOpenGeoPackage() throws Exception {
         Path file = Files.copy(resource("geopackage-25830.gpkg"), folder.resolve("open.gpkg"));
         try (Connection qgis = DriverManager.getConnection("jdbc:sqlite:" + file);
                 Statement statement = qgis.createStatement()) {
@@ -275,7 +278,7 @@ public class FieldFilesTest {
     }
 
     @Test
-    void namesWhatIsWrongWithAFile() throws Exception {
+    void explainsWhyAFileIsRejected() throws Exception {
         assertUnusable("x", "neither GeoJSON nor a Shapefile");
         assertUnusable("{", "is not JSON");
         assertUnusable("{\"type\": \"Topology\"}", "not a GeoJSON FeatureCollection");
@@ -304,7 +307,7 @@ public class FieldFilesTest {
                 .hasMessageContainingAll(message);
     }
 
-    /** The shapefile without a word about its coordinates. */
+    /** The Shapefile without a coordinate system. */
     private Path copy(String name) throws IOException {
         Files.copy(resource("shapefile-25830.dbf"), folder.resolve(name + ".dbf"));
         return Files.copy(resource("shapefile-25830.shp"), folder.resolve(name + ".shp"));

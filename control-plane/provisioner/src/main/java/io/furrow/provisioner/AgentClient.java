@@ -25,9 +25,10 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * The provisioning interface of an IoT Agent JSON. Each call is one attempt of at most ten seconds. {@link IOException} means that
- * the agent is unavailable: no answer, what a proxy in front of it answers, what it cannot have answered, or, as {@link AgentFaultException}, 5xx;
- * {@link RejectedByAgentException} any other refusal. The scopes name a tenant: the agent has no default one.
+ * Calls the provisioning API of an IoT Agent JSON. Each call is one attempt of at most ten seconds. An {@link
+ * IOException} means that the agent is unavailable: no response, a response of a proxy in front of it, an unexpected
+ * response, or, as {@link AgentFaultException}, 5xx. A {@link RejectedByAgentException} is any other error. Scopes must
+ * name a tenant, because the agent has no default one.
  */
 final class AgentClient {
     private static final Duration TIMEOUT = Duration.ofSeconds(10);
@@ -37,8 +38,8 @@ final class AgentClient {
     private static final String GROUPS = "/iot/services";
     private static final int CONFLICT = 409;
     private static final int NOT_FOUND = 404;
-    /** A proxy has no token, or too much to do. */
-    private static final Set<Integer> NOT_OF_AGENT = Set.of(401, 403, 405, 407, 429);
+    /** Status codes that a proxy sends: authentication, method not allowed, too many requests. */
+    private static final Set<Integer> STATUSES_OF_PROXIES = Set.of(401, 403, 405, 407, 429);
 
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
 
@@ -64,12 +65,12 @@ final class AgentClient {
      */
     record Group(String apiKey, String resource, String domain, String mission) {}
 
-    /** The group that a device needs. */
+    /** Returns the service group that a device needs. */
     Group groupOf(AgentRegistration device) {
         return new Group(device.apiKey(), resource, device.domain(), device.mission());
     }
 
-    boolean isOfItsResource(Group group) {
+    boolean hasOwnResource(Group group) {
         return group.resource().equals(resource);
     }
 
@@ -80,11 +81,11 @@ final class AgentClient {
                 .toList();
     }
 
-    /** Empty if there is no device of this id. */
+    /** Returns the device; empty if the agent has none of this id. */
     Optional<AgentRegistration> device(FiwareScope scope, String id)
             throws IOException, RejectedByAgentException, InterruptedException {
         Answer answer = send(scope, "GET", DEVICES + "/" + encoded(id), null);
-        if (answer.says("DEVICE_NOT_FOUND")) {
+        if (answer.isNotFound("DEVICE_NOT_FOUND")) {
             return Optional.empty();
         }
         answer.check();
@@ -101,14 +102,14 @@ final class AgentClient {
                 .toList();
     }
 
-    /** Page by page, until one brings nothing new: the list of groups comes as a whole whichever page is asked for. */
+    /** Reads page by page until one contains nothing new: the agent returns the whole list of groups for every page. */
     private Set<JsonNode> all(FiwareScope scope, String path, String list)
             throws IOException, RejectedByAgentException, InterruptedException {
         Set<JsonNode> all = new LinkedHashSet<>();
         boolean more = true;
         while (more) {
             Answer answer = send(scope, "GET", path + "?limit=" + PAGE + "&offset=" + all.size(), null);
-            if (answer.says("DEVICE_GROUP_NOT_FOUND")) { // so the agent says that a tenant has no groups
+            if (answer.isNotFound("DEVICE_GROUP_NOT_FOUND")) { // the tenant has no groups
                 return all;
             }
             answer.check();
@@ -119,9 +120,9 @@ final class AgentClient {
     }
 
     /**
-     * Makes a service group whose devices are those only that are provisioned.
+     * Creates a service group that accepts provisioned devices only.
      *
-     * @return false if the agent has a group of this resource and API key, in this scope or in another
+     * @return false if the agent already has a group of this resource and API key, in any scope
      */
     boolean add(FiwareScope scope, Group group) throws IOException, RejectedByAgentException, InterruptedException {
         ObjectNode json = NODES.objectNode()
@@ -138,7 +139,10 @@ final class AgentClient {
         return true;
     }
 
-    /** Makes devices. Where the agent refuses, fails or does not answer, it may have made some, and may be making others still. */
+    /**
+     * Creates devices. If the agent rejects the request, fails or does not respond, it may have created some and may
+     * still be creating others.
+     */
     void add(FiwareScope scope, List<AgentRegistration> devices)
             throws IOException, RejectedByAgentException, InterruptedException {
         List<ObjectNode> bodies =
@@ -146,22 +150,22 @@ final class AgentClient {
         send(scope, "POST", DEVICES, list("devices", bodies)).check();
     }
 
-    /** Removes a device; one that is gone already is as good. */
+    /** Removes a device, if it exists. */
     void removeDevice(FiwareScope scope, String device)
             throws IOException, RejectedByAgentException, InterruptedException {
-        removed(send(scope, "DELETE", DEVICES + "/" + encoded(device), null));
+        checkRemoved(send(scope, "DELETE", DEVICES + "/" + encoded(device), null));
     }
 
-    /** Removes a service group; one that is gone already is as good. */
+    /** Removes a service group, if it exists. */
     void remove(FiwareScope scope, Group group) throws IOException, RejectedByAgentException, InterruptedException {
-        removed(send(
+        checkRemoved(send(
                 scope,
                 "DELETE",
                 "%s?resource=%s&apikey=%s".formatted(GROUPS, encoded(group.resource()), encoded(group.apiKey())),
                 null));
     }
 
-    private static void removed(Answer answer) throws RejectedByAgentException {
+    private static void checkRemoved(Answer answer) throws RejectedByAgentException {
         if (answer.status() != NOT_FOUND) {
             answer.check();
         }
@@ -183,12 +187,12 @@ final class AgentClient {
             }
         }
 
-        /** Whether it is the refusal of this name. */
-        boolean says(String name) {
+        /** Whether it is a 404 with this error name. */
+        boolean isNotFound(String name) {
             try {
                 return status == NOT_FOUND
                         && NgsiJson.read(body).path("name").asText().equals(name);
-            } catch (UnreadableException e) { // a page of another server
+            } catch (UnreadableException e) { // the response of another server
                 return false;
             }
         }
@@ -243,7 +247,7 @@ final class AgentClient {
         if (answer.status() / 100 == 5) {
             throw new AgentFaultException(answer.toString());
         }
-        if (NOT_OF_AGENT.contains(answer.status())) {
+        if (STATUSES_OF_PROXIES.contains(answer.status())) {
             throw new IOException(answer.toString());
         }
         return answer;

@@ -2,7 +2,7 @@ package io.furrow.provisioner;
 
 import java.io.IOException;
 
-/** The IoT Agent is there, but answered a request with 5xx; it may well answer another. */
+/** Thrown if the IoT Agent responds with 5xx; other requests may succeed. */
 final class AgentFaultException extends IOException {
     private static final long serialVersionUID = 1;
 

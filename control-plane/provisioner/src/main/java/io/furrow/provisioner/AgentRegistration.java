@@ -12,8 +12,8 @@ import io.furrow.model.control.MeasuredAttribute;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * The registration of a device at the IoT Agent, actual or desired; two are equal if devices need not be provisioned
- * again.
+ * The registration of a device at the IoT Agent, actual or desired; a device is provisioned again unless the two are
+ * equal.
  *
  * @param device id at the agent, second part of its MQTT topics
  * @param apiKey of its mission, first part of its MQTT topics
@@ -56,7 +56,7 @@ record AgentRegistration(
         return fixed.mission();
     }
 
-    /** As the agent shows it; what we never set is skipped. */
+    /** Parses the agent's representation; members that the provisioner never sets are ignored. */
     static AgentRegistration read(JsonNode json) {
         Set<MeasuredAttribute> attributes = new LinkedHashSet<>();
         for (JsonNode each : json.path("attributes")) {
@@ -79,7 +79,7 @@ record AgentRegistration(
                 commands);
     }
 
-    /** The mission that a device or a service group belongs to, as the agent shows it; null if it says none. */
+    /** Returns the mission of a device or service group in the agent's representation; null if it has none. */
     static String mission(JsonNode json) {
         return fixed(json, MISSION).textValue();
     }
@@ -125,7 +125,7 @@ record AgentRegistration(
         return json;
     }
 
-    /** Adds the attributes that every measure gets. */
+    /** Adds the static attributes. */
     static void fix(ObjectNode json, StaticAttribute fixed) {
         ArrayNode all = json.putArray("static_attributes");
         all.addObject().put("name", DOMAIN).put("type", "String").put("value", fixed.domain());

@@ -15,8 +15,8 @@ import io.furrow.provisioner.AgentClient.Group;
 import io.furrow.provisioner.RemovalGuard.Retained;
 
 /**
- * The groups and devices that the IoT Agent has in one scope: read once, then updated with what is changed. Changes only what was made
- * with one of our API keys; what others have provisioned stays.
+ * Caches the service groups and devices of the IoT Agent in one scope: reads them once, then tracks its own changes. It
+ * changes only groups and devices with an API key of this farm; those that others have provisioned stay.
  */
 final class AgentRegistrationCache {
     private final AgentClient agent;
@@ -24,7 +24,7 @@ final class AgentRegistrationCache {
     private final AgentRegistrationFactory registrations;
     private final RemovalGuard removals;
     private final Map<String, AgentRegistration> devices = new HashMap<>();
-    /** Resource and API key of each group. */
+    /** Keys of all groups, including those of others. */
     private final Set<GroupKey> groups = new HashSet<>();
 
     private final Map<GroupKey, Group> ownGroups = new LinkedHashMap<>();
@@ -43,7 +43,6 @@ final class AgentRegistrationCache {
         this.removals = removals;
     }
 
-    /** Reads what the agent has. */
     static AgentRegistrationCache read(
             AgentClient agent, FiwareScope scope, AgentRegistrationFactory registrations, RemovalGuard removals)
             throws IOException, RejectedByAgentException, InterruptedException {
@@ -71,19 +70,19 @@ final class AgentRegistrationCache {
         }
     }
 
-    /** Whether the agent knows a device as it is desired, and finds it by its group. */
+    /** Whether the agent has the device as desired, and the service group by which it finds the device. */
     boolean has(AgentRegistration device) {
         return device.equals(devices.get(device.device())) && groups.contains(GroupKey.of(agent.groupOf(device)));
     }
 
     /**
-     * Makes devices known, as far as the budget goes, and first the groups they need.
+     * Creates devices, and first the groups that they need, until the time budget is spent.
      *
-     * @return why the agent did not take those that it refused; of the others {@link #has} says which it has now
+     * @return the reason for each rejected device; for the others {@link #has} tells whether they exist now
      */
     Map<AgentRegistration, String> add(List<AgentRegistration> batch, TimeBudget budget)
             throws IOException, InterruptedException {
-        Map<AgentRegistration, String> refused = new LinkedHashMap<>();
+        Map<AgentRegistration, String> rejected = new LinkedHashMap<>();
         List<AgentRegistration> missing = new ArrayList<>();
         for (AgentRegistration device : batch) {
             if (budget.isSpent()) {
@@ -95,24 +94,24 @@ final class AgentRegistrationCache {
                     missing.add(device);
                 }
             } catch (RejectedByAgentException e) {
-                refused.put(device, e.getMessage());
+                rejected.put(device, e.getMessage());
             }
         }
         if (missing.isEmpty()) {
-            return refused;
+            return rejected;
         }
         try {
             agent.add(scope, missing);
             missing.forEach(device -> devices.put(device.device(), device));
         } catch (RejectedByAgentException | AgentFaultException e) {
-            // One of them is the cause; the others shall not wait for it.
-            addSingly(missing, budget, refused);
+            // One device may be the cause; it must not block the others.
+            addSingly(missing, budget, rejected);
         }
-        return refused;
+        return rejected;
     }
 
-    /** Adds what the agent has not made of a batch; it is unavailable if it fails on every device. */
-    private void addSingly(List<AgentRegistration> batch, TimeBudget budget, Map<AgentRegistration, String> refused)
+    /** Adds the missing devices of a batch one by one; the agent counts as unavailable if it fails for every device. */
+    private void addSingly(List<AgentRegistration> batch, TimeBudget budget, Map<AgentRegistration, String> rejected)
             throws IOException, InterruptedException {
         try {
             readDevices();
@@ -129,7 +128,7 @@ final class AgentRegistrationCache {
                     addOne(device);
                     answered++;
                 } catch (RejectedByAgentException e) {
-                    refused.put(device, e.getMessage());
+                    rejected.put(device, e.getMessage());
                     answered++;
                 } catch (AgentFaultException e) {
                     faults.put(device, e);
@@ -139,10 +138,10 @@ final class AgentRegistrationCache {
         if (answered == 0 && !faults.isEmpty()) {
             throw faults.values().iterator().next();
         }
-        faults.forEach((device, fault) -> refused.put(device, fault.getMessage()));
+        faults.forEach((device, fault) -> rejected.put(device, fault.getMessage()));
     }
 
-    /** The agent may still have been making it when it answered for the batch. */
+    /** A rejection is ignored if the device exists now: the agent may still have been creating it after it responded to the batch. */
     private void addOne(AgentRegistration device) throws IOException, RejectedByAgentException, InterruptedException {
         try {
             agent.add(scope, List.of(device));
@@ -154,24 +153,24 @@ final class AgentRegistrationCache {
         devices.put(device.device(), device);
     }
 
-    /** Sees to it that nothing stands in the way of a device, and that its group is there. */
+    /** Creates the group of a device and removes an outdated registration of the device. */
     private void prepare(AgentRegistration device) throws IOException, RejectedByAgentException, InterruptedException {
-        AgentRegistration there = devices.get(device.device());
-        if (there != null && !registrations.isOurs(there.apiKey(), there.mission())) {
+        AgentRegistration existing = devices.get(device.device());
+        if (existing != null && !registrations.isOurs(existing.apiKey(), existing.mission())) {
             throw new RejectedByAgentException(
                     "somebody else has provisioned a device '%s' at the IoT Agent; remove it there, or give this one another id"
                             .formatted(device.device()));
         }
-        if (there != null && !there.mission().equals(device.mission()) && !removals.allows(there)) {
+        if (existing != null && !existing.mission().equals(device.mission()) && !removals.allows(existing)) {
             throw new RejectedByAgentException(
                     "the IoT Agent has '%s' as a device of mission '%s', of which this Kafka knows nothing; check --kafka, give this one another id, or move it by a start with --forget-devices"
-                            .formatted(device.device(), there.mission()));
+                            .formatted(device.device(), existing.mission()));
         }
         Group group = agent.groupOf(device);
         if (!groups.contains(GroupKey.of(group))) {
             add(group);
         }
-        if (there != null && !there.equals(device)) {
+        if (existing != null && !existing.equals(device)) {
             agent.removeDevice(scope, device.device());
             devices.remove(device.device());
         }
@@ -192,9 +191,9 @@ final class AgentRegistrationCache {
     }
 
     /**
-     * Removes, as far as the budget goes, our devices that are not desired, and our groups that no device needs.
+     * Removes own devices that are not desired and own groups that no device needs, until the time budget is spent.
      *
-     * @return why the agent did not remove one, null if it did; the others are removed
+     * @return the reason of the last failed removal; null if none failed
      */
     String remove(Set<String> desired, Set<String> apiKeys, TimeBudget budget)
             throws IOException, InterruptedException {
@@ -210,7 +209,7 @@ final class AgentRegistrationCache {
                 failure = e.getMessage();
             }
         }
-        for (Group group : unneeded(apiKeys)) {
+        for (Group group : unneededGroups(apiKeys)) {
             boolean empty =
                     leftovers(desired).stream().noneMatch(left -> left.apiKey().equals(group.apiKey()));
             if (empty && !budget.isSpent()) {
@@ -226,9 +225,9 @@ final class AgentRegistrationCache {
         return failure;
     }
 
-    /** Whether all of ours that is here is desired. */
+    /** Whether there are no own devices or groups to remove. */
     boolean isClean(Set<String> desired, Set<String> apiKeys) {
-        return leftovers(desired).isEmpty() && unneeded(apiKeys).isEmpty();
+        return leftovers(desired).isEmpty() && unneededGroups(apiKeys).isEmpty();
     }
 
     private List<AgentRegistration> leftovers(Set<String> desired) {
@@ -241,14 +240,14 @@ final class AgentRegistrationCache {
         return devices.values().stream().filter(device -> registrations.isOurs(device.apiKey(), device.mission()));
     }
 
-    /** Groups of missions that have no devices, and of a resource that was set before. */
-    private List<Group> unneeded(Set<String> apiKeys) {
+    /** Returns removable groups of missions without devices, and those of another resource than the configured one. */
+    private List<Group> unneededGroups(Set<String> apiKeys) {
         return undesiredGroups(apiKeys).filter(this::mayBeRemoved).toList();
     }
 
     private Stream<Group> undesiredGroups(Set<String> apiKeys) {
         return ownGroups.values().stream()
-                .filter(group -> !apiKeys.contains(group.apiKey()) || !agent.isOfItsResource(group));
+                .filter(group -> !apiKeys.contains(group.apiKey()) || !agent.hasOwnResource(group));
     }
 
     private boolean mayBeRemoved(Group group) {
@@ -256,12 +255,12 @@ final class AgentRegistrationCache {
                 && retainedDevices().noneMatch(device -> device.apiKey().equals(group.apiKey()));
     }
 
-    /** What is desired may be removed, to be made again otherwise. */
+    /** Returns own devices that must not be removed; desired ones may be, because they are created again. */
     private Stream<AgentRegistration> retainedDevices() {
         return own().filter(device -> !removals.allows(device));
     }
 
-    /** What stays of ours though this Kafka does not want it, or wants it in another mission. */
+    /** Returns own devices and groups that stay although this Kafka does not want them, or wants them in another mission. */
     Retained retained(Set<String> apiKeys) {
         return new Retained(
                 List.of(),

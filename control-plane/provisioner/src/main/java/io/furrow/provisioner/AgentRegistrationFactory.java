@@ -14,8 +14,8 @@ import io.furrow.model.device.FarmSecret;
 import io.furrow.model.event.FiwareScope;
 
 /**
- * The desired registrations of devices at the IoT Agent. What a device sends becomes attributes as {@link MeasuredAttribute} says; its
- * place, if its group has one, is a static attribute.
+ * Creates the desired registrations of devices at the IoT Agent. {@link MeasuredAttribute} maps measures to attributes;
+ * the place, if the group of the device has one, is a static attribute.
  */
 final class AgentRegistrationFactory {
     private static final String ROBOT = "Robot";
@@ -27,19 +27,19 @@ final class AgentRegistrationFactory {
         this.secret = secret;
     }
 
-    /** Whether a device is provisioned at all: simulated robots write to the context broker by themselves. */
+    /** Whether a device is provisioned: simulated robots are not, because they write to the context broker directly. */
     static boolean isProvisioned(DesiredDevice desired) {
         return desired.type() != null && desired.running() && !(desired.simulated() && ROBOT.equals(desired.type()));
     }
 
-    /** Whether what the agent has was made here, maybe before a rotation: nobody else comes to the mission's API key. */
+    /** Whether an API key was derived from the farm's secret, possibly before a rotation. */
     boolean isOurs(String apiKey, String mission) {
         return mission != null && secret.get().madeApiKey(apiKey, mission);
     }
 
     /**
-     * Whether the agent can keep devices of a scope. It wants a tenant with every request; with an empty one it does not find the
-     * device of a command, which the context broker sends it without.
+     * Whether the agent supports devices of a scope. Every request to it needs a tenant, and the agent would not find
+     * the device of a command, because the context broker omits the header for the default tenant.
      */
     static boolean hasTenant(FiwareScope scope) {
         return !scope.service().isEmpty();

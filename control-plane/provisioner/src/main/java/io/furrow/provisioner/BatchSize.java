@@ -1,8 +1,8 @@
 package io.furrow.provisioner;
 
-/** How many devices are provisioned with one request: a tenth after one that was not answered, twice as many after one that was. */
+/** Computes the number of devices per provisioning request: divided by ten after a failed request, doubled after a successful one. */
 final class BatchSize {
-    /** A body of some 100 kB, of the megabyte that the agent takes. */
+    /** Yields a body of about 100 kB; the agent accepts a megabyte. */
     static final int MAX = 100;
 
     private static final int SHRINK = 10;

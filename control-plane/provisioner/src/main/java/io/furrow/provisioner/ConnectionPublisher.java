@@ -26,9 +26,10 @@ import io.furrow.model.topic.Topics;
 import io.furrow.provisioner.account.LoginReport;
 
 /**
- * Publishes on {@code service.devices.connection} what MQTT brokers and IoT Agent know of the devices: where it changed, of a
- * device at most every ten seconds. A login counts for a device whatever mission and generation its user names: a device that
- * still has old credentials is refused as a user that exists no longer.
+ * Publishes what MQTT brokers and IoT Agent report about the connections of devices on {@code
+ * service.devices.connection}: only changes, at most one per device every ten seconds. A login counts for a device
+ * regardless of the mission and generation in its user name, so that a device with old credentials, whose user no
+ * longer exists, is recognized.
  */
 final class ConnectionPublisher {
     static final Duration INTERVAL = Duration.ofSeconds(10);
@@ -56,14 +57,14 @@ final class ConnectionPublisher {
         this.since = settings.connections().logins().isEmpty() ? null : last;
     }
 
-    /** @param before what is on the topic, by key: another process may have published meanwhile, or this one before it was started again */
-    void startAnew(Map<String, DeviceConnection> before) {
+    /** @param before current records of the topic by key, written by another process or an earlier run */
+    void reset(Map<String, DeviceConnection> before) {
         published.clear();
         published.putAll(before);
         last = clock.getAsLong();
     }
 
-    /** @param registered keys of the devices that the IoT Agent knows; null before it was asked */
+    /** @param registered keys of the devices that the IoT Agent has; null before the first request to it */
     void publish(Set<String> registered) {
         long now = clock.getAsLong();
         if (now - last < INTERVAL.toMillis()) {
@@ -76,34 +77,34 @@ final class ConnectionPublisher {
                 .logins()
                 .forEach(broker -> broker.reports().forEach((user, report) -> {
                     FarmSecret.deviceOf(user)
-                            .ifPresent(device -> byDevice.merge(device, report, ConnectionPublisher::both));
+                            .ifPresent(device -> byDevice.merge(device, report, ConnectionPublisher::merge));
                     FarmSecret.missionOf(user)
-                            .ifPresent(mission -> byMission.merge(mission, report, ConnectionPublisher::both));
+                            .ifPresent(mission -> byMission.merge(mission, report, ConnectionPublisher::merge));
                 }));
         desired.all().forEach((key, device) -> {
             LoginReport gateway = byMission.get(device.version().mission());
             LoginReport own = byDevice.get(device.device());
-            LoginReport login = withFormer(published.get(key), own == null ? onlyLogin(gateway) : own);
-            put(key, connection(device, login, published.get(key), isIn(registered, key)));
+            LoginReport login = mergePublished(published.get(key), own == null ? loginOf(gateway) : own);
+            put(key, connection(device, login, published.get(key), isRegistered(registered, key)));
         });
         new HashSet<>(published.keySet())
                 .stream().filter(key -> !desired.all().containsKey(key)).forEach(key -> put(key, null));
     }
 
-    /** What else its gateway does another device may have caused. */
-    private static LoginReport onlyLogin(LoginReport gateway) {
+    /** Reduces the report of a gateway to its login: another device may have caused its other events. */
+    private static LoginReport loginOf(LoginReport gateway) {
         return gateway == null ? null : new LoginReport(gateway.loggedIn(), null, null);
     }
 
-    /** With what was published before: who observes logins may have forgotten it, and the device may be connected since then. */
-    private static LoginReport withFormer(DeviceConnection former, LoginReport login) {
+    /** Merges the published state: the source may have forgotten the login while the device stays connected. */
+    private static LoginReport mergePublished(DeviceConnection former, LoginReport login) {
         LoginReport before = former == null
                 ? new LoginReport(null, null, null)
                 : new LoginReport(former.loggedIn(), former.refusedLogin(), former.foreignTopic());
-        return login == null ? before : both(login, before);
+        return login == null ? before : merge(login, before);
     }
 
-    private static Boolean isIn(Set<String> registered, String key) {
+    private static Boolean isRegistered(Set<String> registered, String key) {
         return registered == null ? null : Boolean.valueOf(registered.contains(key));
     }
 
@@ -123,9 +124,9 @@ final class ConnectionPublisher {
     }
 
     private void put(String key, DeviceConnection connection) {
-        boolean isNew =
+        boolean changed =
                 connection == null ? published.remove(key) != null : !connection.equals(published.put(key, connection));
-        if (isNew) {
+        if (changed) {
             byte[] value = connection == null ? null : connection.toBytes();
             producer.send(new ProducerRecord<>(Topics.DEVICES_CONNECTION, key, value), (sent, failure) -> {
                 if (failure != null) {
@@ -135,7 +136,7 @@ final class ConnectionPublisher {
         }
     }
 
-    private static LoginReport both(LoginReport one, LoginReport other) {
+    private static LoginReport merge(LoginReport one, LoginReport other) {
         return new LoginReport(
                 newest(one, other, LoginReport::loggedIn, Comparator.naturalOrder()),
                 newest(one, other, LoginReport::refused, Comparator.comparingLong(RefusedLogin::last)),

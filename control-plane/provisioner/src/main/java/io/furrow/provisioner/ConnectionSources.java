@@ -5,7 +5,7 @@ import java.util.List;
 import io.furrow.provisioner.account.LoginReports;
 
 /**
- * Who knows how devices are connected.
+ * Sources of reports about the connections of devices.
  *
  * @param logins of the MQTT brokers
  * @param measures of the IoT Agent

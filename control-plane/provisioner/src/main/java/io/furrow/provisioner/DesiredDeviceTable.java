@@ -15,38 +15,37 @@ import io.furrow.model.device.MissionDeviceLists;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** The devices of {@code service.devices} that are to be provisioned, by key, and where there may be some that are to go. */
+/** Holds the devices of {@code service.devices} that are to be provisioned, by key, and the scopes in which the agent may have others. */
 final class DesiredDeviceTable {
     private static final Logger LOG = LoggerFactory.getLogger(DesiredDeviceTable.class);
 
     private final Map<String, DesiredDevice> devices = new LinkedHashMap<>();
     private final MissionDeviceLists lists = new MissionDeviceLists();
-    /** Those whose settings are not known yet; until then what was known of them before holds. */
+    /** Devices whose device list was not read yet; until then their previous version applies. */
     private final Map<String, DesiredDevice> unresolved = new LinkedHashMap<>();
 
     private final Set<String> fresh = new HashSet<>();
     private final Set<FiwareScope> scopes = new HashSet<>();
-    private final FiwareScope usual;
+    private final FiwareScope defaultScope;
     private boolean live;
 
-    /** @param usual scope that is looked at in any case */
-    DesiredDeviceTable(FiwareScope usual) {
-        this.usual = usual;
+    /** @param defaultScope scope that is always reconciled */
+    DesiredDeviceTable(FiwareScope defaultScope) {
+        this.defaultScope = defaultScope;
         clear();
     }
 
-    /** Knows nothing any more; all is read again. */
     void clear() {
         devices.clear();
         lists.clear();
         unresolved.clear();
         fresh.clear();
         scopes.clear();
-        scopes.add(usual);
+        scopes.add(defaultScope);
         live = false;
     }
 
-    /** All that was there has been read; what comes now is new. */
+    /** Called once all existing records were read; later records are new. */
     void caughtUp() {
         live = true;
     }
@@ -66,7 +65,7 @@ final class DesiredDeviceTable {
         scopes.add(scope(desired));
     }
 
-    /** A part of a mission's device list; null for one that was deleted. */
+    /** Updates a part of a mission's device list. @param value null for a deletion */
     void takeList(String key, byte[] value) {
         lists.take(key, value);
         unresolved.entrySet().removeIf(each -> {
@@ -88,17 +87,17 @@ final class DesiredDeviceTable {
         }
     }
 
-    /** By key. */
+    /** Returns the devices by key. */
     Map<String, DesiredDevice> all() {
         return devices;
     }
 
-    /** They are in the desired state. */
+    /** Called when devices are in the desired state. */
     void provisioned(Collection<String> keys) {
         fresh.removeAll(keys);
     }
 
-    /** Whether a device has become wanted, or wanted otherwise, since everything was read, and has not been provisioned yet. */
+    /** Whether a device was requested or changed after the existing records were read, and is not provisioned yet. */
     boolean isFresh(String key) {
         return fresh.contains(key);
     }

@@ -13,8 +13,8 @@ import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.topic.Topics;
 
 /**
- * Reports devices that could not be provisioned on {@code service.devices.status}, once per desired state of a device
- * and not before the third attempt. It is tried further; once it is provisioned its host says that it runs.
+ * Reports devices that could not be provisioned on {@code service.devices.status}: once per desired state of a device,
+ * after the third attempt. Retries continue; once the device is provisioned, its host reports it as running.
  */
 final class FailureReporter {
     static final int ATTEMPTS = 3;
@@ -22,8 +22,8 @@ final class FailureReporter {
 
     private final DesiredDeviceTable desired;
     private final Producer<String, byte[]> producer;
-    private final Map<String, Count> refusals = new HashMap<>();
-    private final Map<String, Count> absences = new HashMap<>();
+    private final Map<String, Count> rejections = new HashMap<>();
+    private final Map<String, Count> outages = new HashMap<>();
 
     private record Count(long sequence, int attempts) {}
 
@@ -33,24 +33,24 @@ final class FailureReporter {
     }
 
     void clear() {
-        refusals.clear();
-        absences.clear();
+        rejections.clear();
+        outages.clear();
     }
 
-    /** @param reasons by key; whatever is not among them is well */
-    void refused(Map<String, String> reasons) {
-        refusals.keySet().retainAll(reasons.keySet());
-        reasons.forEach((key, reason) -> count(refusals, key, reason));
+    /** Counts rejections. @param reasons by key; other devices have succeeded */
+    void rejected(Map<String, String> reasons) {
+        rejections.keySet().retainAll(reasons.keySet());
+        reasons.forEach((key, reason) -> count(rejections, key, reason));
     }
 
-    /** Of those that were wanted before nothing is said: they may well run. */
+    /** Counts failed attempts for new devices only: others may be running. */
     void unavailable(String reason) {
-        desired.all().keySet().stream().filter(desired::isFresh).toList().forEach(key -> count(absences, key, reason));
+        desired.all().keySet().stream().filter(desired::isFresh).toList().forEach(key -> count(outages, key, reason));
     }
 
-    /** A step was done: the agent is not away, though it may be slow. */
-    void reached() {
-        absences.clear();
+    /** Called after a completed step: the agent is available. */
+    void available() {
+        outages.clear();
     }
 
     private void count(Map<String, Count> counts, String key, String reason) {

@@ -4,10 +4,10 @@ import java.util.Optional;
 
 import io.furrow.model.device.DeviceConnection.UnreadablePayload;
 
-/** What an IoT Agent noticed of measures. An agent of FIWARE only writes it into its log, so nobody says it there. */
+/** Reports measures that an IoT Agent could not read. FIWARE's agent writes this only to its log, so it has no implementation there. */
 public interface MeasureReports {
     MeasureReports NONE = (apiKey, device) -> Optional.empty();
 
-    /** What it could not read of a device; empty if there was nothing. Safe from all threads. */
+    /** Returns the unreadable payloads of a device; empty if there were none. Thread-safe. */
     Optional<UnreadablePayload> unreadable(String apiKey, String device);
 }

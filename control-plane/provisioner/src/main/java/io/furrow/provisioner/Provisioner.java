@@ -7,7 +7,7 @@ import io.furrow.kafka.SupervisedWorker;
 
 /**
  * Provisions the devices of {@code service.devices} at the IoT Agent and at the MQTT brokers, and removes all others.
- * Of several instances one is at work, another takes over when it dies. Whatever makes it fail, it begins again.
+ * One of several instances is active; another takes over when it fails. The worker restarts after any failure.
  */
 public final class Provisioner implements AutoCloseable {
     private final SupervisedWorker worker;
@@ -18,7 +18,7 @@ public final class Provisioner implements AutoCloseable {
                 .start(self -> provision(settings, self), () -> detail);
     }
 
-    /** Begins; {@code service.devices} must be there, {@code ControlPlane} makes it. */
+    /** Starts the provisioner; {@code service.devices} must exist, {@code ControlPlane} creates it. */
     public static Provisioner start(ProvisioningSettings settings) {
         return new Provisioner(settings);
     }
@@ -33,12 +33,12 @@ public final class Provisioner implements AutoCloseable {
         }
     }
 
-    /** For a health page: it works as long as it reads what is requested, though the IoT Agent may be unavailable. */
+    /** Returns the status for a health page: up as long as requests are read, even if the IoT Agent is unavailable. */
     public ComponentStatus status() {
         return worker.status();
     }
 
-    /** Finishes the request that is under way, and leaves the rest to another instance or the next start. */
+    /** Finishes the current request and leaves the rest to another instance or the next start. */
     @Override
     public void close() {
         worker.close();

@@ -23,15 +23,15 @@ import io.furrow.provisioner.RemovalGuard.Retained;
 import io.furrow.provisioner.account.DeviceAccounts;
 
 /**
- * Reconciles IoT Agent and MQTT brokers with the desired devices, one step at a time. New devices: first the agent, so
- * that it knows whose measure it gets, then the accounts, without which no measure comes. Unwanted ones: the other way
- * round.
+ * Reconciles IoT Agent and MQTT brokers with the desired devices, one step at a time. New devices are registered at the
+ * agent before they get an account, so that the agent knows every device that can send. Devices that are no longer
+ * desired are removed in the opposite order.
  */
 final class ProvisioningReconciler {
     private static final Logger LOG = LoggerFactory.getLogger(ProvisioningReconciler.class);
-    /** With a request that takes its ten seconds at the end this is far from the consumer's {@code max.poll.interval.ms}. */
+    /** With a last request of ten seconds, a step is still much shorter than {@code max.poll.interval.ms}. */
     static final Duration STEP = Duration.ofSeconds(5);
-    /** One answer of the agent proves nothing: while it starts it may say that it has no devices. */
+    /** Minimum time for which the agent's devices must match: during its start it may report that it has none. */
     static final Duration AGREEMENT = Duration.ofSeconds(10);
 
     private final AgentClient agent;
@@ -43,18 +43,18 @@ final class ProvisioningReconciler {
     private final boolean forgets;
     private final BatchSize batchSize = new BatchSize();
     private final RemovalGuard removals = new RemovalGuard();
-    private final Map<FiwareScope, AgentRegistrationCache> registries = new HashMap<>();
-    private final Map<AgentRegistration, String> rejected = new HashMap<>();
-    private FarmSecret used;
+    private final Map<FiwareScope, AgentRegistrationCache> caches = new HashMap<>();
+    private final Map<AgentRegistration, String> rejectionByRegistration = new HashMap<>();
+    private FarmSecret currentSecret;
     private Set<String> registered;
-    private boolean verified;
+    private boolean secretVerified;
     private RemovalGuard.Origin origin = RemovalGuard.Origin.UNKNOWN;
     private boolean started;
     private boolean settled;
-    /** When the agent was last asked, by {@link #nanos}. */
+    /** Time of the last refresh, by {@link #nanos}. */
     private long refreshedAt;
-    /** Since when all that the agent says that it has is wanted, by {@link #nanos}; null while it is not so. */
-    private Long agreed;
+    /** Since when all devices at the agent are desired, by {@link #nanos}; null if some are not. */
+    private Long settlingSince;
 
     ProvisioningReconciler(ProvisioningSettings settings, DesiredDeviceTable desired, LongSupplier nanos) {
         this.agent = new AgentClient(settings.agent());
@@ -68,90 +68,90 @@ final class ProvisioningReconciler {
     }
 
     /**
-     * What came of a step.
+     * The result of a step.
      *
-     * @param refused why, by key of the device
-     * @param stuck why something that is no longer wanted could not be removed; null if nothing was in the way
-     * @param retained what is not wanted and may not be removed; null for nothing
-     * @param done whether nothing is left to be done but what was refused, is stuck or kept
+     * @param rejected reasons by key of the device
+     * @param removalFailure why a device or group that is no longer desired could not be removed; null if none failed
+     * @param retained what is not desired but must not be removed; null if nothing
+     * @param done whether nothing is left to do, except what was rejected, could not be removed or is retained
      */
-    record Outcome(Map<String, String> refused, String stuck, Retained retained, boolean done) {}
+    record Outcome(Map<String, String> rejected, String removalFailure, Retained retained, boolean done) {}
 
-    /** Asks the agent again before the next step, and offers it again what it has refused. */
+    /** Makes the next step read the agent again and retry rejected devices. */
     void refresh() {
         refreshedAt = nanos.getAsLong();
-        registries.clear();
-        rejected.clear();
-        accounts.retryRefused();
-        verified = false;
+        caches.clear();
+        rejectionByRegistration.clear();
+        accounts.retryRejected();
+        secretVerified = false;
     }
 
-    /** The same, and takes nothing of the accounts for granted. */
-    void startAnew(RemovalGuard.Origin newOrigin) {
+    /** Refreshes, and discards the state of accounts too. */
+    void reset(RemovalGuard.Origin newOrigin) {
         refresh();
         registered = null;
-        accounts.startAnew();
+        accounts.reset();
         origin = newOrigin;
         started = false;
     }
 
-    /** What the brokers' files say of it counts more than what Kafka says of itself. */
+    /** The origin recorded in the brokers' files takes precedence over the committed offset in Kafka. */
     private void start() throws IOException {
         if (!started) {
             Set<String> recorded = accounts.origins();
-            boolean same = recorded.isEmpty() ? origin.provisioned() : recorded.equals(Set.of(origin.topic()));
-            removals.startAnew(forgets || same);
+            boolean isSameKafka = recorded.isEmpty() ? origin.provisioned() : recorded.equals(Set.of(origin.topic()));
+            removals.reset(forgets || isSameKafka);
             started = true;
             settled = false;
-            agreed = null;
+            settlingSince = null;
         }
         removals.desired(desired.all().values());
     }
 
-    /** Whether the farm's secret is another than at the last step: it was rotated, or the time of an older key is over. */
+    /** Whether the farm's secret changed since the last step: by rotation, or because an older key expired. */
     boolean isSecretChanged() {
-        return !secret.get().equals(used);
+        return !secret.get().equals(currentSecret);
     }
 
     /**
-     * Does some of what is to be done: at most a batch of devices in each scope, and begins no request after {@link #STEP}.
+     * Executes one step: at most a batch of devices in each scope, without starting requests after {@link #STEP}.
      *
-     * @throws IOException if the agent or a broker is unavailable, or does not let itself be asked, or the secret is not the farm's
+     * @throws IOException if the agent or a broker is unavailable or denies access, or the secret is not the farm's
      */
     Outcome step() throws IOException, InterruptedException {
-        if (!verified) {
+        if (!secretVerified) {
             secret.verify();
-            verified = true;
+            secretVerified = true;
         }
         FarmSecret now = secret.get();
-        if (!now.equals(used)) {
+        if (!now.equals(currentSecret)) {
             LOG.info("the MQTT brokers must accept passwords of the keys {} of the farm's secret", now.acceptedKeys());
         }
-        used = now;
+        currentSecret = now;
         start();
         accounts.revoke(desired.all().values(), removals.allowsAll());
-        Map<String, String> refused = new TreeMap<>();
-        Map<String, AgentRegistration> there = new LinkedHashMap<>();
+        Map<String, String> rejected = new TreeMap<>();
+        Map<String, AgentRegistration> present = new LinkedHashMap<>();
         TimeBudget budget = new TimeBudget(STEP, nanos);
         boolean added = true;
         for (FiwareScope scope : desired.scopes()) {
-            added &= add(scope, budget, there, refused);
+            added &= add(scope, budget, present, rejected);
         }
         Map<String, DesiredDevice> existing = new LinkedHashMap<>();
-        there.keySet().forEach(key -> existing.put(key, desired.all().get(key)));
-        refused.putAll(accounts.grant(existing, added));
-        desired.provisioned(there.keySet());
-        registered = Set.copyOf(there.keySet());
+        present.keySet().forEach(key -> existing.put(key, desired.all().get(key)));
+        rejected.putAll(accounts.grant(existing, added));
+        desired.provisioned(present.keySet());
+        registered = Set.copyOf(present.keySet());
         boolean removed = true;
-        String stuck = null;
+        String removalFailure = null;
         List<String> retainedDevices = new ArrayList<>();
         List<String> retainedGroups = new ArrayList<>();
         for (FiwareScope scope : desired.scopes()) {
             if (AgentRegistrationFactory.hasTenant(scope)) {
                 String failure = remove(scope, budget);
-                stuck = failure == null ? stuck : failure;
+                removalFailure = failure == null ? removalFailure : failure;
                 removed &= failure != null || isClean(scope);
-                Retained here = registry(scope).retained(desiredKeys(scope));
+                Retained here = cacheOf(scope).retained(desiredKeys(scope));
                 retainedDevices.addAll(here.devices());
                 retainedGroups.addAll(here.groups());
             }
@@ -159,49 +159,49 @@ final class ProvisioningReconciler {
         Retained retained = new Retained(accounts.retained(), retainedDevices, retainedGroups);
         boolean done = added && removed;
         if (!retained.isEmpty()) {
-            agreed = null;
-        } else if (done && !there.isEmpty()) { // an agent that has nothing says nothing of this Kafka
+            settlingSince = null;
+        } else if (done && !present.isEmpty()) { // an empty agent proves nothing about this Kafka
             settle();
         }
-        return new Outcome(refused, stuck, retained.isEmpty() ? null : retained, done);
+        return new Outcome(rejected, removalFailure, retained.isEmpty() ? null : retained, done);
     }
 
     private void settle() throws IOException {
-        if (agreed == null) {
-            agreed = nanos.getAsLong();
-        } else if (!settled && refreshedAt - agreed >= AGREEMENT.toNanos()) {
-            accounts.noteOrigin(origin.topic());
+        if (settlingSince == null) {
+            settlingSince = nanos.getAsLong();
+        } else if (!settled && refreshedAt - settlingSince >= AGREEMENT.toNanos()) {
+            accounts.recordOrigin(origin.topic());
             removals.allowAll();
             settled = true;
         }
     }
 
-    /** Keys of the devices that the agent had at the last step; null before the first. */
+    /** Returns the keys of the devices that the agent had at the last step; null before the first. */
     Set<String> registered() {
         return registered;
     }
 
-    /** Whether all that is there is wanted, or may be removed: this Kafka is the one of which it is. */
+    /** Whether agent and brokers are known to belong to this Kafka. */
     boolean isSettled() {
         return settled;
     }
 
     private boolean add(
-            FiwareScope scope, TimeBudget budget, Map<String, AgentRegistration> there, Map<String, String> refused)
+            FiwareScope scope, TimeBudget budget, Map<String, AgentRegistration> present, Map<String, String> rejected)
             throws IOException, InterruptedException {
         Map<AgentRegistration, String> missing = new LinkedHashMap<>();
         for (Map.Entry<String, DesiredDevice> each : in(scope).entrySet()) {
             try {
                 AgentRegistration registration = registrations.of(each.getValue());
-                if (registry(scope).has(registration)) {
-                    there.put(each.getKey(), registration);
-                } else if (rejected.containsKey(registration)) {
-                    refused.put(each.getKey(), rejected.get(registration));
+                if (cacheOf(scope).has(registration)) {
+                    present.put(each.getKey(), registration);
+                } else if (rejectionByRegistration.containsKey(registration)) {
+                    rejected.put(each.getKey(), rejectionByRegistration.get(registration));
                 } else {
                     missing.put(registration, each.getKey());
                 }
             } catch (RejectedByAgentException e) {
-                refused.put(each.getKey(), e.getMessage());
+                rejected.put(each.getKey(), e.getMessage());
             }
         }
         List<AgentRegistration> batch =
@@ -209,14 +209,14 @@ final class ProvisioningReconciler {
         if (batch.isEmpty()) {
             return true;
         }
-        rejected.putAll(add(registry(scope), batch, budget));
+        rejectionByRegistration.putAll(add(cacheOf(scope), batch, budget));
         int settled = 0;
         for (AgentRegistration device : batch) {
-            if (rejected.containsKey(device)) {
-                refused.put(missing.get(device), rejected.get(device));
+            if (rejectionByRegistration.containsKey(device)) {
+                rejected.put(missing.get(device), rejectionByRegistration.get(device));
                 settled++;
-            } else if (registry(scope).has(device)) {
-                there.put(missing.get(device), device);
+            } else if (cacheOf(scope).has(device)) {
+                present.put(missing.get(device), device);
                 settled++;
             }
         }
@@ -224,12 +224,12 @@ final class ProvisioningReconciler {
     }
 
     private Map<AgentRegistration, String> add(
-            AgentRegistrationCache registry, List<AgentRegistration> batch, TimeBudget budget)
+            AgentRegistrationCache cache, List<AgentRegistration> batch, TimeBudget budget)
             throws IOException, InterruptedException {
         try {
-            Map<AgentRegistration, String> refused = registry.add(batch, budget);
+            Map<AgentRegistration, String> rejected = cache.add(batch, budget);
             batchSize.succeeded();
-            return refused;
+            return rejected;
         } catch (IOException e) {
             batchSize.failed();
             throw e;
@@ -237,11 +237,11 @@ final class ProvisioningReconciler {
     }
 
     private String remove(FiwareScope scope, TimeBudget budget) throws IOException, InterruptedException {
-        return registry(scope).remove(desiredDevices(scope), desiredKeys(scope), budget);
+        return cacheOf(scope).remove(desiredDevices(scope), desiredKeys(scope), budget);
     }
 
     private boolean isClean(FiwareScope scope) throws IOException, InterruptedException {
-        return registry(scope).isClean(desiredDevices(scope), desiredKeys(scope));
+        return cacheOf(scope).isClean(desiredDevices(scope), desiredKeys(scope));
     }
 
     private Set<String> desiredDevices(FiwareScope scope) {
@@ -254,17 +254,17 @@ final class ProvisioningReconciler {
                 .collect(Collectors.toSet());
     }
 
-    private AgentRegistrationCache registry(FiwareScope scope) throws IOException, InterruptedException {
-        AgentRegistrationCache registry = registries.get(scope);
-        if (registry == null) {
+    private AgentRegistrationCache cacheOf(FiwareScope scope) throws IOException, InterruptedException {
+        AgentRegistrationCache cache = caches.get(scope);
+        if (cache == null) {
             try {
-                registry = AgentRegistrationCache.read(agent, scope, registrations, removals);
+                cache = AgentRegistrationCache.read(agent, scope, registrations, removals);
             } catch (RejectedByAgentException e) {
                 throw new IOException(e.getMessage(), e);
             }
-            registries.put(scope, registry);
+            caches.put(scope, cache);
         }
-        return registry;
+        return cache;
     }
 
     private Map<String, DesiredDevice> in(FiwareScope scope) {

@@ -9,16 +9,17 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.provisioner.account.MqttAccounts;
 
 /**
- * What devices are provisioned with.
+ * Settings of the provisioner.
  *
- * @param client settings of Kafka clients, {@code bootstrap.servers} among them
+ * @param client settings of Kafka clients, including {@code bootstrap.servers}
  * @param scope of the missions' devices
- * @param secret of the farm, of which API keys and passwords are made
- * @param agent that is notified of the devices
- * @param accounts of the MQTT brokers; none where the broker lets everybody in that the IoT Agent shall hear
- * @param gateways whether each mission has an account that may speak for all its devices, as a host of many devices needs it
- * @param connections who knows how devices are connected
- * @param forgets whether accounts and devices are removed that a Kafka does not want which is empty, or not the one they were made for
+ * @param secret of the farm, from which API keys and passwords are derived
+ * @param agent at which devices are registered
+ * @param accounts of the MQTT brokers; empty if the brokers do not authenticate devices
+ * @param gateways whether each mission has an account for all of its devices, as a host of many devices needs
+ * @param connections sources of reports about the connections of devices
+ * @param forgets whether undesired accounts and devices are removed even if Kafka is empty or not the one for which
+ *     they were created
  */
 public record ProvisioningSettings(
         Properties client,
@@ -29,7 +30,7 @@ public record ProvisioningSettings(
         boolean gateways,
         ConnectionSources connections,
         boolean forgets) {
-    /** Which forgets nothing, without anybody who knows how devices are connected. */
+    /** Creates settings that retain devices of another Kafka, without sources of connection reports. */
     public ProvisioningSettings(
             Properties client,
             FiwareScope scope,
@@ -40,7 +41,7 @@ public record ProvisioningSettings(
         this(client, scope, secret, agent, accounts, gateways, ConnectionSources.NONE, false);
     }
 
-    /** With a secret that does not change, and without accounts of gateways. */
+    /** Creates settings with a fixed secret, without accounts of gateways. */
     public ProvisioningSettings(
             Properties client, FiwareScope scope, FarmSecret secret, AgentSettings agent, List<MqttAccounts> accounts) {
         this(client, scope, SecretSource.of(secret), agent, accounts, false);

@@ -39,14 +39,14 @@ import io.furrow.provisioner.RemovalGuard.Retained;
 
 /**
  * Provisions the devices of {@code service.devices} at the IoT Agent and at the MQTT brokers, and removes all others.
- * Of several instances one is at work, another takes over when it dies; each begins with reading all that is requested,
- * and with asking the agent what it has. Works in steps of a few seconds, between which it polls, so that a slow agent
- * does not cost it the topic. An agent that is unavailable is tried again forever; a device that it refuses, or a new
- * one that waits for it, is {@code failed} on {@code service.devices.status} with the reason.
+ * One of several instances is active; another takes over when it fails. The active instance first reads all desired
+ * devices and the registrations of the agent. It works in steps of a few seconds and polls Kafka in between, so that a
+ * slow agent does not cost it its partition. It retries an unavailable agent forever; a rejected device, or a new one
+ * that waits for the agent, is reported as {@code failed} on {@code service.devices.status} with the reason.
  */
 final class ProvisioningWorker implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(ProvisioningWorker.class);
-    /** Name of the group; never changed, or two would be at work during an update. */
+    /** Name of the consumer group; never changed, else two instances would be active during an update. */
     static final String GROUP = "furrow-provisioner";
 
     private static final String TAKEN_OVER_AFTER_MS = "10000";
@@ -58,9 +58,9 @@ final class ProvisioningWorker implements AutoCloseable {
     private final KafkaProducer<String, byte[]> producer;
     private final DesiredDeviceTable desired;
     private final Properties client;
-    /** Its address. */
+    /** Address of the IoT Agent. */
     private final String agent;
-    /** Follows {@code service.missions.devices}; null while another instance is active. */
+    /** Reads {@code service.missions.devices}; null while another instance is active. */
     private CommittedReader<String> lists;
 
     private final ProvisioningReconciler provisioning;
@@ -72,7 +72,7 @@ final class ProvisioningWorker implements AutoCloseable {
     private String failure = "";
     private Retained retained;
     private long retainedReported;
-    private boolean reported;
+    private boolean provisionedRecorded;
 
     ProvisioningWorker(ProvisioningSettings settings) {
         this.desired = new DesiredDeviceTable(settings.scope());
@@ -95,14 +95,14 @@ final class ProvisioningWorker implements AutoCloseable {
         return settings;
     }
 
-    /** Takes what is new and, where it is this one's turn, does some of what is to be done: some seconds at most. */
+    /** Processes new records and, if this instance is active, executes one step of a few seconds. */
     void next() throws InterruptedException {
         take(consumer.poll(retrySchedule.pause(POLL_INTERVAL)));
         if (active && readLists()) {
-            retrySchedule.hurry();
+            retrySchedule.requested();
         }
         if (active && provisioning.isSecretChanged()) {
-            retrySchedule.hurry();
+            retrySchedule.requested();
         }
         if (active && isCaughtUp()) {
             if (retrySchedule.isDue()) {
@@ -113,7 +113,7 @@ final class ProvisioningWorker implements AutoCloseable {
         }
     }
 
-    /** What it waits for, for people. */
+    /** Returns the reason for waiting, for people. */
     String detail() {
         return active ? failure : "standby";
     }
@@ -134,11 +134,11 @@ final class ProvisioningWorker implements AutoCloseable {
             }
         }
         if (!records.isEmpty()) {
-            retrySchedule.hurry();
+            retrySchedule.requested();
         }
     }
 
-    /** Processes what has arrived, without waiting. Returns whether anything has. */
+    /** Processes the available records, without waiting. Returns whether there were any. */
     private boolean readLists() {
         ConsumerRecords<String, byte[]> records = lists.poll(Duration.ZERO);
         records.forEach(record -> desired.takeList(record.key(), record.value()));
@@ -154,7 +154,7 @@ final class ProvisioningWorker implements AutoCloseable {
                     if (record.value() != null) {
                         published.put(record.key(), DeviceConnection.read(record.value()));
                     }
-                } catch (UnreadableException e) { // a later version wrote it; the device is observed anew
+                } catch (UnreadableException e) { // written by a later version; its history starts again
                     LOG.debug("{}@{} is not a connection of a device", record.topic(), record.offset(), e);
                 }
             });
@@ -173,7 +173,7 @@ final class ProvisioningWorker implements AutoCloseable {
         if (unread.entrySet().removeIf(each -> consumer.position(each.getKey()) >= each.getValue())
                 && unread.isEmpty()) {
             desired.caughtUp();
-            retrySchedule.hurry();
+            retrySchedule.requested();
         }
         return unread.isEmpty() && lists.isCaughtUp();
     }
@@ -184,34 +184,36 @@ final class ProvisioningWorker implements AutoCloseable {
         }
         try {
             ProvisioningReconciler.Outcome outcome = provisioning.step();
-            failures.reached();
+            failures.available();
             if (!outcome.done()) {
-                retrySchedule.goOn();
+                retrySchedule.runNow();
                 return;
             }
-            failures.refused(outcome.refused());
+            failures.rejected(outcome.rejected());
             failure = outcome.retained() == null ? "" : outcome.retained().summary();
             if (outcome.retained() != null && !outcome.retained().equals(retained)) {
                 LOG.warn(outcome.retained().text());
                 retainedReported = System.nanoTime() - REPORT_INTERVAL.toNanos();
             }
             retained = outcome.retained();
-            noteProvisioned();
-            if (outcome.refused().isEmpty() && outcome.stuck() == null) {
-                retrySchedule.rest();
-            } else if (retrySchedule.failed() && outcome.stuck() != null) {
-                LOG.warn("devices that are no longer desired stay at the IoT Agent; retrying: {}", outcome.stuck());
+            recordProvisioned();
+            if (outcome.rejected().isEmpty() && outcome.removalFailure() == null) {
+                retrySchedule.succeeded();
+            } else if (retrySchedule.failed() && outcome.removalFailure() != null) {
+                LOG.warn(
+                        "devices that are no longer desired stay at the IoT Agent; retrying: {}",
+                        outcome.removalFailure());
             }
         } catch (IOException e) {
             failure = FailureText.of(e);
             if (retrySchedule.failed()) {
-                LOG.warn("devices wait to be provisioned: {}", e.getMessage(), e);
+                LOG.warn("devices are not provisioned yet, retrying: {}", e.getMessage(), e);
             }
             failures.unavailable(FailureText.of(e));
         }
     }
 
-    /** An alarm is raised of it, as long as it is repeated. */
+    /** Repeats the fault, because its alarm ends when it is no longer reported. */
     private void reportRetained() {
         if (retained != null && System.nanoTime() - retainedReported >= REPORT_INTERVAL.toNanos()) {
             retainedReported = System.nanoTime();
@@ -219,15 +221,15 @@ final class ProvisioningWorker implements AutoCloseable {
         }
     }
 
-    /** Nothing reads by this offset: it says that the devices of this Kafka were provisioned at this IoT Agent. */
-    private void noteProvisioned() {
-        if (provisioning.isSettled() && !reported) {
+    /** Commits an offset only to record that the devices of this Kafka were provisioned at this IoT Agent. */
+    private void recordProvisioned() {
+        if (provisioning.isSettled() && !provisionedRecorded) {
             Map<TopicPartition, OffsetAndMetadata> offsets = new HashMap<>();
             consumer.assignment()
                     .forEach(partition ->
                             offsets.put(partition, new OffsetAndMetadata(consumer.position(partition), agent)));
             consumer.commitSync(offsets);
-            reported = true;
+            provisionedRecorded = true;
         }
     }
 
@@ -258,10 +260,10 @@ final class ProvisioningWorker implements AutoCloseable {
             active = true;
             desired.clear();
             failures.clear();
-            connections.startAnew(publishedConnections());
-            provisioning.startAnew(origin(partitions));
+            connections.reset(publishedConnections());
+            provisioning.reset(origin(partitions));
             retained = null;
-            reported = false;
+            provisionedRecorded = false;
             closeLists();
             lists = CommittedReader.open(client, Topics.MISSION_DEVICES);
             consumer.seekToBeginning(partitions);

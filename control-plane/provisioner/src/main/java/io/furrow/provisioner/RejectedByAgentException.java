@@ -1,6 +1,6 @@
 package io.furrow.provisioner;
 
-/** A device or service group that the IoT Agent will not take as it is; the message is a sentence for the device's status. */
+/** Thrown if the IoT Agent rejects a device or service group; the message is a sentence for the device's status. */
 final class RejectedByAgentException extends Exception {
     private static final long serialVersionUID = 1;
 

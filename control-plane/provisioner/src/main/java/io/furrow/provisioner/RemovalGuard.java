@@ -10,27 +10,28 @@ import io.furrow.model.device.DesiredDevice;
 import io.furrow.provisioner.AgentClient.Group;
 
 /**
- * What may be removed. A Kafka that is empty, or not the one for which devices were provisioned, wants none of them, and would take the
- * farm out of service: it removes only what it has itself wanted since the start.
+ * Decides which devices and groups may be removed. An empty Kafka, or another than the one for which devices were
+ * provisioned, desires none of them, and removing them would take the farm out of service. With such a Kafka only
+ * devices that it has desired since the start are removed.
  */
 final class RemovalGuard {
-    /** Missions, and mission and id of devices. */
+    /** Missions, and pairs of mission and device id. */
     private final Set<List<String>> own = new HashSet<>();
 
     private boolean all;
 
     /**
-     * The Kafka of which the desired devices are.
+     * Identifies the Kafka cluster of the desired devices.
      *
-     * @param topic id of its topic of devices, another one where that was made again; empty if it is not known
-     * @param provisioned whether it is known that its devices were provisioned at this IoT Agent before
+     * @param topic id of its topic of devices, which changes when the topic is recreated; empty if unknown
+     * @param provisioned whether its devices are known to have been provisioned at this IoT Agent
      */
     record Origin(String topic, boolean provisioned) {
         static final Origin UNKNOWN = new Origin("", false);
     }
 
     /**
-     * What is not wanted and was not removed, because another Kafka may want it.
+     * What is not desired but was not removed, because another Kafka may need it.
      *
      * @param accounts users at the MQTT brokers
      * @param devices ids at the IoT Agent
@@ -47,13 +48,13 @@ final class RemovalGuard {
             return accounts.isEmpty() && devices.isEmpty() && groups.isEmpty();
         }
 
-        /** Without names, for everybody. */
+        /** Returns a summary without names, for public pages. */
         String summary() {
             return "%d MQTT accounts, %d devices and %d service groups of the IoT Agent stay, though this Kafka does not want them"
                     .formatted(accounts.size(), devices.size(), groups.size());
         }
 
-        /** What, why and what to do. */
+        /** Returns what was retained, why, and what to do. */
         String text() {
             List<String> names = new ArrayList<>(devices.isEmpty() ? accounts : devices);
             names.addAll(names.isEmpty() ? groups : List.of());
@@ -67,13 +68,13 @@ final class RemovalGuard {
         }
     }
 
-    /** @param everything whether all that is not wanted may be removed */
-    void startAnew(boolean everything) {
+    /** @param everything whether everything that is not desired may be removed */
+    void reset(boolean everything) {
         own.clear();
         all = everything;
     }
 
-    /** Everything that there is, is wanted: what is no longer wanted later was of this Kafka. */
+    /** Called when everything that exists is desired: what is no longer desired later belongs to this Kafka. */
     void allowAll() {
         all = true;
     }

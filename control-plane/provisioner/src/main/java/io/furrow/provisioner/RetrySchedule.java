@@ -5,7 +5,7 @@ import java.util.function.LongSupplier;
 
 import io.furrow.model.time.Backoff;
 
-/** When the provisioner goes to work again: at once where there is more, later and later while it fails, else at an interval. */
+/** Schedules the provisioner's steps: immediately if work is left, with increasing backoff after failures, else at an interval. */
 final class RetrySchedule {
     static final Duration FIRST = Duration.ofMillis(200);
     static final Duration MAX = Duration.ofSeconds(10);
@@ -15,42 +15,42 @@ final class RetrySchedule {
     private long due;
     private final Backoff backoff = new Backoff(FIRST, MAX);
     private boolean failing;
-    private boolean again;
+    private boolean refreshDue;
 
-    /** @param interval after which all is looked at again, so that what the agent has lost in the meantime comes back */
+    /** @param interval between complete checks, which restore registrations that the agent has lost */
     RetrySchedule(LongSupplier nanos, Duration interval) {
         this.nanos = nanos;
         this.interval = interval;
         this.due = nanos.getAsLong();
     }
 
-    /** Something new is requested: at once, but where it fails not earlier than else. */
-    void hurry() {
+    /** Schedules a step immediately because of new requests, unless steps are failing. */
+    void requested() {
         if (!failing) {
-            again = false;
-            goOn();
+            refreshDue = false;
+            runNow();
         }
     }
 
-    /** There is more to do: at once. */
-    void goOn() {
+    /** Schedules the next step immediately. */
+    void runNow() {
         due = nanos.getAsLong();
     }
 
-    /** All is done. */
-    void rest() {
+    /** Schedules the next complete check after the interval. */
+    void succeeded() {
         due = nanos.getAsLong() + interval.toNanos();
         failing = false;
         backoff.reset();
-        again = true;
+        refreshDue = true;
     }
 
-    /** @return whether it is the first time in a row */
+    /** Schedules a retry. @return whether this is the first failure in a row */
     boolean failed() {
         boolean first = !failing;
         due = nanos.getAsLong() + backoff.next().toNanos();
         failing = true;
-        again = true;
+        refreshDue = true;
         return first;
     }
 
@@ -58,16 +58,16 @@ final class RetrySchedule {
         return nanos.getAsLong() >= due;
     }
 
-    /** Whether the step that begins is to take nothing for granted: the first one after a failure or a rest. */
+    /** Whether the step must read the agent again: the first one after a failure or a complete check. */
     boolean isRefreshDue() {
-        boolean refresh = again;
-        again = false;
+        boolean refresh = refreshDue;
+        refreshDue = false;
         return refresh;
     }
 
-    /** Until it is due, but not longer than so. */
-    Duration pause(Duration most) {
+    /** Returns the time until the next step, at most {@code max}. */
+    Duration pause(Duration max) {
         long left = Math.max(0, due - nanos.getAsLong());
-        return left < most.toNanos() ? Duration.ofNanos(left) : most;
+        return left < max.toNanos() ? Duration.ofNanos(left) : max;
     }
 }

@@ -3,7 +3,7 @@ package io.furrow.provisioner;
 import java.time.Duration;
 import java.util.function.LongSupplier;
 
-/** The time within which a step begins requests; a request that has begun is finished. */
+/** Limits the time in which a step starts requests; a started request is finished. */
 final class TimeBudget {
     private final LongSupplier nanos;
     private final long end;

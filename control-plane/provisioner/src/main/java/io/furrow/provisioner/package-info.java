@@ -5,6 +5,6 @@
  *
  * <p><b>Out</b>: groups and devices of the IoT Agent, accounts of the MQTT broker, {@code service.devices.status}.
  *
- * <p><b>Must not know</b>: the managers and their REST API: it meets them in topics.
+ * <p><b>Must not know</b>: the managers and their REST API; they communicate through topics.
  */
 package io.furrow.provisioner;

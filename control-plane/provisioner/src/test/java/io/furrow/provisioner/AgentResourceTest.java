@@ -44,7 +44,7 @@ class AgentResourceTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"", "/iot/json", "/iot/house"})
-    void makesAndRemovesGroupsOfTheResourceThatIsSet(String resource) throws Exception {
+    void createsAndRemovesGroupsOfTheConfiguredResource(String resource) throws Exception {
         ProvisioningReconciler provisioning = provisioning(resource);
 
         assertThat(provisioning.step()).isEqualTo(DONE);
@@ -57,7 +57,7 @@ class AgentResourceTest {
     }
 
     @Test
-    void replacesGroupsOfAResourceThatWasSetBeforeAndLeavesDevicesAlone() throws Exception {
+    void replacesGroupsOfAPreviousResourceWithoutChangingDevices() throws Exception {
         provisioning("/iot/json").step();
         agent.changes.clear();
 
@@ -67,14 +67,14 @@ class AgentResourceTest {
         assertThat(agent.changes).containsExactly("POST /iot/services", "DELETE /iot/services");
     }
 
-    /** The agent keeps one group of a resource and a key in all tenants, and lists those of the scope only. */
+    /** The agent has at most one group per resource and key over all tenants, but lists only those of the scope. */
     @Test
     void rejectsADeviceWhoseGroupIsInAnotherTenant() throws Exception {
         agent.hidden.put(FakeAgent.key("/iot/json", API_KEY), JsonNodeFactory.instance.objectNode());
 
         Outcome outcome = provisioning("/iot/json").step();
 
-        assertThat(outcome.refused().get(device.version().key()))
+        assertThat(outcome.rejected().get(device.version().key()))
                 .contains("mission 'hoeing'", "in another service or service path; remove it there");
         assertThat(agent.deviceIds()).isEmpty();
     }
@@ -92,7 +92,7 @@ class AgentResourceTest {
     }
 
     @Test
-    void rejectsSettingsThatCannotBeRight() {
+    void rejectsInvalidSettings() {
         AgentSettings settings = AgentSettings.at(URI.create("http://127.0.0.1:4041"));
 
         assertThatThrownBy(() -> settings.withResource("iot/json"))

@@ -53,7 +53,7 @@ class ConnectionPublisherTest {
     }
 
     @Test
-    void publishesWhatBrokerAndAgentKnowOfADevice() throws Exception {
+    void publishesTheReportsOfBrokerAndAgent() throws Exception {
         RefusedLogin refused = new RefusedLogin(2, START + 2, DeviceConnection.WRONG_PASSWORD, user);
         ForeignTopic foreign = new ForeignTopic(1, START + 3, "/k/e/attrs");
         unreadable = new UnreadablePayload(1, START + 4, "no JSON", "{");
@@ -67,7 +67,7 @@ class ConnectionPublisherTest {
         assertThat(newest()).isEqualTo(new DeviceConnection(START, START + 1, refused, foreign, unreadable, true));
     }
 
-    /** After a rotation, or on another mission, it tries with what it has. */
+    /** After a rotation, or on another mission, a device tries its old credentials. */
     @Test
     void countsLoginsWithOldCredentialsForTheDevice() throws Exception {
         String old = SECRET.device("weeding", device.device(), 3).user();
@@ -83,7 +83,7 @@ class ConnectionPublisherTest {
     }
 
     @Test
-    void takesTheLoginOfTheGatewayThatSpeaksForADevice() throws Exception {
+    void usesTheLoginOfTheGatewayOfADevice() throws Exception {
         ForeignTopic foreign = new ForeignTopic(1, START, "/k/e/attrs");
         logins.put(SECRET.gateway("hoeing").user(), new LoginReport(START + 1, null, foreign));
 
@@ -93,7 +93,7 @@ class ConnectionPublisherTest {
     }
 
     @Test
-    void publishesWhereSomethingChangedAndAtMostEveryTenSeconds() {
+    void publishesChangesAtMostEveryTenSeconds() {
         publish(null);
         publish(null);
         assertThat(producer.history()).hasSize(1);
@@ -110,13 +110,13 @@ class ConnectionPublisherTest {
         assertThat(producer.history().get(2).value()).isNull();
     }
 
-    /** The broker's log is read from a few megabytes before its end, and the stand-in forgets: the device may be connected all along. */
+    /** The log is read from a few megabytes before its end and the embedded broker loses its history, while a device may stay connected. */
     @Test
-    void retainsWhatWasKnownBeforeARestart() throws Exception {
+    void retainsReportsOverARestart() throws Exception {
         RefusedLogin refused = new RefusedLogin(2, START - 6, DeviceConnection.WRONG_PASSWORD, user);
         ForeignTopic foreign = new ForeignTopic(9, START - 4, "/k/e/attrs");
         UnreadablePayload former = new UnreadablePayload(1, START - 3, "no JSON", "{");
-        publisher.startAnew(Map.of(key, new DeviceConnection(START - 9, START - 5, refused, foreign, former, true)));
+        publisher.reset(Map.of(key, new DeviceConnection(START - 9, START - 5, refused, foreign, former, true)));
 
         publish(Set.of(key));
         assertThat(newest()).isEqualTo(new DeviceConnection(START, START - 5, refused, foreign, former, true));
@@ -130,7 +130,7 @@ class ConnectionPublisherTest {
     }
 
     @Test
-    void reportsThatNobodyObservesLogins() throws Exception {
+    void reportsThatLoginsAreNotObserved() throws Exception {
         ConnectionPublisher unsure = publisher(ConnectionSources.NONE);
         now.addAndGet(INTERVAL);
         unsure.publish(Set.of(key));

@@ -12,7 +12,7 @@ import io.furrow.model.event.FiwareScope;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** Wanted devices for tests. */
+/** Creates desired devices. */
 public final class DesiredDeviceFixture {
     public static final FarmSecret SECRET = new FarmSecret("sixteen bytes or more".getBytes(UTF_8));
     static final FiwareScope SCOPE = new FiwareScope("farm", "/");

@@ -29,7 +29,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
-/** The MQTT broker of the one-command start with accounts that come and go. */
+/** Adds and removes accounts of the embedded MQTT broker. */
 @Tag("full")
 class EmbeddedBrokerTest {
     private static final InMemoryAccounts ACCOUNTS = new InMemoryAccounts();
@@ -66,7 +66,7 @@ class EmbeddedBrokerTest {
     }
 
     @Test
-    void letsADevicePublishAsItselfOnly() throws MqttException {
+    void allowsADeviceToPublishOnlyAsItself() throws MqttException {
         MqttClient device = connect(DEVICE);
         device.publish(KEY + "/e/attrs", "forged".getBytes(UTF_8), 0, false);
         device.publish(KEY + "/d/attrs", "1".getBytes(UTF_8), 1, false);
@@ -76,10 +76,10 @@ class EmbeddedBrokerTest {
         leave(device);
     }
 
-    /** As Mosquitto does: the sender cannot know, but it does not wait for ever either. */
+    /** Mosquitto does so too: the sender is not informed, but does not wait for an acknowledgment either. */
     @ParameterizedTest
     @ValueSource(ints = {1, 2})
-    void acknowledgesAndDiscardsWhatADeviceMayNotPublish(int qos) throws MqttException {
+    void acknowledgesAndDiscardsForbiddenMessages(int qos) throws MqttException {
         MqttClient device = connect(DEVICE);
         device.setTimeToWait(TIMEOUT_MS);
         device.publish(KEY + "/e/attrs", "forged".getBytes(UTF_8), qos, true);
@@ -119,7 +119,7 @@ class EmbeddedBrokerTest {
     }
 
     @Test
-    void letsADeviceReceiveItsOwnCommandsOnly() throws MqttException {
+    void allowsADeviceToReceiveOnlyItsOwnCommands() throws MqttException {
         MqttClient device = connect(DEVICE);
         Map<String, String> commands = new ConcurrentHashMap<>();
         assertThatThrownBy(() -> device.subscribe("#", 1)).isInstanceOf(MqttException.class);
@@ -134,7 +134,7 @@ class EmbeddedBrokerTest {
     }
 
     @Test
-    void shutsOutWhoIsNoLongerDesired() throws MqttException {
+    void rejectsADeviceThatIsNoLongerDesired() throws MqttException {
         leave(connect(DEVICE));
         ACCOUNTS.replace(List.of(), Set.of());
 
@@ -144,7 +144,7 @@ class EmbeddedBrokerTest {
     }
 
     @Test
-    void letsAMissionHaveTheNameOfAUserOfTheStart() throws MqttException {
+    void allowsAMissionWithTheNameOfAnInternalUser() throws MqttException {
         ACCOUNTS.replace(List.of(MqttAccount.gateway(SECRET, "agent")), Set.of());
         MqttClient gateway = connect(SECRET.gateway("agent"));
 

@@ -43,21 +43,21 @@ class FailureReporterTest {
     }
 
     @Test
-    void reportsNothingOfAnAgentThatIsSlowButGetsOn() {
+    void reportsNothingWhileASlowAgentMakesProgress() {
         for (int i = 0; i < 10; i++) {
             failures.unavailable("no answer");
             failures.unavailable("no answer");
-            failures.reached();
+            failures.available();
         }
 
         assertThat(producer.history()).isEmpty();
     }
 
     @Test
-    void reportsWhatTheAgentRefusedThreeTimesThoughItIsReached() {
+    void reportsADeviceThatAnAvailableAgentRejectedThreeTimes() {
         for (int i = 0; i < 3; i++) {
-            failures.reached();
-            failures.refused(Map.of(key, "not you"));
+            failures.available();
+            failures.rejected(Map.of(key, "not you"));
         }
 
         assertThat(List.copyOf(producer.history())).hasSize(1);

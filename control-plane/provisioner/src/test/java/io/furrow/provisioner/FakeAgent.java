@@ -24,9 +24,9 @@ import io.furrow.stub.StubServer;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
- * An IoT Agent JSON 3.14 of one tenant, as its answers were recorded and its library is written: no group is 404; the devices of a
- * batch are made one by one, and the first refusal is the answer; groups are listed without pages; without the headers of tenant
- * and service path it answers nothing else. It fails where a test wants it so.
+ * Simulates an IoT Agent JSON 3.14 with one tenant, according to recorded answers and its source code: an empty list of
+ * groups is 404; the devices of a batch are created one by one, and the first rejection is the answer; groups are
+ * listed without pages; headers of tenant and service path are required. Tests can make it fail.
  */
 final class FakeAgent implements AutoCloseable {
     final Map<String, JsonNode> devices = new LinkedHashMap<>();
@@ -34,34 +34,34 @@ final class FakeAgent implements AutoCloseable {
     final Map<String, JsonNode> groups = new LinkedHashMap<>();
     /** Groups of other tenants. */
     final Map<String, JsonNode> hidden = new LinkedHashMap<>();
-    /** Ids of devices that it refuses. */
+    /** Ids of devices that it rejects. */
     final Set<String> disliked = new HashSet<>();
-    /** Ids of devices that it fails to make or to remove: 500. */
+    /** Ids of devices whose creation or removal fails with 500. */
     final Set<String> broken = new HashSet<>();
-    /** Ids of devices that it continues to make after it has refused the rest of their batch. */
+    /** Ids of devices that it still creates after it has rejected their batch. */
     final Set<String> late = new HashSet<>();
-    /** Method and path of each request that changes something. */
+    /** Method and path of each changing request. */
     final List<String> changes = new CopyOnWriteArrayList<>();
     /** Values of {@code fiware-service}. */
     final Set<String> services = new HashSet<>();
     /** Values of {@code X-Farm}. */
     final Set<String> tokens = new HashSet<>();
 
-    /** What a proxy in front of it answers to requests that change something; 0 if it lets them pass. */
+    /** Status with which a proxy answers changing requests; 0 if it forwards them. */
     volatile int proxy;
-    /** It answers 503 to everything. */
+    /** Whether it answers every request with 503. */
     volatile boolean unavailable;
-    /** What it answers with 200 to every GET; null for what is asked. */
+    /** Fixed answer to every GET; null for the real answer. */
     volatile String garbage;
-    /** It makes no more devices of a batch, and breaks the connection of one that has more. */
+    /** Maximum number of devices of a batch; it breaks the connection of a larger batch. */
     volatile int most = Integer.MAX_VALUE;
-    /** Run at each request that changes something. */
+    /** Run at each changing request. */
     volatile Runnable onChange = () -> {};
 
     private final StubServer server = new StubServer(this::handle);
     private final List<JsonNode> unfinished = new ArrayList<>();
 
-    /** A refusal. */
+    /** An error response. */
     private static final class Refusal extends Exception {
         private static final long serialVersionUID = 1;
 
@@ -89,7 +89,7 @@ final class FakeAgent implements AutoCloseable {
                 .collect(Collectors.toUnmodifiableSet());
     }
 
-    /** Starts again with nothing in its registry. */
+    /** Restarts with an empty registry. */
     synchronized void restart() {
         devices.clear();
         groups.clear();
@@ -122,7 +122,7 @@ final class FakeAgent implements AutoCloseable {
             ObjectNode refusal = JsonNodeFactory.instance.objectNode().put("name", e.name);
             answer(exchange, e.status, NgsiJson.write(refusal.put("message", e.getMessage())));
         } finally {
-            exchange.close(); // without an answer that breaks the connection
+            exchange.close(); // without an answer, which breaks the connection
         }
     }
 

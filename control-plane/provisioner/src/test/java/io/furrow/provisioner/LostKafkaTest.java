@@ -21,17 +21,17 @@ import io.furrow.provisioner.account.MqttAccounts;
 import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** A Kafka that is empty, or not the one for which devices were provisioned. */
+/** Provisions with a Kafka that is empty, or not the one for which devices were provisioned. */
 class LostKafkaTest extends ProvisioningFixture {
     private static final Origin EMPTY = new Origin("topic-2", false);
-    /** What an agent may answer while it starts. */
+    /** An agent may answer this while it starts. */
     private static final String NOTHING = "{'count':0,'devices':[],'services':[]}".replace('\'', '"');
 
     @TempDir
     Path directory;
 
     @Test
-    void retainsTheAccountsAndDevicesThatAnotherKafkaDesired() throws Exception {
+    void retainsAccountsAndDevicesOfAnotherKafka() throws Exception {
         provisionTen();
 
         provisioning = provisioning(files(false), new Origin("topic-2", true));
@@ -48,7 +48,7 @@ class LostKafkaTest extends ProvisioningFixture {
     }
 
     @Test
-    void retainsTheDevicesOfTheAgentWhereNoFileSaysForWhichKafkaTheyAre() throws Exception {
+    void retainsTheAgentsDevicesIfNoFileRecordsTheirKafka() throws Exception {
         provisionTen();
 
         provisioning = provisioning(settings(SecretSource.of(SECRET), false), EMPTY);
@@ -61,7 +61,7 @@ class LostKafkaTest extends ProvisioningFixture {
     }
 
     @Test
-    void addsAndRemovesDevicesOfItsOwnBesideThoseThatItRetains() throws Exception {
+    void addsAndRemovesItsOwnDevicesBesidesRetainedOnes() throws Exception {
         provisionTen();
         provisioning = provisioning(files(false), EMPTY);
         DesiredDevice existing = DesiredDeviceFixture.thermometer("hoeing", 1);
@@ -82,7 +82,7 @@ class LostKafkaTest extends ProvisioningFixture {
     }
 
     @Test
-    void leavesADeviceInItsMissionThatAnotherKafkaDesires() throws Exception {
+    void doesNotMoveADeviceOfAnotherKafkaToAnotherMission() throws Exception {
         String id = "d";
         DesiredDevice there = DesiredDeviceFixture.device("Thermometer", "hoeing", id, 1);
         addDesired(there);
@@ -94,7 +94,7 @@ class LostKafkaTest extends ProvisioningFixture {
 
         for (int steps = 0; steps < 3; steps++) {
             Outcome outcome = provisioning.step();
-            assertThat(outcome.refused().get(moved.version().key()))
+            assertThat(outcome.rejected().get(moved.version().key()))
                     .contains("of mission 'hoeing'", "check --kafka", "--forget-devices");
             assertThat(outcome.retained().devices()).containsExactly(id);
             provisioning.refresh();
@@ -103,7 +103,7 @@ class LostKafkaTest extends ProvisioningFixture {
     }
 
     @Test
-    void isTheFarmsAgainOnceItDesiresAllThatIsThere() throws Exception {
+    void removesAgainOnceItDesiresEverythingThatExists() throws Exception {
         provisionTen();
         addTenDesired();
         provisioning = provisioning(files(false), EMPTY);
@@ -120,14 +120,14 @@ class LostKafkaTest extends ProvisioningFixture {
     }
 
     @Test
-    void takesNoLoginAwayWhereTheAgentSaysThatItHasNothing() throws Exception {
+    void retainsLoginsIfTheAgentReportsNoDevices() throws Exception {
         provisionTen();
         addTenDesired();
         agent.garbage = NOTHING;
         provisioning = provisioning(files(false), SAME);
 
         for (int answers = 0; answers < 3; answers++) {
-            assertThat(provisioning.step().refused()).hasSize(10);
+            assertThat(provisioning.step().rejected()).hasSize(10);
             assertThat(users()).hasSize(10);
             stepLater();
         }
@@ -139,7 +139,7 @@ class LostKafkaTest extends ProvisioningFixture {
     }
 
     @Test
-    void takesNoEmptyAnswerOfTheAgentForAllThatItHas() throws Exception {
+    void doesNotTrustASingleEmptyAnswerOfTheAgent() throws Exception {
         provisionTen();
         addDesired(DesiredDeviceFixture.thermometer("weeding", 1));
         provisioning = provisioning(settings(SecretSource.of(SECRET), false), EMPTY);
@@ -155,7 +155,7 @@ class LostKafkaTest extends ProvisioningFixture {
     }
 
     @Test
-    void removesThemWhereConfigured() throws Exception {
+    void removesRetainedDevicesIfConfigured() throws Exception {
         provisionTen();
 
         assertThat(provisioning(files(true), EMPTY).step()).isEqualTo(DONE);
@@ -165,9 +165,9 @@ class LostKafkaTest extends ProvisioningFixture {
         assertThat(agent.apiKeys()).isEmpty();
     }
 
-    /** The thief has the login of generation 0, the device that of generation 1. */
+    /** The revoked login has generation 0, the current one generation 1. */
     @Test
-    void doesNotAcceptALoginAgainThatWasRevoked() throws Exception {
+    void doesNotAcceptARevokedLoginAgain() throws Exception {
         DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
         addDesired(device);
         provisioning = provisioning(files(false), SAME);
@@ -178,7 +178,7 @@ class LostKafkaTest extends ProvisioningFixture {
         desired.clear();
         addDesired(device);
         provisioning = provisioning(files(false), EMPTY);
-        assertThat(provisioning.step().refused().get(device.version().key()))
+        assertThat(provisioning.step().rejected().get(device.version().key()))
                 .contains("was revoked", "rotate the device's credentials 1 times");
         assertThat(users()).containsExactly(user(device, 1));
 
@@ -191,14 +191,14 @@ class LostKafkaTest extends ProvisioningFixture {
         addDesired(device);
         assertThat(provisioning(files(true), new Origin("topic-3", false))
                         .step()
-                        .refused())
+                        .rejected())
                 .as("though no account of it was left")
                 .isNotEmpty();
         assertThat(users()).isEmpty();
     }
 
     @Test
-    void removesOnlyAccountsOfAKeyWhoseTimeIsOver() throws Exception {
+    void removesOnlyAccountsWithAnExpiredKey() throws Exception {
         provisionTen();
         FarmSecret rotated = SECRET.rotated(Instant.now(), Instant.EPOCH, false).at(Instant.now());
 
@@ -219,7 +219,7 @@ class LostKafkaTest extends ProvisioningFixture {
         }
     }
 
-    /** By another Kafka than {@link #EMPTY}; nothing is wanted afterwards. */
+    /** Provisions devices for another Kafka than {@link #EMPTY}; afterwards nothing is desired. */
     private void provisionTen() throws Exception {
         addTenDesired();
         provisioning = provisioning(files(false), SAME);

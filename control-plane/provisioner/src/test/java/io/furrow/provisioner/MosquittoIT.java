@@ -23,12 +23,12 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
-/** The written files in a real Mosquitto that reads them again while it runs. */
+/** Uses the written files in a real Mosquitto that reloads them while it runs. */
 class MosquittoIT {
     private static final FarmSecret SECRET = DesiredDeviceFixture.SECRET;
     private static final String KEY = "/" + SECRET.apiKey("hoeing");
     private static final String OTHER_KEY = "/" + SECRET.apiKey("weeding");
-    /** With signs that mean something in the files. */
+    /** The name contains characters with a meaning in the files. */
     private static final String DEVICE = "urn:ngsi-ld:Thermometer:hoeing-1";
 
     private static final List<MqttAccount> ACCOUNTS = List.of(
@@ -57,9 +57,9 @@ class MosquittoIT {
     }
 
     @Test
-    void letsADeviceInWithItsPasswordAndWithNoOther() throws Exception {
+    void acceptsADeviceOnlyWithItsPassword() throws Exception {
         Login right = SECRET.device("hoeing", DEVICE);
-        try (MqttPeer device = broker.comesIn(right)) {
+        try (MqttPeer device = broker.connectOnceAccepted(right)) {
             device.publish(KEY + "/" + DEVICE + "/attrs", "1");
             await().until(() -> agent.newest(KEY + "/" + DEVICE + "/attrs").equals("1"));
         }
@@ -70,8 +70,8 @@ class MosquittoIT {
     }
 
     @Test
-    void letsADevicePublishAsItselfOnly() throws Exception {
-        try (MqttPeer device = broker.comesIn(SECRET.device("hoeing", DEVICE))) {
+    void allowsADeviceToPublishOnlyAsItself() throws Exception {
+        try (MqttPeer device = broker.connectOnceAccepted(SECRET.device("hoeing", DEVICE))) {
             List<String> foreign = List.of(
                     KEY + "/urn:ngsi-ld:Thermometer:hoeing-2/attrs",
                     OTHER_KEY + "/" + DEVICE + "/attrs",
@@ -82,7 +82,7 @@ class MosquittoIT {
             }
             device.publish("/json" + KEY + "/" + DEVICE + "/attrs", "2");
 
-            // One connection keeps its order: what was forged would have come before.
+            // A connection preserves the order, so a forged message would have arrived before.
             await().until(() ->
                     agent.newest("/json" + KEY + "/" + DEVICE + "/attrs").equals("2"));
             assertThat(foreign)
@@ -91,8 +91,8 @@ class MosquittoIT {
     }
 
     @Test
-    void letsADeviceReceiveItsOwnCommandsOnly() throws Exception {
-        try (MqttPeer device = broker.comesIn(SECRET.device("hoeing", DEVICE))) {
+    void allowsADeviceToReceiveOnlyItsOwnCommands() throws Exception {
+        try (MqttPeer device = broker.connectOnceAccepted(SECRET.device("hoeing", DEVICE))) {
             device.subscribe("#");
             device.subscribe(KEY + "/" + DEVICE + "/cmd");
             agent.publish(KEY + "/urn:ngsi-ld:Thermometer:hoeing-2/cmd", "on");
@@ -105,8 +105,8 @@ class MosquittoIT {
     }
 
     @Test
-    void letsAGatewaySpeakForItsOwnMissionOnly() throws Exception {
-        try (MqttPeer gateway = broker.comesIn(SECRET.gateway("hoeing"))) {
+    void allowsAGatewayToPublishOnlyForItsMission() throws Exception {
+        try (MqttPeer gateway = broker.connectOnceAccepted(SECRET.gateway("hoeing"))) {
             gateway.publish(OTHER_KEY + "/other/attrs", "forged");
             gateway.publish(KEY + "/any/attrs", "4");
             gateway.subscribe(KEY + "/+/cmd");
@@ -119,8 +119,8 @@ class MosquittoIT {
     }
 
     @Test
-    void shutsADeviceOutThatIsNoLongerDesiredAndRetainsTheAgent() throws Exception {
-        try (MqttPeer device = broker.comesIn(SECRET.device("hoeing", DEVICE))) {
+    void rejectsADeviceThatIsNoLongerDesiredAndRetainsTheAgent() throws Exception {
+        try (MqttPeer device = broker.connectOnceAccepted(SECRET.device("hoeing", DEVICE))) {
             files.replace(List.of(), Set.of());
 
             await().until(() -> !device.isConnected());
@@ -131,11 +131,11 @@ class MosquittoIT {
     }
 
     @Test
-    void letsAMissionHaveTheNameOfAnotherUser() throws Exception {
+    void allowsAMissionWithTheNameOfAnotherUser() throws Exception {
         String key = "/" + SECRET.apiKey("agent");
         files.replace(List.of(MqttAccount.gateway(SECRET, "agent")), Set.of());
 
-        try (MqttPeer gateway = broker.comesIn(SECRET.gateway("agent"));
+        try (MqttPeer gateway = broker.connectOnceAccepted(SECRET.gateway("agent"));
                 MqttPeer again = broker.connect(AGENT, "agent-again").subscribe("#")) {
             gateway.publish(KEY + "/" + DEVICE + "/attrs", "forged");
             gateway.publish(key + "/d/attrs", "5");
@@ -147,7 +147,7 @@ class MosquittoIT {
     }
 
     @Test
-    void takesOverNoUserThatSomebodyElseHasPutIntoItsFiles() throws Exception {
+    void doesNotReplaceAForeignUser() throws Exception {
         Login theirs = new Login(SECRET.device("hoeing", "theirs").user(), "their password");
         List<String> lines = new ArrayList<>(Files.readAllLines(broker.passwords()));
         lines.add(0, MosquittoPassword.line(theirs));
@@ -158,18 +158,18 @@ class MosquittoIT {
 
         assertThat(files.replace(desired, Set.of())).containsOnlyKeys(theirs.user());
 
-        broker.comesIn(SECRET.device("hoeing", "late")).close();
+        broker.connectOnceAccepted(SECRET.device("hoeing", "late")).close();
         broker.connect(theirs, "theirs").close();
         assertThatThrownBy(() -> broker.connect(SECRET.device("hoeing", "theirs"), "ours"))
                 .isInstanceOf(MqttException.class);
     }
 
-    /** The thief may be connected: he is cut off, and nobody else is. */
+    /** An open connection with the old password is closed, others are not. */
     @Test
-    void rejectsTheOldPasswordOnceCredentialsAreRotatedAndCutsItsConnectionOff() throws Exception {
+    void rejectsTheOldPasswordAfterARotationAndClosesItsConnection() throws Exception {
         List<MqttAccount> rotated = new ArrayList<>(MqttAccount.devices(SECRET, "hoeing", DEVICE, 1));
         rotated.add(MqttAccount.device(SECRET, "weeding", "other"));
-        try (MqttPeer thief = broker.comesIn(SECRET.device("hoeing", DEVICE));
+        try (MqttPeer thief = broker.connectOnceAccepted(SECRET.device("hoeing", DEVICE));
                 MqttPeer other = broker.connect(SECRET.device("weeding", "other"), "other")) {
             files.retain(
                     Set.of(
@@ -179,7 +179,7 @@ class MosquittoIT {
             await().until(() -> !thief.isConnected());
             files.replace(rotated, Set.of());
 
-            broker.comesIn(SECRET.device("hoeing", DEVICE, 1)).close();
+            broker.connectOnceAccepted(SECRET.device("hoeing", DEVICE, 1)).close();
             assertThatThrownBy(() -> broker.connect(SECRET.device("hoeing", DEVICE), "again"))
                     .isInstanceOf(MqttException.class);
             assertThat(other.isConnected()).isTrue();

@@ -16,16 +16,16 @@ import io.furrow.provisioner.account.MqttAccount;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** What a real Mosquitto logs. */
+/** Reads the log of a real Mosquitto. */
 class MosquittoLogIT {
     private static final FarmSecret.Login DEVICE = DesiredDeviceFixture.SECRET.device("hoeing", "d");
 
     @Test
-    void reportsWhenADeviceConnectedAndWhereItPublishedThoughItMayNot(@TempDir Path directory) throws Exception {
+    void reportsConnectionsAndForbiddenTopics(@TempDir Path directory) throws Exception {
         long start = Instant.now().getEpochSecond() * 1000;
         try (ProvisionedMosquitto broker = new ProvisionedMosquitto(directory)) {
             broker.files().replace(List.of(MqttAccount.device(DesiredDeviceFixture.SECRET, "hoeing", "d")), Set.of());
-            try (MqttPeer device = broker.comesIn(DEVICE)) {
+            try (MqttPeer device = broker.connectOnceAccepted(DEVICE)) {
                 device.publish("/" + DesiredDeviceFixture.SECRET.apiKey("hoeing") + "/d/attrs", "1");
                 device.publish("/key/e/attrs", "2");
             }

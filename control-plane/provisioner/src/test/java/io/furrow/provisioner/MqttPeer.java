@@ -13,7 +13,7 @@ import io.furrow.model.device.FarmSecret;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** An MQTT client, and the newest message of each topic that came to it. */
+/** An MQTT client that stores the newest message of each topic. */
 final class MqttPeer implements AutoCloseable {
     private final MqttClient client;
     private final Map<String, String> newest = new ConcurrentHashMap<>();
@@ -45,7 +45,7 @@ final class MqttPeer implements AutoCloseable {
         client.publish(topic, message.getBytes(UTF_8), 1, false);
     }
 
-    /** Empty if nothing came. */
+    /** Returns the newest message; empty if none arrived. */
     String newest(String topic) {
         return newest.getOrDefault(topic, "");
     }

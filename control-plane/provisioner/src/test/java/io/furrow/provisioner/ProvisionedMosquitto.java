@@ -17,7 +17,10 @@ import io.furrow.provisioner.account.MosquittoPassword;
 
 import static org.awaitility.Awaitility.await;
 
-/** A real Mosquitto, as Debian packs it or another that reads the same files, with the agent as its only user and an empty section of ours in its files. */
+/**
+ * Runs a real Mosquitto, of Debian or another that reads the same files, with the agent as its only user and an empty
+ * section of Furrow in its files.
+ */
 final class ProvisionedMosquitto implements AutoCloseable {
     static final FarmSecret.Login AGENT = new FarmSecret.Login("agent", "plough");
     static final Duration TIMEOUT = Duration.ofSeconds(60);
@@ -27,7 +30,7 @@ final class ProvisionedMosquitto implements AutoCloseable {
     private final String reload;
     private final Runnable stop;
 
-    /** Another one, which serves. */
+    /** Wraps another running broker. */
     ProvisionedMosquitto(Path directory, int port, String reload, Runnable stop) {
         this.directory = directory;
         this.port = port;
@@ -63,7 +66,7 @@ final class ProvisionedMosquitto implements AutoCloseable {
         Files.write(directory.resolve("rules"), List.of("user agent", "topic readwrite #"));
     }
 
-    /** Its files, which it reads again after each change. */
+    /** Returns its files, which it reloads after each change. */
     MosquittoFiles files() {
         return new MosquittoFiles(passwords(), rules(), reload);
     }
@@ -72,7 +75,7 @@ final class ProvisionedMosquitto implements AutoCloseable {
         return directory.resolve("passwords");
     }
 
-    /** With all that it says. */
+    /** Returns the complete log. */
     Path log() {
         return directory.resolve("log");
     }
@@ -86,8 +89,8 @@ final class ProvisionedMosquitto implements AutoCloseable {
         return MqttPeer.connect("tcp://127.0.0.1:" + port, login, clientId);
     }
 
-    /** Connects as soon as the login is known: Mosquitto reads its files a moment after it is told to. */
-    MqttPeer comesIn(FarmSecret.Login login) {
+    /** Connects as soon as the login is accepted: Mosquitto reloads its files some time after the signal. */
+    MqttPeer connectOnceAccepted(FarmSecret.Login login) {
         return await().ignoreExceptions().until(() -> connect(login, login.user()), MqttPeer::isConnected);
     }
 
@@ -107,7 +110,7 @@ final class ProvisionedMosquitto implements AutoCloseable {
         }
     }
 
-    /** Debian has it where only administrators look for programs. */
+    /** Debian installs it outside of the PATH of users. */
     private static String program() {
         Path administrators = Path.of("/usr/sbin/mosquitto");
         return Files.isExecutable(administrators) ? administrators.toString() : "mosquitto";

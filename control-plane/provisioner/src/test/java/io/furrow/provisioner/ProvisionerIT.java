@@ -60,7 +60,7 @@ class ProvisionerIT {
     }
 
     @Test
-    void followsTheTopicAndRemovesAfterARestartWhatWentInTheMeantime() throws Exception {
+    void followsTheTopicAndRemovesDevicesThatWereDeletedBeforeARestart() throws Exception {
         DesiredDevice one = thermometer("hoeing", 1);
         DesiredDevice two = thermometer("hoeing", 2);
         try (Provisioner provisioner = provisioner()) {
@@ -86,7 +86,7 @@ class ProvisionerIT {
     }
 
     @Test
-    void reportsWhyADeviceIsNotProvisionedAndProvisionsItOnceTheCauseIsGone() throws Exception {
+    void reportsWhyADeviceIsNotProvisionedAndRetries() throws Exception {
         DesiredDevice before = thermometer("hoeing", 1);
         DesiredDevice after = thermometer("hoeing", 2);
         DesiredDevice disliked = thermometer("hoeing", 3);
@@ -114,7 +114,7 @@ class ProvisionerIT {
     }
 
     @Test
-    void restoresWhatARestartedAgentHasLostAtTheNextInterval() throws Exception {
+    void restoresLostRegistrationsAtTheNextInterval() throws Exception {
         put(thermometer("hoeing", 1));
         put(thermometer("hoeing", 2));
         try (Provisioner provisioner = provisioner()) {
@@ -129,9 +129,9 @@ class ProvisionerIT {
         assertThat(statuses()).isEmpty();
     }
 
-    /** A Kafka that knows nothing of them says so on a topic until it is told to forget them. */
+    /** A Kafka without these devices reports them as retained until it is started with the option to forget them. */
     @Test
-    void retainsWhatAnotherKafkaHasProvisioned() throws Exception {
+    void retainsDevicesOfAnotherKafka() throws Exception {
         put(thermometer("hoeing", 1));
         try (Provisioner provisioner = provisioner()) {
             await().until(() -> agent.deviceIds().size() == 1);
@@ -162,7 +162,7 @@ class ProvisionerIT {
     }
 
     @Test
-    void leavesTheWorkToOneOfTwoInstancesAndThenToTheOther() {
+    void letsTheOtherOfTwoInstancesTakeOver() {
         Provisioner first = provisioner();
         put(thermometer("hoeing", 1));
         await().until(() -> agent.deviceIds().size() == 1);
@@ -181,7 +181,7 @@ class ProvisionerIT {
                 .hasSize(3);
     }
 
-    /** It notes with its offset that the devices of this Kafka are those of the agent. */
+    /** A committed offset records that the devices of this Kafka were provisioned at the agent. */
     private void awaitThatRemovalIsAllowed() {
         try (Admin admin = Admin.create(kafka.client())) {
             await().until(() -> !admin.listConsumerGroupOffsets(ProvisioningWorker.GROUP)

@@ -19,14 +19,14 @@ import io.furrow.provisioner.ProvisioningReconciler.Outcome;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
-/** An IoT Agent that forgets, refuses, fails or is slow. */
+/** Provisions at an IoT Agent that loses state, rejects, fails or is slow. */
 @Tag("full")
 class ProvisioningFailuresTest extends ProvisioningFixture {
     private static final String GROUP = FakeAgent.key("/iot/json", KEY);
 
     @ParameterizedTest
     @ValueSource(strings = {"all", "groups", "devices", "a device"})
-    void restoresWhatTheAgentHasLost(String lost) throws Exception {
+    void restoresLostRegistrations(String lost) throws Exception {
         addDesired(3);
         provisioning.step();
         switch (lost) {
@@ -46,27 +46,27 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
     }
 
     @Test
-    void takesADeviceForProvisionedThatTheAgentMadeAfterItRefusedTheBatch() throws Exception {
+    void acceptsADeviceThatTheAgentCreatedAfterItRejectedTheBatch() throws Exception {
         addDesired(4);
         agent.disliked.add(id(1));
         agent.late.add(id(2));
         agent.late.add(id(3));
 
-        assertThat(provisioning.step().refused()).containsOnlyKeys(key(1));
+        assertThat(provisioning.step().rejected()).containsOnlyKeys(key(1));
 
         assertThat(agent.deviceIds()).containsExactlyInAnyOrder(id(2), id(3), id(4));
     }
 
     @Test
-    void provisionsTheOthersThoughTheAgentFailsOnOneDevice() throws Exception {
+    void provisionsTheOthersIfTheAgentFailsOnOneDevice() throws Exception {
         addDesired(3);
         agent.broken.add(id(1));
 
         Outcome outcome = provisioning.step();
 
         assertThat(outcome.done()).isTrue();
-        assertThat(outcome.refused()).containsOnlyKeys(key(1));
-        assertThat(outcome.refused().get(key(1))).contains("500", "cannot make");
+        assertThat(outcome.rejected()).containsOnlyKeys(key(1));
+        assertThat(outcome.rejected().get(key(1))).contains("500", "cannot make");
         assertThat(agent.deviceIds()).containsExactlyInAnyOrder(id(2), id(3));
 
         agent.broken.clear();
@@ -76,7 +76,7 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
 
     @ParameterizedTest
     @ValueSource(ints = {401, 403, 407})
-    void rejectsNoDeviceForAnAnswerOfAProxy(int status) throws Exception {
+    void doesNotRejectADeviceBecauseOfAProxysAnswer(int status) throws Exception {
         addDesired(1);
         agent.proxy = status;
         assertThatThrownBy(provisioning::step)
@@ -84,12 +84,12 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
                 .hasMessageContaining(Integer.toString(status));
 
         agent.proxy = 0;
-        assertThat(provisioning.step().refused()).isEmpty();
+        assertThat(provisioning.step().rejected()).isEmpty();
         assertThat(agent.devices).containsKey(id(1));
     }
 
     @Test
-    void isAwayWhenItFailsOnAllDevices() {
+    void treatsAnAgentThatFailsOnAllDevicesAsUnavailable() {
         addDesired(3);
         agent.broken.addAll(List.of(id(1), id(2), id(3)));
 
@@ -97,7 +97,7 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
     }
 
     @Test
-    void getsALargeMissionThroughAnAgentThatMakesFewDevicesInTime() throws Exception {
+    void provisionsALargeMissionAtASlowAgent() throws Exception {
         addDesired(60);
         agent.most = 4;
         int failures = 0;
@@ -119,7 +119,7 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
     }
 
     @Test
-    void removesTheOthersThoughTheAgentFailsOnOneDevice() throws Exception {
+    void removesTheOthersIfTheAgentFailsOnOneDevice() throws Exception {
         List<DesiredDevice> devices = addDesired(3);
         provisioning.step();
         devices.forEach(device -> desired.take(device.version().key(), null));
@@ -128,7 +128,7 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
         Outcome outcome = provisioning.step();
 
         assertThat(outcome.done()).isTrue();
-        assertThat(outcome.stuck()).contains("500", "cannot remove");
+        assertThat(outcome.removalFailure()).contains("500", "cannot remove");
         assertThat(agent.deviceIds()).containsExactly(id(1));
         assertThat(agent.groups).containsOnlyKeys(GROUP);
 
@@ -137,9 +137,9 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
         assertThat(agent.groups).isEmpty();
     }
 
-    /** Time passes in requests only: three seconds in each. */
+    /** Advances the time by three seconds in each request. */
     @Test
-    void removesManySlowDevicesInStepsThatLeaveTimeToPoll() throws Exception {
+    void removesManyDevicesOfASlowAgentInShortSteps() throws Exception {
         clock = passed::get;
         provisioning = provisioning();
         List<DesiredDevice> devices = addDesired(100);
@@ -166,7 +166,7 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
 
     @ParameterizedTest
     @ValueSource(strings = {"<html>not an agent</html>", "{}", "{\"count\": 1, \"devices\": {}}", "[]"})
-    void changesNothingWhileTheAgentAnswersWhatItCannotRead(String garbage) throws Exception {
+    void changesNothingWhileTheAgentsAnswersAreUnreadable(String garbage) throws Exception {
         addDesired(2);
         provisioning.step();
         desired.take(key(1), null);
@@ -183,7 +183,7 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
 
     @Test
     @Timeout(value = 60, threadMode = Timeout.ThreadMode.SEPARATE_THREAD)
-    void readsAsManyGroupsAsAPageHolds() throws Exception {
+    void readsAFullPageOfGroups() throws Exception {
         for (int i = 0; i < 500; i++) {
             agent.groups.put(
                     FakeAgent.key("/iot/json", "k" + i),
@@ -195,7 +195,7 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
     }
 
     @Test
-    void rejectsADeviceOfTheDefaultTenantWithoutHarmToOthers() throws Exception {
+    void rejectsOnlyDevicesOfTheDefaultTenant() throws Exception {
         addDesired(1);
         DesiredDevice device = DesiredDeviceFixture.thermometer("old", 1);
         DeviceVersion of = device.version();
@@ -208,8 +208,8 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
         Outcome outcome = provisioning.step();
 
         assertThat(outcome.done()).isTrue();
-        assertThat(outcome.refused()).containsOnlyKeys(version.key());
-        assertThat(outcome.refused().get(version.key())).contains("needs a tenant", "--fiware-service");
+        assertThat(outcome.rejected()).containsOnlyKeys(version.key());
+        assertThat(outcome.rejected().get(version.key())).contains("needs a tenant", "--fiware-service");
         assertThat(agent.deviceIds()).containsExactly(id(1));
         assertThat(agent.services).containsExactly("farm");
     }

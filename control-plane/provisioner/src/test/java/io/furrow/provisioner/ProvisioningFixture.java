@@ -26,7 +26,7 @@ import io.furrow.provisioner.account.MqttAccounts;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** A provisioner in a test's hands: what is requested, and what the agent and the MQTT brokers are told. */
+/** Runs a provisioner with desired devices, an agent and accounts under the control of a test. */
 abstract class ProvisioningFixture {
     static final Outcome DONE = new Outcome(Map.of(), null, null, true);
     /** The Kafka whose devices were provisioned before. */
@@ -36,11 +36,11 @@ abstract class ProvisioningFixture {
 
     final DesiredDeviceTable desired = new DesiredDeviceTable(DesiredDeviceFixture.SCOPE);
     final InMemoryAccounts accounts = new InMemoryAccounts();
-    /** How many accounts there were after each change. */
+    /** Number of accounts after each change. */
     final List<Integer> counts = new ArrayList<>();
 
     final Map<String, String> refused = new HashMap<>();
-    /** How much later it is than by the clock. */
+    /** Offset to the system clock. */
     final AtomicLong passed = new AtomicLong();
 
     LongSupplier clock = () -> System.nanoTime() + passed.get();
@@ -61,9 +61,9 @@ abstract class ProvisioningFixture {
     }
 
     ProvisioningReconciler provisioning(ProvisioningSettings settings, RemovalGuard.Origin origin) {
-        ProvisioningReconciler begun = new ProvisioningReconciler(settings, desired, () -> clock.getAsLong());
-        begun.startAnew(origin);
-        return begun;
+        ProvisioningReconciler started = new ProvisioningReconciler(settings, desired, () -> clock.getAsLong());
+        started.reset(origin);
+        return started;
     }
 
     ProvisioningSettings settings(SecretSource secret, boolean gateways) {
@@ -80,7 +80,7 @@ abstract class ProvisioningFixture {
         desired.take(device.version().key(), device);
     }
 
-    /** The next step asks the agent again, so late that an answer as before counts. */
+    /** Refreshes, and advances the time so that an unchanged answer of the agent counts. */
     void stepLater() {
         passed.addAndGet(ProvisioningReconciler.AGREEMENT.toNanos());
         provisioning.refresh();
@@ -90,7 +90,7 @@ abstract class ProvisioningFixture {
         return accounts.authenticates(login.user(), login.password().getBytes(UTF_8));
     }
 
-    /** Counts accounts at each change, and refuses users that somebody else has. */
+    /** Counts accounts at each change, and rejects foreign users. */
     private final class Counted implements MqttAccounts {
         private final Set<String> users = new HashSet<>();
 

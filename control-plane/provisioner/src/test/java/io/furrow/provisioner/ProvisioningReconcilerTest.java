@@ -23,7 +23,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class ProvisioningReconcilerTest extends ProvisioningFixture {
 
     @Test
-    void provisionsTheDevicesOfAMissionUnderItsKeyWithItsNameInEveryMeasure() throws Exception {
+    void provisionsDevicesWithTheKeyAndNameOfTheirMission() throws Exception {
         addDesired(DesiredDeviceFixture.thermometer("hoeing", 1));
         addDesired(DesiredDeviceFixture.device("WeatherStation", "hoeing", "station", 1));
 
@@ -49,7 +49,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     }
 
     @Test
-    void leavesRobotsAndWhatReportsByItselfAlone() throws Exception {
+    void skipsSimulatedRobotsAndDevicesListedByIdOnly() throws Exception {
         addDesired(DesiredDeviceFixture.device("Robot", "hoeing", "robot", 1));
         addDesired(DesiredDevice.simulated(
                 DesiredDeviceFixture.thermometer("hoeing", 1).version(),
@@ -66,7 +66,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     }
 
     @Test
-    void givesEachDeviceAnAccountOnceTheAgentHasIt() throws Exception {
+    void grantsEachDeviceAnAccountOnceTheAgentHasIt() throws Exception {
         addDesired(DesiredDeviceFixture.thermometer("hoeing", 1));
         addDesired(DesiredDeviceFixture.thermometer("hoeing", 2));
         agent.unavailable = true;
@@ -86,7 +86,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     }
 
     @Test
-    void givesMissionsAGatewayOnlyWhereOneIsUsed() throws Exception {
+    void grantsGatewayAccountsOnlyIfConfigured() throws Exception {
         addDesired(DesiredDeviceFixture.thermometer("hoeing", 1));
         String gateway = SECRET.gateway("hoeing").user();
         provisioning.step();
@@ -100,7 +100,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     }
 
     @Test
-    void removesWhatIsStoppedAndWhatIsDeleted() throws Exception {
+    void removesStoppedAndDeletedDevices() throws Exception {
         DesiredDevice first = DesiredDeviceFixture.thermometer("hoeing", 1);
         DesiredDevice second = DesiredDeviceFixture.thermometer("weeding", 1);
         addDesired(first);
@@ -123,7 +123,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     }
 
     @Test
-    void changesNothingAfterARestartButLeftoversOfItsOwn() throws Exception {
+    void removesOnlyItsOwnLeftoversAfterARestart() throws Exception {
         addDesired(DesiredDeviceFixture.thermometer("hoeing", 1));
         addDesired(DesiredDeviceFixture.thermometer("gone", 1));
         provisioning.step();
@@ -144,7 +144,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     }
 
     @Test
-    void provisionsAnewWhatTheAgentHasOtherwise() throws Exception {
+    void replacesRegistrationsThatDiffer() throws Exception {
         addDesired(DesiredDeviceFixture.device("Thermometer", "hoeing", "d", 1));
         provisioning.step();
         addDesired(DesiredDeviceFixture.device("Camera", "hoeing", "d", 2));
@@ -155,18 +155,19 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     }
 
     @Test
-    void rejectsADeviceThatSomebodyElseHasProvisioned() throws Exception {
+    void rejectsAForeignDevice() throws Exception {
         agent.devices.put(
                 "d", JsonNodeFactory.instance.objectNode().put("device_id", "d").put("apikey", "secret"));
         DesiredDevice device = DesiredDeviceFixture.device("Thermometer", "hoeing", "d", 1);
         addDesired(device);
 
-        assertThat(provisioning.step().refused().get(device.version().key())).contains("somebody else has provisioned");
+        assertThat(provisioning.step().rejected().get(device.version().key()))
+                .contains("somebody else has provisioned");
         assertThat(agent.devices.get("d").path("apikey").asText()).isEqualTo("secret");
     }
 
     @Test
-    void makesTheOthersOfABatchThoughTheAgentRejectsSome() throws Exception {
+    void createsTheOthersOfABatchIfTheAgentRejectsSome() throws Exception {
         for (int i = 1; i <= 250; i++) {
             addDesired(DesiredDeviceFixture.thermometer("hoeing", i));
             if (i <= 120) {
@@ -180,7 +181,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         }
 
         assertThat(outcome.done()).isTrue();
-        assertThat(outcome.refused())
+        assertThat(outcome.rejected())
                 .hasSize(120)
                 .allSatisfy((key, reason) -> assertThat(reason).contains("422", "not urn"));
         assertThat(agent.deviceIds()).hasSize(130);
@@ -195,7 +196,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     }
 
     @Test
-    void takesNoAccountAwayWhileAnAgentThatHasLostItsMemoryLearns() throws Exception {
+    void retainsAccountsWhileLostRegistrationsAreRestored() throws Exception {
         for (int i = 1; i <= 250; i++) {
             addDesired(DesiredDeviceFixture.thermometer("hoeing", i));
         }
@@ -215,13 +216,13 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     }
 
     @Test
-    void reportsForADeviceThatSomebodyElseHasItsUser() throws Exception {
+    void reportsADeviceWhoseUserIsForeign() throws Exception {
         DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
         addDesired(device);
         addDesired(DesiredDeviceFixture.thermometer("hoeing", 2));
         refused.put(SECRET.device("hoeing", device.device()).user(), "somebody else's");
 
-        assertThat(provisioning.step().refused())
+        assertThat(provisioning.step().rejected())
                 .containsExactly(Map.entry(device.version().key(), "somebody else's"));
 
         refused.clear();
@@ -230,7 +231,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     }
 
     @Test
-    void mapsTheNamesThatRealDevicesSendAndFixesTheirPlace() throws Exception {
+    void mapsAttributeNamesOfRealDevicesAndSetsTheirPlace() throws Exception {
         ObjectNode settings = (ObjectNode) NgsiJson.mapper().readTree("""
                 {"at": {"latitude": 40.3, "longitude": -3.5}, "attributes": [
                   {"object_id": "t", "name": "Temperature", "unit": "CEL"}, {"object_id": "ph", "name": "Acidity", "type": "Float"}]}""");

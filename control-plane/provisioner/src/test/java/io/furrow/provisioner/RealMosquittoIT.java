@@ -15,7 +15,7 @@ import io.furrow.containers.PinnedService;
 
 import static org.junit.jupiter.api.Assumptions.abort;
 
-/** The written files in Mosquitto, in the image of {@code docker/compose.yaml} and with the script and settings that it runs there. */
+/** Uses the written files with the image, script and settings of Mosquitto in {@code docker/compose.yaml}. */
 @Tag("containers")
 class RealMosquittoIT extends MosquittoIT {
     private static final String NO_ENGINE =
@@ -35,7 +35,7 @@ class RealMosquittoIT extends MosquittoIT {
     @Override
     ProvisionedMosquitto start(Path folder) throws Exception {
         ProvisionedMosquitto.writeAgent(folder);
-        // For whoever runs the tests as root; Mosquitto would become a user who may not read their files.
+        // If the tests run as root, Mosquitto would switch to a user that may not read their files.
         Files.writeString(
                 folder.resolve("mosquitto.conf"), Files.readString(SCRIPTS.resolve("mosquitto.conf")) + "user root\n");
         String user = Files.getAttribute(folder, "unix:uid").toString();

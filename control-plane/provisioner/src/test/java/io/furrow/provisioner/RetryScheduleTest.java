@@ -27,25 +27,25 @@ class RetryScheduleTest {
     }
 
     @Test
-    void hurriesForWhatIsNewButNotWhereItFails() {
-        retrySchedule.rest();
+    void runsNewRequestsImmediatelyUnlessStepsFail() {
+        retrySchedule.succeeded();
         assertThat(retrySchedule.isDue()).isFalse();
-        retrySchedule.hurry();
+        retrySchedule.requested();
         assertThat(retrySchedule.isDue()).isTrue();
 
         retrySchedule.failed();
-        retrySchedule.hurry();
+        retrySchedule.requested();
         assertThat(retrySchedule.isDue()).isFalse();
     }
 
     @Test
-    void refreshesOnceAfterAFailureOrARest() {
+    void refreshesOnceAfterAFailureOrACompleteCheck() {
         assertThat(retrySchedule.isRefreshDue()).isFalse();
         retrySchedule.failed();
         assertThat(retrySchedule.isRefreshDue()).isTrue();
-        retrySchedule.goOn();
+        retrySchedule.runNow();
         assertThat(retrySchedule.isRefreshDue()).isFalse();
-        retrySchedule.rest();
+        retrySchedule.succeeded();
         assertThat(retrySchedule.isRefreshDue()).isTrue();
     }
 }

@@ -36,7 +36,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
-/** The farm's secret is rotated while devices are connected to a real Mosquitto and the provisioner is at work. */
+/** Rotates the farm's secret while devices are connected to a real Mosquitto and the provisioner is running. */
 @Tag("full")
 class RotationIT {
     private static final Duration ACCEPTED = Duration.ofDays(30);
@@ -83,15 +83,15 @@ class RotationIT {
     }
 
     @Test
-    void acceptsOldAndNewPasswordsUntilTheTimeIsOver() throws Exception {
-        MqttPeer moved = open(broker.comesIn(old.device("hoeing", first.device())));
-        MqttPeer late = open(broker.comesIn(old.device("hoeing", second.device())));
+    void acceptsOldAndNewPasswordsUntilTheOldKeyExpires() throws Exception {
+        MqttPeer moved = open(broker.connectOnceAccepted(old.device("hoeing", first.device())));
+        MqttPeer late = open(broker.connectOnceAccepted(old.device("hoeing", second.device())));
         List<String> provisioning = List.copyOf(iotAgent.changes);
         String measures = "/" + old.apiKey("hoeing") + "/" + first.device() + "/attrs";
 
         FarmSecret rotated = rotate(old);
 
-        MqttPeer renewed = open(broker.comesIn(rotated.device("hoeing", first.device())));
+        MqttPeer renewed = open(broker.connectOnceAccepted(rotated.device("hoeing", first.device())));
         renewed.publish(measures, "new");
         await().until(() -> agent.newest(measures).equals("new"));
         moved.publish(measures, "old");
@@ -112,29 +112,29 @@ class RotationIT {
     }
 
     @Test
-    void givesOneDeviceANewPasswordAndLeavesTheOthers() throws Exception {
-        MqttPeer thief = open(broker.comesIn(old.device("hoeing", first.device())));
-        MqttPeer other = open(broker.comesIn(old.device("hoeing", second.device())));
+    void givesOneDeviceANewPasswordWithoutAffectingOthers() throws Exception {
+        MqttPeer thief = open(broker.connectOnceAccepted(old.device("hoeing", first.device())));
+        MqttPeer other = open(broker.connectOnceAccepted(old.device("hoeing", second.device())));
 
         put(first.withGeneration(1));
 
         await().until(() -> !thief.isConnected());
-        broker.comesIn(old.device("hoeing", first.device(), 1)).close();
+        broker.connectOnceAccepted(old.device("hoeing", first.device(), 1)).close();
         assertThatThrownBy(() -> broker.connect(old.device("hoeing", first.device()), "thief"))
                 .isInstanceOf(MqttException.class);
         assertThat(other.isConnected()).isTrue();
     }
 
     @Test
-    void retainsEverythingAsItIsWhereTheFileIsReplacedByAnothersSecret() throws Exception {
-        MqttPeer device = open(broker.comesIn(old.device("hoeing", first.device())));
+    void retainsTheSecretIfTheFileIsReplacedByThatOfAnotherFarm() throws Exception {
+        MqttPeer device = open(broker.connectOnceAccepted(old.device("hoeing", first.device())));
         Files.writeString(file, FarmSecretCodec.write(FarmSecret.generate()));
         await().untilAsserted(() -> assertThat(secret.problem())
                 .hasValueSatisfying(why -> assertThat(why).contains("this farm has another secret")));
         DesiredDevice third = DesiredDeviceFixture.thermometer("hoeing", 3);
         put(third);
 
-        MqttPeer added = open(broker.comesIn(old.device("hoeing", third.device())));
+        MqttPeer added = open(broker.connectOnceAccepted(old.device("hoeing", third.device())));
 
         assertThat(added.isConnected()).isTrue();
         assertThat(device.isConnected()).isTrue();

@@ -17,7 +17,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class SecretRotationTest extends ProvisioningFixture {
 
     @Test
-    void acceptsOldAndNewPasswordsWhileASecretIsRotatedAndDoesNotProvisionAnew() throws Exception {
+    void acceptsOldAndNewPasswordsDuringARotationWithoutProvisioningAgain() throws Exception {
         Secret secret = new Secret();
         provisioning = provisioning(settings(secret, false), SAME);
         DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
@@ -44,7 +44,7 @@ class SecretRotationTest extends ProvisioningFixture {
     }
 
     @Test
-    void movesWhatHasAnApiKeyOfAnOlderKeyAndLeavesWhatOthersHave() throws Exception {
+    void replacesApiKeysOfAnOlderKeyAndRetainsForeignOnes() throws Exception {
         Secret secret = new Secret();
         DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
         addDesired(device);
@@ -72,7 +72,7 @@ class SecretRotationTest extends ProvisioningFixture {
 
     /** A stolen device must not wait for an agent. */
     @Test
-    void rejectsAnOldPasswordThoughTheAgentIsUnavailable() throws Exception {
+    void rejectsAnOldPasswordWhileTheAgentIsUnavailable() throws Exception {
         DesiredDevice stolen = DesiredDeviceFixture.thermometer("hoeing", 1);
         DesiredDevice other = DesiredDeviceFixture.thermometer("hoeing", 2);
         addDesired(stolen);
@@ -97,7 +97,7 @@ class SecretRotationTest extends ProvisioningFixture {
     }
 
     @Test
-    void doesNothingWithASecretThatIsNotTheFarms() throws Exception {
+    void changesNothingWithTheSecretOfAnotherFarm() throws Exception {
         addDesired(DesiredDeviceFixture.thermometer("hoeing", 1));
         provisioning.step();
         agent.changes.clear();
@@ -115,7 +115,7 @@ class SecretRotationTest extends ProvisioningFixture {
                 .isTrue();
     }
 
-    /** The farm's secret, as long as nobody says that it is not. */
+    /** A secret that can be replaced, and marked as that of another farm. */
     private static final class Secret implements SecretSource {
         private FarmSecret current = SECRET;
         private String foreign;

@@ -3,14 +3,14 @@ package io.furrow.control;
 import java.io.IOException;
 
 /**
- * The three managers in this JVM. Several instances of the same settings share the work: the managers of domains and of missions
- * are one task, that of replays another; what an instance had when it died another takes over.
+ * Runs the three managers in this JVM. Several instances with the same settings share the work: the managers of domains
+ * and missions are one task, that of replays another. When an instance fails, another takes over its tasks.
  */
 public final class ControlPlane extends StreamsApplication {
     private ControlPlane(ControlSettings settings) {
         super(
                 "managers",
-                () -> ControlTopology.of(settings.remembered(), settings.missions(), settings.replays()),
+                () -> ControlTopology.of(settings.requestRetention(), settings.missions(), settings.replays()),
                 settings.streams());
     }
 

@@ -12,37 +12,38 @@ import io.furrow.model.control.Limits;
 import io.furrow.model.event.FiwareScope;
 
 /**
- * What the control plane is started with.
+ * Settings of the control plane.
  *
- * @param client settings of Kafka clients, {@code bootstrap.servers} among them
- * @param standbyReplicas how many further instances hold a copy of all state, ready to take over; 0 with a single instance
- * @param replicationFactor of the topics that it makes; -1 for the broker's default
- * @param remembered how long ids of requests are, so that a second request of the same id has no effect
- * @param missions how missions are run
- * @param replays how replays are managed
+ * @param client settings of Kafka clients, including {@code bootstrap.servers}
+ * @param standbyReplicas number of further instances with a copy of all state, ready to take over; 0 with a single
+ *     instance
+ * @param replicationFactor of the topics that it creates; -1 for the broker's default
+ * @param requestRetention how long ids of requests are stored for deduplication
+ * @param missions settings of missions
+ * @param replays settings of replays
  */
 public record ControlSettings(
         Properties client,
         int standbyReplicas,
         short replicationFactor,
-        Duration remembered,
+        Duration requestRetention,
         MissionSettings missions,
         ReplaySettings replays) {
-    /** Name of the group, first part of the names of its topics, of which state is rebuilt: never changed. */
+    /** Name of the consumer group and prefix of its internal topics, from which state is rebuilt: never changed. */
     static final String APPLICATION = "furrow-control-plane";
 
-    /** A rebalance waits no longer for a member that does not join; the default of five minutes is as long as nobody would be answered. */
+    /** Maximum time that a rebalance waits for a member; requests are not answered meanwhile. The default is five minutes. */
     private static final Duration REBALANCE_TIMEOUT = Duration.ofSeconds(60);
 
     private static final Duration TAKEN_OVER_AFTER = Duration.ofSeconds(10);
 
     /**
-     * The first batch of a transaction may be refused for as long as the broker still writes the markers of the one before; a second
-     * in flight behind it would then come out of order, which broker and client log as an error before they try again.
+     * The broker may reject the first batch of a transaction while it still writes the markers of the previous one. A
+     * second batch in flight would then arrive out of order, which broker and client log as an error before they retry.
      */
     private static final int IN_FLIGHT = 1;
 
-    /** One instance; requests are remembered for an hour, devices have a minute to come up. */
+    /** Returns settings for a single instance: request ids are stored for an hour, devices have a minute to come up. */
     public static ControlSettings of(Properties client) {
         return new ControlSettings(
                 client,
@@ -54,19 +55,19 @@ public record ControlSettings(
     }
 
     public ControlSettings with(MissionSettings newMissions) {
-        return new ControlSettings(client, standbyReplicas, replicationFactor, remembered, newMissions, replays);
+        return new ControlSettings(client, standbyReplicas, replicationFactor, requestRetention, newMissions, replays);
     }
 
     public ControlSettings withStandbyReplicas(int replicas) {
-        return new ControlSettings(client, replicas, replicationFactor, remembered, missions, replays);
+        return new ControlSettings(client, replicas, replicationFactor, requestRetention, missions, replays);
     }
 
     public ControlSettings withReplicationFactor(short factor) {
-        return new ControlSettings(client, standbyReplicas, factor, remembered, missions, replays);
+        return new ControlSettings(client, standbyReplicas, factor, requestRetention, missions, replays);
     }
 
     public ControlSettings with(ReplaySettings newReplays) {
-        return new ControlSettings(client, standbyReplicas, replicationFactor, remembered, missions, newReplays);
+        return new ControlSettings(client, standbyReplicas, replicationFactor, requestRetention, missions, newReplays);
     }
 
     Properties streams() {

@@ -12,16 +12,16 @@ import io.furrow.control.mission.MissionSettings;
 import io.furrow.control.replay.ReplayManager;
 import io.furrow.control.replay.ReplaySettings;
 
-/** The three managers as one topology of Kafka Streams. */
+/** Builds the topology of the three managers. */
 final class ControlTopology {
     private ControlTopology() {}
 
     /**
-     * @param remembered how long ids of requests are
-     * @param replays how they are managed
+     * @param requestRetention how long ids of requests are stored for deduplication
+     * @param replays settings of replays
      */
-    static Topology of(Duration remembered, MissionSettings missions, ReplaySettings replays) {
-        ManagerTopology topology = new ManagerTopology(remembered);
+    static Topology of(Duration requestRetention, MissionSettings missions, ReplaySettings replays) {
+        ManagerTopology topology = new ManagerTopology(requestRetention);
         topology.addStores(DomainManager.stores());
         topology.addStores(MissionManager.stores());
 

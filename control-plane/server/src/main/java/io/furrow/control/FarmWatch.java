@@ -10,11 +10,12 @@ import io.furrow.control.alarm.action.AlarmActions;
 import io.furrow.kafka.ComponentStatus;
 
 /**
- * Watches the farm in this JVM: health of devices, alarms, the entities of domains and missions. It is an application of its
- * own, so that managers answer whatever devices report. Several instances share the work as those of {@link ControlPlane} do.
+ * Watches the farm in this JVM: health of devices, alarms, the entities of domains and missions. It is a separate
+ * application, so that the load of device reports does not delay the managers. Several instances share the work as
+ * those of {@link ControlPlane} do.
  */
 public final class FarmWatch extends StreamsApplication {
-    /** Name of the group, first part of the names of its topics, of which state is rebuilt: never changed. */
+    /** Name of the consumer group and prefix of its internal topics, from which state is rebuilt: never changed. */
     static final String APPLICATION = "furrow-farm-watch";
 
     private final AlarmActions actions;
@@ -23,15 +24,18 @@ public final class FarmWatch extends StreamsApplication {
         super(
                 "farm watch",
                 () -> WatchTopology.of(
-                        settings.remembered(), options, settings.missions().scope()),
+                        settings.requestRetention(),
+                        options,
+                        settings.missions().scope()),
                 streams);
         this.actions = actions;
     }
 
     /**
-     * Makes the topics that are missing and starts.
+     * Creates the missing topics and starts.
      *
-     * @throws IOException if the topics cannot be prepared, or the webhook's secret not be used; the message says what to do
+     * @throws IOException if the topics cannot be prepared or the webhook's secret cannot be used; the message says
+     *     what to do
      */
     public static FarmWatch start(ControlSettings settings, WatchOptions options) throws IOException {
         ServiceTopics.prepare(settings);
@@ -53,7 +57,7 @@ public final class FarmWatch extends StreamsApplication {
         return super.status().named("farmWatch");
     }
 
-    /** How it is with each thread that acts on alarms, for a health page. */
+    /** Returns the status of each thread that acts on alarms, for a health page. */
     public List<ComponentStatus> workers() {
         return actions.workers();
     }

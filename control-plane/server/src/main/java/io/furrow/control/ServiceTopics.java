@@ -26,9 +26,9 @@ import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
- * The topics that the control plane reads and writes. Requests are kept for the broker's retention and stamped by the broker; what
- * is requested and what is are compacted, one partition each, so that nothing overtakes. Topics of data that are missing are made
- * with the broker's number of partitions.
+ * Creates the topics that the control plane reads and writes. Topics of requests have the broker's retention and
+ * timestamps; topics of desired and actual state are compacted. All have one partition, so that records stay in order.
+ * Missing topics of data are created with the broker's number of partitions.
  */
 public final class ServiceTopics {
     private static final long TIMEOUT_SECONDS = 30;
@@ -57,15 +57,15 @@ public final class ServiceTopics {
             Topics.ALARMS,
             Topics.ALARMS_DELIVERED,
             Topics.SECRETS);
-    /** A year; whoever wants another time alters the topic, which then stays so. */
+    /** A year; an existing topic is not altered, so that users can change its retention. */
     private static final Map<String, String> LONG_RETENTION =
             Map.of(POLICY, "delete", "retention.ms", Long.toString(TimeUnit.DAYS.toMillis(365)));
-    /** Written by others, or read by others: made as jobs make them, never altered. */
+    /** Topics shared with jobs: created like the jobs do, never altered. */
     private static final List<String> DATA =
             List.of(Topics.RAW, Topics.COLLISION, Topics.TEMPERATURE, Topics.CLOCKS, Topics.CONTEXT);
 
-    /** For what could not be read of topics that the control plane reads. */
-    private static final List<String> DEAD = Stream.of(
+    /** Dead letters of the topics that the control plane reads. */
+    private static final List<String> DEAD_LETTERS = Stream.of(
                     REQUESTS,
                     DATA,
                     List.of(
@@ -83,10 +83,10 @@ public final class ServiceTopics {
     private ServiceTopics() {}
 
     /**
-     * Makes those that are missing. Of those that are there, as a client makes them by asking first, the cleanup policy and the
-     * limits are put right: else the broker would delete what is requested, or take records that nobody can handle.
+     * Creates the missing topics. On existing ones, which a client may have created implicitly, it sets cleanup policy
+     * and limits: else the broker would delete desired state, or accept records that are too large to be handled.
      *
-     * @throws IOException if Kafka does not answer or refuses
+     * @throws IOException if Kafka does not respond or denies access
      */
     public static void prepare(ControlSettings settings) throws IOException {
         try (Admin admin = Admin.create(settings.client())) {
@@ -115,14 +115,15 @@ public final class ServiceTopics {
         REQUESTS.forEach(name -> desired.add(topic(name, settings, requestConfigs())));
         COMPACTED.forEach(name -> desired.add(topic(name, settings, stateConfigs(name))));
         desired.add(topic(Topics.AUDIT, settings, LONG_RETENTION));
-        desired.add(topic(Topics.FIELDS, settings, Map.of(POLICY, "compact"))); // as an import makes it, never altered
-        Stream.concat(DATA.stream(), DEAD.stream())
+        desired.add(topic(
+                Topics.FIELDS, settings, Map.of(POLICY, "compact"))); // created like an import does, never altered
+        Stream.concat(DATA.stream(), DEAD_LETTERS.stream())
                 .forEach(name -> desired.add(
                         topic(name, settings, Map.of(MAX_BYTES, Integer.toString(Limits.DEAD_LETTER_BYTES)))));
         return desired;
     }
 
-    /** A broker learns of a topic some time after it was made, and who reads before that finds none. */
+    /** Waits until the broker lists the topics, because its metadata lags behind their creation. */
     private static void awaitMetadata(Admin admin, List<String> names)
             throws ExecutionException, InterruptedException, TimeoutException {
         long end = System.nanoTime() + TimeUnit.SECONDS.toNanos(TIMEOUT_SECONDS);
@@ -131,7 +132,7 @@ public final class ServiceTopics {
                 .get(TIMEOUT_SECONDS, TimeUnit.SECONDS)
                 .containsAll(names)) {
             if (System.nanoTime() > end) {
-                throw new TimeoutException("the broker does not know of all topics that were made");
+                throw new TimeoutException("the broker does not list all topics that were created");
             }
             TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MILLIS);
         }
@@ -145,8 +146,9 @@ public final class ServiceTopics {
     }
 
     /**
-     * The time of the broker, because the control plane distinguishes old requests from new ones by it. Uncompressed, because the broker then
-     * measures records as a manager will see them: a megabyte may hold a gigabyte.
+     * Timestamps are those of the broker, because the control plane uses them to tell old requests from new ones.
+     * Records are uncompressed, so that the broker's limit applies to the size that a manager will see: a compressed
+     * megabyte may contain a gigabyte.
      */
     private static Map<String, String> requestConfigs() {
         return Map.of(
@@ -160,7 +162,7 @@ public final class ServiceTopics {
                 Integer.toString(Limits.MESSAGE_BYTES));
     }
 
-    /** A segment that is written to is not compacted: that of replays' statuses, two a second of each, is a short one. */
+    /** Segments of replay statuses, two per second and replay, are small, because the active segment is not compacted. */
     private static Map<String, String> stateConfigs(String topic) {
         Map<String, String> configs = new LinkedHashMap<>();
         configs.put(POLICY, "compact");
@@ -182,12 +184,12 @@ public final class ServiceTopics {
         all.put(new ConfigResource(ConfigResource.Type.TOPIC, topic), changes);
     }
 
-    private static void await(KafkaFuture<Void> done, boolean mayBeThere)
+    private static void await(KafkaFuture<Void> done, boolean mayExist)
             throws ExecutionException, InterruptedException, TimeoutException {
         try {
             done.get(TIMEOUT_SECONDS, TimeUnit.SECONDS);
         } catch (ExecutionException e) {
-            if (!mayBeThere || !(e.getCause() instanceof TopicExistsException)) {
+            if (!mayExist || !(e.getCause() instanceof TopicExistsException)) {
                 throw e;
             }
         }

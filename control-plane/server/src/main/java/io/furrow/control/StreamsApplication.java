@@ -24,15 +24,15 @@ import io.furrow.model.text.FailureText;
 import io.furrow.model.time.Backoff;
 
 /**
- * Runs a topology in this JVM, alone or as one of several instances, and keeps it running: a thread that loses Kafka is replaced, and
- * where a client ends for another reason a new one is started, after a pause that grows from one second to one minute.
+ * Runs a topology in this JVM, alone or as one of several instances, and keeps it running: a thread that loses Kafka is
+ * replaced, and a client that fails for another reason is replaced after a backoff of one second to one minute.
  */
 public class StreamsApplication implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(StreamsApplication.class);
     private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(30);
     private static final Duration MIN_BACKOFF = Duration.ofSeconds(1);
     private static final Duration MAX_BACKOFF = Duration.ofMinutes(1);
-    /** A client that ran for this long begins with the first pause again. */
+    /** The backoff is reset if the client ran for this long. */
     private static final Duration STABLE = Duration.ofMinutes(5);
 
     private final String name;
@@ -44,10 +44,10 @@ public class StreamsApplication implements AutoCloseable {
     private Instant started;
     private final Backoff backoff = new Backoff(MIN_BACKOFF, MAX_BACKOFF);
     private boolean closed;
-    /** Whether a start is scheduled: a client may say that it failed while its start does. */
-    private boolean startsLater;
+    /** Whether a start is scheduled; a client may report a failure and its start may fail too. */
+    private boolean startScheduled;
 
-    /** @param name for people, as in {@code control plane} */
+    /** @param name human-readable, as in {@code control plane} */
     StreamsApplication(String name, Supplier<Topology> topology, Properties settings) {
         this.name = name;
         this.topology = topology;
@@ -55,7 +55,7 @@ public class StreamsApplication implements AutoCloseable {
         this.supervisor = Executors.newSingleThreadScheduledExecutor(DaemonThreads.named(name + " supervisor"));
     }
 
-    /** Blocks until it has what all instances hold, and must not keep others from closing this. */
+    /** Blocks until the global stores are restored, therefore without the lock that {@link #close} needs. */
     final void startClient() {
         KafkaStreams fresh = newClient();
         if (fresh != null) {
@@ -63,7 +63,7 @@ public class StreamsApplication implements AutoCloseable {
         }
     }
 
-    /** Null once this is closed. */
+    /** Creates a client; null if this is closed. */
     private synchronized KafkaStreams newClient() {
         if (closed) {
             return null;
@@ -83,31 +83,31 @@ public class StreamsApplication implements AutoCloseable {
         return fresh;
     }
 
-    /** Not on a thread of the client, which its close waits for. */
+    /** Must not run on a thread of the client, because the client's close waits for its threads. */
     private void replaceClient() {
         streams.close(CLOSE_TIMEOUT);
-        startLater();
+        scheduleStart();
     }
 
-    private void startLater() {
+    private void scheduleStart() {
         Duration pause;
         synchronized (this) {
-            if (closed || startsLater) {
+            if (closed || startScheduled) {
                 return;
             }
-            startsLater = true;
+            startScheduled = true;
             if (started.plus(STABLE).isBefore(Instant.now())) {
                 backoff.reset();
             }
             pause = backoff.next();
         }
         LOG.warn("the {} restarts in {} s", name, pause.toSeconds());
-        supervisor.schedule(this::startAgain, pause.toMillis(), TimeUnit.MILLISECONDS);
+        supervisor.schedule(this::restart, pause.toMillis(), TimeUnit.MILLISECONDS);
     }
 
-    private void startAgain() {
+    private void restart() {
         synchronized (this) {
-            startsLater = false;
+            startScheduled = false;
         }
         try {
             startClient();
@@ -119,8 +119,8 @@ public class StreamsApplication implements AutoCloseable {
     }
 
     /**
-     * Kafka being unavailable is not a fault of ours, nor that a broker does not yet know of a topic that was made a moment ago; after anything
-     * else the state of this client is not trusted.
+     * Replaces the thread if Kafka is unavailable or the broker does not list a new topic yet; after any other failure
+     * the whole client is replaced, because its state may be inconsistent.
      */
     private StreamThreadExceptionResponse onFailure(Throwable cause) {
         failure = FailureText.of(cause);
@@ -134,25 +134,25 @@ public class StreamsApplication implements AutoCloseable {
         return StreamThreadExceptionResponse.SHUTDOWN_CLIENT;
     }
 
-    /** Whether it runs, and has its state, not being about to rebuild or to hand it over. */
+    /** Whether it is running with its state restored, outside of a rebalance. */
     public final boolean isHealthy() {
         return streams.state() == KafkaStreams.State.RUNNING;
     }
 
-    /** For a health page: {@code RUNNING}, {@code REBALANCING} and so on. */
+    /** Returns the state for a health page: {@code RUNNING}, {@code REBALANCING} and so on. */
     public final String state() {
         return streams.state().name();
     }
 
-    /** For a health page. Its last success is the last time that all of its threads had asked Kafka for records. */
+    /** Returns the status for a health page. The last success is the last time by which all threads have polled Kafka. */
     public ComponentStatus status() {
         KafkaStreams current = streams;
-        boolean up = current.state() == KafkaStreams.State.RUNNING;
+        boolean isUp = current.state() == KafkaStreams.State.RUNNING;
         String cause = failure;
         String detail =
-                up || cause == null ? current.state().name() : current.state().name() + " after " + cause;
+                isUp || cause == null ? current.state().name() : current.state().name() + " after " + cause;
         return new ComponentStatus(
-                name, up ? ComponentStatus.State.UP : ComponentStatus.State.DOWN, lastPoll(current), detail);
+                name, isUp ? ComponentStatus.State.UP : ComponentStatus.State.DOWN, lastPoll(current), detail);
     }
 
     /** Null if no thread has polled yet. */
@@ -169,7 +169,7 @@ public class StreamsApplication implements AutoCloseable {
         return max < 0 ? null : Instant.now().minusMillis((long) (max * 1000));
     }
 
-    /** Finishes what it is at and leaves; another instance takes over at once. */
+    /** Finishes the current record and leaves the group, so that another instance takes over immediately. */
     @Override
     public void close() {
         synchronized (this) {

@@ -7,13 +7,14 @@ import io.furrow.control.alarm.action.Webhook;
 import io.furrow.control.health.HealthOptions;
 
 /**
- * What the farm is watched by, and what is done about alarms.
+ * Options of the farm watch and of the actions on alarms.
  *
  * @param health when a device counts as silent
- * @param predictionHolds how long a predicted encounter is taken for right when it is not reported again
- * @param collisionHolds how long a collision lasts after the end of its encounter, during which another one counts to it
- * @param webhook whom to report alarms; null for nobody
- * @param stop how to stop robots that are predicted to meet, which is not a safety function; null to stop none
+ * @param predictionHolds how long a predicted encounter stays valid without being reported again
+ * @param collisionHolds how long a collision lasts after the end of its encounter; another encounter of the pair within
+ *     this time extends it
+ * @param webhook receiver of alarms; null for none
+ * @param stop how to stop robots of a predicted encounter, which is not a safety function; null to stop none
  */
 public record WatchOptions(
         HealthOptions health,
@@ -21,7 +22,7 @@ public record WatchOptions(
         Duration collisionHolds,
         Webhook.Settings webhook,
         StopRobots.Settings stop) {
-    /** Silent after three periods; a prediction holds for a minute, a collision half a minute more; nobody is notified, nothing is stopped. */
+    /** Silent after three periods; a prediction holds for a minute, a collision for another half minute; no webhook, no stops. */
     public static final WatchOptions DEFAULT =
             new WatchOptions(HealthOptions.DEFAULT, Duration.ofMinutes(1), Duration.ofSeconds(30), null, null);
 

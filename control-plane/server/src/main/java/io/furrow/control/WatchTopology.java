@@ -15,19 +15,19 @@ import io.furrow.control.manager.ManagerTopology;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.topic.Topics;
 
-/** How the farm is watched: health of devices, alarms, what the context broker knows of domains and missions. */
+/** Builds the topology of the farm watch: health of devices, alarms, entities of domains and missions. */
 final class WatchTopology {
-    /** What was found longer ago raises no alarm when the farm is watched for the first time. */
+    /** At the first start, older results raise no alarms. */
     private static final AutoOffsetReset RECENT = AutoOffsetReset.byDuration(Duration.ofMinutes(10));
 
     private WatchTopology() {}
 
     /**
-     * @param remembered how long ids of requests are
+     * @param requestRetention how long ids of requests are stored for deduplication
      * @param scope of the entities of domains and missions
      */
-    static Topology of(Duration remembered, WatchOptions options, FiwareScope scope) {
-        ManagerTopology topology = new ManagerTopology(remembered);
+    static Topology of(Duration requestRetention, WatchOptions options, FiwareScope scope) {
+        ManagerTopology topology = new ManagerTopology(requestRetention);
 
         AlarmManager.add(topology);
 

@@ -40,7 +40,7 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** Many alarms at once, and a webhook that fails, against a real Kafka and HTTP servers. */
+/** Raises many alarms at once with a failing webhook, on a real Kafka and HTTP servers. */
 @Tag("full")
 class AlarmStormIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
@@ -91,7 +91,7 @@ class AlarmStormIT {
     }
 
     @Test
-    void deliversAnAlarmThoughAnotherIsNotTaken() throws Exception {
+    void deliversAnAlarmWhileAnotherOneFails() throws Exception {
         failing = "predicted-encounter";
         try (FarmWatch watch = watch()) {
             await().atMost(TIMEOUT).until(watch::isHealthy);
@@ -106,7 +106,7 @@ class AlarmStormIT {
         }
     }
 
-    /** Whatever the alarms are at, a Stop is not behind them. */
+    /** Stop commands do not wait for alarms. */
     @Test
     void stopsARobotWhileTenThousandDevicesFallSilentAndTheWebhookHangs(TestReporter reporter) throws Exception {
         hangs = true;
@@ -130,7 +130,7 @@ class AlarmStormIT {
             await().atMost(TIMEOUT).until(() -> silent() == DEVICES);
             long silent = System.nanoTime();
 
-            long told = System.nanoTime();
+            long predictedAt = System.nanoTime();
             encounter(ROBOT, "somebody", "predicted");
             await().atMost(TIMEOUT).pollInterval(Duration.ofMillis(1)).until(() -> !stopped.isEmpty());
 
@@ -138,7 +138,7 @@ class AlarmStormIT {
                     "from the last report to 10,000 silent devices, 3 s of them silence",
                     TimeUnit.NANOSECONDS.toMillis(silent - reported) + " ms",
                     "from the record on data.collision to the PATCH",
-                    TimeUnit.NANOSECONDS.toMillis(stopped.get(0) - told) + " ms"));
+                    TimeUnit.NANOSECONDS.toMillis(stopped.get(0) - predictedAt) + " ms"));
             assertThat(posted).isEmpty();
         }
     }

@@ -38,7 +38,7 @@ class AuditTopicTest {
             START);
 
     @Test
-    void reportsForEachCommandWhoGaveItWhatItWasWhenAndWhatCameOfIt() throws Exception {
+    void recordsUserCommandTimeAndResult() throws Exception {
         request(
                 Topics.DOMAIN_MANAGER,
                 "{'type':'request','requestId':'r-1','user':'ann','command':'create','domain':'north'}");
@@ -58,7 +58,7 @@ class AuditTopicTest {
     }
 
     @Test
-    void hasACommandOnceThoughItIsRepeated() throws Exception {
+    void recordsARepeatedCommandOnce() throws Exception {
         for (int i = 0; i < 3; i++) {
             request(Topics.DOMAIN_MANAGER, "{'type':'request','requestId':'r-1','domain':'north'}");
         }
@@ -66,7 +66,7 @@ class AuditTopicTest {
     }
 
     @Test
-    void hasWhatIsNoRequestToo() throws Exception {
+    void recordsInvalidRequests() throws Exception {
         request(Topics.DOMAIN_MANAGER, "{'type':");
         request(Topics.DOMAIN_MANAGER, "[7]");
         request(

@@ -28,7 +28,7 @@ class ContextEntitiesTest {
     private final FarmWatchFixture farm = new FarmWatchFixture();
 
     @Test
-    void makesADomainAnEntityWithItsMissionsAndWhatItsFieldsAreLike() throws Exception {
+    void publishesADomainWithItsMissionsAndFields() throws Exception {
         farm.pipe(Topics.DOMAINS, "north", DOMAIN);
         farm.pipe(Topics.MISSIONS, "m", MISSION);
         farm.temperature("f1", 18, List.of("t-1"));
@@ -52,7 +52,7 @@ class ContextEntitiesTest {
     }
 
     @Test
-    void forgetsWhatAFieldWasLikeAnHourAgo() throws Exception {
+    void discardsAveragesAfterAnHour() throws Exception {
         farm.pipe(Topics.DOMAINS, "north", DOMAIN);
         farm.temperature("f1", 18, List.of());
         farm.pass(SECOND);
@@ -64,7 +64,7 @@ class ContextEntitiesTest {
     }
 
     @Test
-    void makesAMissionAnEntityWithItsProgressItsDevicesAndWhatHappenedToIt() throws Exception {
+    void publishesAMissionWithProgressDevicesAndEncounters() throws Exception {
         farm.pipe(Topics.MISSIONS, "m", MISSION);
         farm.pipe(
                 Topics.MISSIONS_STATUS,
@@ -93,9 +93,9 @@ class ContextEntitiesTest {
         assertThat(value(entity, "collisions").asInt()).isEqualTo(1);
     }
 
-    /** The context broker and Kafka refuse entities that grow with a mission. */
+    /** The context broker and Kafka would reject entities that grow with a mission. */
     @Test
-    void staysSmallWhateverAMissionHolds() throws Exception {
+    void boundsTheSizeOfAMission() throws Exception {
         String name = "m".repeat(64);
         farm.pipe(
                 Topics.MISSIONS,
@@ -116,7 +116,7 @@ class ContextEntitiesTest {
     }
 
     @Test
-    void countsAnewWhenAMissionIsStartedAnew() throws Exception {
+    void resetsCountsAtANewStart() throws Exception {
         farm.pipe(Topics.MISSIONS, "m", MISSION);
         farm.encounter("started", 3);
         farm.pipe(Topics.MISSIONS, "m", MISSION.replace("'sequence':2", "'sequence':3"));
@@ -128,7 +128,7 @@ class ContextEntitiesTest {
     }
 
     @Test
-    void reportsEachOnceASecondAtMostAndOnlyWhatIsNew() {
+    void publishesOnlyChangesAtMostOnceASecond() {
         farm.pipe(Topics.DOMAINS, "north", DOMAIN);
         farm.pipe(Topics.MISSIONS, "m", MISSION);
         for (int i = 0; i < 100; i++) {
@@ -144,7 +144,7 @@ class ContextEntitiesTest {
     }
 
     @Test
-    void reportsThatDomainsAndMissionsWereDeleted() {
+    void publishesDeletions() {
         farm.pipe(Topics.DOMAINS, "north", DOMAIN);
         farm.pipe(Topics.MISSIONS, "m", MISSION);
         farm.pass(SECOND);

@@ -7,7 +7,7 @@ import java.util.Properties;
 
 import io.furrow.process.TestProcess;
 
-/** A control plane in a process of its own, which can be killed. */
+/** Runs a control plane in a separate process that can be killed. */
 public final class ControlPlaneProcess {
     private ControlPlaneProcess() {}
 

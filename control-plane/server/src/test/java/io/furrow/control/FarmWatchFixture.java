@@ -30,7 +30,7 @@ import io.furrow.model.topic.Topics;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** The topology of the farm watch in a test's hands: what comes in, what goes out, how time passes. */
+/** Runs the topology of the farm watch with records and time under the control of a test. */
 final class FarmWatchFixture implements AutoCloseable {
     static final Instant START = Instant.parse("2026-03-01T08:00:00Z");
     static final String ROBOT = "robot-1";
@@ -62,7 +62,7 @@ final class FarmWatchFixture implements AutoCloseable {
         pipe(Topics.COLLISION, ROBOT + "-robot-2", entity.toBytes());
     }
 
-    /** A window of half a minute that ends now, as it is written. */
+    /** Pipes a window of half a minute that ends now, and returns it. */
     byte[] temperature(String field, double average, List<String> suspects) {
         return temperature(field, average, suspects, List.of());
     }
@@ -71,7 +71,7 @@ final class FarmWatchFixture implements AutoCloseable {
         return temperature(field, average, suspects, types, "robust");
     }
 
-    /** The same with too few devices to tell which are suspects. */
+    /** Pipes a window with too few devices to identify suspects. */
     void unverified(String field) {
         temperature(field, 18, List.of(), List.of(), "unverified");
     }
@@ -153,8 +153,8 @@ final class FarmWatchFixture implements AutoCloseable {
                 .readRecordsToList();
     }
 
-    /** Keys of the signs that those who listen to reports sent. */
-    List<String> signs() {
+    /** Returns the keys of the emitted heartbeats. */
+    List<String> heartbeats() {
         return read(FarmWatch.APPLICATION + "-device-heartbeats-repartition").stream()
                 .map(TestRecord::key)
                 .toList();

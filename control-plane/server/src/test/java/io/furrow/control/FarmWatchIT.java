@@ -39,7 +39,7 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 
-/** The farm watch against a real Kafka, with a webhook that does not always answer. */
+/** Runs the farm watch on a real Kafka, with a webhook that is sometimes unavailable. */
 class FarmWatchIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(120);
     private static final String ROBOT = "robot-1";
@@ -80,7 +80,7 @@ class FarmWatchIT {
     }
 
     @Test
-    void reportsADeviceThatFallsSilentAndComesBack() throws Exception {
+    void reportsADeviceThatFallsSilentAndRecovers() throws Exception {
         try (FarmWatch watch = watch("one")) {
             assertThat(watch.state()).isNotEqualTo("ERROR");
             addDesired();
@@ -105,7 +105,7 @@ class FarmWatchIT {
 
     @Tag("full")
     @Test
-    void deliversWhatOpenedAndClosedWhileTheWebhookAndThenTheWatchWereUnavailable() throws Exception {
+    void deliversAnAlarmAfterOutagesOfWebhookAndWatch() throws Exception {
         hookIsUp = false;
         try (FarmWatch watch = watch("one")) {
             encounter("started");
@@ -140,7 +140,7 @@ class FarmWatchIT {
 
     @Tag("full")
     @Test
-    void stopsRobotsOnceAndRemembersAlarmsOverARestart() throws Exception {
+    void stopsRobotsOnceAndRestoresAlarmsAfterARestart() throws Exception {
         try (FarmWatch watch = watch("one")) {
             assertThat(watch.state()).isNotEqualTo("ERROR");
             addDesired();
@@ -159,7 +159,7 @@ class FarmWatchIT {
         assertThat(sent).containsExactly(ROBOT + " Stop");
 
         String alarm = "predicted-encounter-1";
-        try (FarmWatch watch = watch("two")) { // knows nothing but what is in Kafka
+        try (FarmWatch watch = watch("two")) { // restores its state from Kafka
             assertThat(watch.state()).isNotEqualTo("ERROR");
             predict();
             producer.send(new ProducerRecord<>(
@@ -167,7 +167,7 @@ class FarmWatchIT {
             await(() -> audited().stream()
                             .filter(entry -> entry.contains("somebody"))
                             .count()
-                    == 2); // so it has seen the prediction
+                    == 2); // so it has processed the prediction
             await(() -> state("predicted-encounter").equals("acknowledged"));
             await(() -> posted.stream()
                     .anyMatch(each -> each.path("change").asText().equals("acknowledged")));
@@ -177,7 +177,7 @@ class FarmWatchIT {
 
     @Tag("full")
     @Test
-    void goesOnWhereAnotherInstanceLeaves() throws Exception {
+    void takesOverFromAnotherInstance() throws Exception {
         try (FarmWatch second = watch("two")) {
             try (FarmWatch first = watch("one")) {
                 await(() -> first.isHealthy() && second.isHealthy());
@@ -238,7 +238,7 @@ class FarmWatchIT {
         producer.send(new ProducerRecord<>(Topics.COLLISION, ROBOT + "-somebody", entity.toBytes()));
     }
 
-    /** Of the newest alarm of a kind. */
+    /** Returns the state of the newest alarm of a kind. */
     private String state(String kind) throws Exception {
         String state = "";
         for (ConsumerRecord<String, byte[]> record : records(Topics.ALARMS)) {

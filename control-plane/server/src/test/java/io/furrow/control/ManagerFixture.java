@@ -28,9 +28,9 @@ import io.furrow.unchecked.Unchecked;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** The topology of the managers in a test's hands: what is asked, what is answered, what hosts report. */
+/** Runs the topology of the managers with requests, reports of hosts and time under the control of a test. */
 final class ManagerFixture implements AutoCloseable {
-    static final Duration REMEMBERED = Duration.ofHours(1);
+    static final Duration REQUEST_RETENTION = Duration.ofHours(1);
     static final Instant START = Instant.parse("2026-03-01T08:00:00Z");
 
     private final TopologyTestDriver driver;
@@ -39,11 +39,11 @@ final class ManagerFixture implements AutoCloseable {
         this(false);
     }
 
-    /** @param hasRecordings whether only missions that {@code service.recordings} lists can be played back */
+    /** @param hasRecordings whether only missions listed on {@code service.recordings} can be replayed */
     ManagerFixture(boolean hasRecordings) {
         MissionSettings missions = new MissionSettings(Duration.ofSeconds(30), new FiwareScope("farm", "/"), false);
         ReplaySettings replays = ReplaySettings.DEFAULT.withMongo(hasRecordings ? "mongodb://unused" : null);
-        driver = new TopologyTestDriver(ControlTopology.of(REMEMBERED, missions, replays), settings(), START);
+        driver = new TopologyTestDriver(ControlTopology.of(REQUEST_RETENTION, missions, replays), settings(), START);
     }
 
     void pass(Duration time) {
@@ -54,19 +54,19 @@ final class ManagerFixture implements AutoCloseable {
         return driver.getAllStateStores().keySet();
     }
 
-    /** How many answers a store holds. */
-    int remembered(String store) {
-        int remembered = 0;
+    /** Returns the number of request ids in a store. */
+    int countRequestIds(String store) {
+        int ids = 0;
         try (var all = driver.<String, byte[]>getWindowStore(store).all()) {
             while (all.hasNext()) {
                 all.next();
-                remembered++;
+                ids++;
             }
         }
-        return remembered;
+        return ids;
     }
 
-    /** A request without a key and with these members. */
+    /** Sends a request with these members, without a key. */
     void request(String manager, String members) {
         request(manager, null, "{'type':'request'," + members + "}");
     }
@@ -91,7 +91,7 @@ final class ManagerFixture implements AutoCloseable {
         return all.get(0);
     }
 
-    /** The newest that {@code service.missions.status} says. */
+    /** Returns the newest state on {@code service.missions.status}. */
     String state(String mission) throws Exception {
         String state = null;
         for (TestRecord<String, byte[]> record : read(Topics.MISSIONS_STATUS)) {
@@ -101,7 +101,7 @@ final class ManagerFixture implements AutoCloseable {
         return state;
     }
 
-    /** Reports a state of each device that was asked for since. */
+    /** Reports a state for each device requested since the last call. Returns their number. */
     int hostAll(DeviceStatus.State state) throws Exception {
         List<TestRecord<String, byte[]>> requested = new ArrayList<>(read(Topics.DEVICES));
         for (TestRecord<String, byte[]> record : requested) {

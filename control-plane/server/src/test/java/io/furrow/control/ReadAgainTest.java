@@ -11,24 +11,24 @@ import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** A broker that was killed may let a group read again what it has read. */
+/** After a broker was killed, a consumer group may read records again. */
 class ReadAgainTest {
-    private static final String LINE = FarmWatch.APPLICATION + "-collisions-repartition";
+    private static final String REPARTITIONED = FarmWatch.APPLICATION + "-collisions-repartition";
 
     @AutoClose
     private final FarmWatchFixture farm = new FarmWatchFixture();
 
     @Test
-    void raisesNoSecondAlarmOfAnEncounterThatHasEnded() throws Exception {
+    void raisesNoSecondAlarmForAnEndedEncounter() throws Exception {
         farm.encounter("started", 3.2);
         farm.pass(Duration.ofSeconds(1));
         farm.encounter("ended", 3.2);
-        farm.pass(Duration.ofSeconds(31)); // that it stays away, so that one at the border has one alarm
+        farm.pass(Duration.ofSeconds(31)); // longer than a collision lasts after the end of its encounter
         assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("closed");
-        List<TestRecord<String, byte[]>> before = farm.read(LINE);
+        List<TestRecord<String, byte[]>> before = farm.read(REPARTITIONED);
         assertThat(before).hasSize(2);
 
-        before.forEach(record -> farm.pipe(LINE, record));
+        before.forEach(record -> farm.pipe(REPARTITIONED, record));
         assertThat(farm.read(Topics.ALARMS)).isEmpty();
 
         farm.encounter("started", 3.2);

@@ -23,7 +23,7 @@ import io.furrow.model.topic.Topics;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Replays of several missions that follow one clock. Missions a and b are stored, from 10 s to 60 s and from 20 s to 90 s. */
+/** Controls replays of missions a, recorded from 10 s to 60 s, and b, from 20 s to 90 s, which follow a common clock. */
 class ReplayGroupTopologyTest {
     private static final long NOW = ManagerFixture.START.toEpochMilli();
 
@@ -45,7 +45,7 @@ class ReplayGroupTopologyTest {
         return answer.json().path("group").asText();
     }
 
-    /** What is requested of both after a command, by one number. */
+    /** Returns the desired state of both members after a command; they have the same sequence. */
     private DesiredReplay desired() throws Exception {
         List<DesiredReplay> all = new ArrayList<>();
         for (TestRecord<String, byte[]> record : farm.read(Topics.REPLAYS)) {
@@ -76,7 +76,7 @@ class ReplayGroupTopologyTest {
     }
 
     @Test
-    void startsAllOfThemOverTheTimeThatIsStoredOfAny() throws Exception {
+    void startsAllMembersOverTheUnionOfTheirRecordings() throws Exception {
         String group = start("");
 
         assertThat(group).matches("[0-9a-f]{8}");
@@ -90,7 +90,7 @@ class ReplayGroupTopologyTest {
     }
 
     @Test
-    void answersWithTheirNamesAndTopics() throws Exception {
+    void returnsTheNamesAndTopicsOfItsMembers() throws Exception {
         start("");
         CommandResult answer =
                 request("'command':'start','missions':['b','a'],'from':30000,'range':{'from':40000,'to':50000},"
@@ -107,10 +107,10 @@ class ReplayGroupTopologyTest {
     }
 
     @Test
-    void pausesAndGoesOnWhereItStood() throws Exception {
+    void resumesAtThePausedPosition() throws Exception {
         String group = start(",'speed':10");
         desired();
-        farm.pass(Duration.ofSeconds(5)); // of which the clock ran 3 s
+        farm.pass(Duration.ofSeconds(5)); // the clock ran for 3 s of it
         assertThat(steered(group, "'pause'", "paused").clock()).isEqualTo(new Clock(NOW + 5000, 40_000));
         farm.pass(Duration.ofSeconds(60));
         DesiredReplay resumed = steered(group, "'resume'", "running");
@@ -120,7 +120,7 @@ class ReplayGroupTopologyTest {
     }
 
     @Test
-    void jumpsTogether() throws Exception {
+    void seeksAllMembersTogether() throws Exception {
         String group = start("");
         desired();
         farm.pass(Duration.ofSeconds(5));
@@ -138,7 +138,7 @@ class ReplayGroupTopologyTest {
     }
 
     @Test
-    void changesItsSpeedWithoutAJump() throws Exception {
+    void changesTheSpeedAtTheCurrentPosition() throws Exception {
         String group = start("");
         desired();
         assertThat(steered(group, "'speed','speed':5", "running").clock())
@@ -154,7 +154,7 @@ class ReplayGroupTopologyTest {
     }
 
     @Test
-    void playsARangeOverAndOver() throws Exception {
+    void loopsOverARange() throws Exception {
         String group = start("");
         desired();
         farm.pass(Duration.ofSeconds(7));
@@ -163,7 +163,7 @@ class ReplayGroupTopologyTest {
         assertThat(inside.clock()).isEqualTo(new Clock(NOW + 7000, 15_000));
         assertThat(inside.seek()).isNull();
 
-        farm.pass(Duration.ofSeconds(8)); // 23 s, begun again 3 s ago
+        farm.pass(Duration.ofSeconds(8)); // at 23 s, resumed 3 s ago
         DesiredReplay all = steered(group, "'loop'", "running");
         assertThat(all.clock()).isEqualTo(new Clock(NOW + 15_000, 15_000));
         assertThat(all.range()).isNull();
@@ -177,7 +177,7 @@ class ReplayGroupTopologyTest {
     }
 
     @Test
-    void stopsAllAndForgetsEachWhenItIsOver() throws Exception {
+    void stopsAllMembersAndRemovesEachOnceItIsOver() throws Exception {
         String group = start("");
         desired();
         DesiredReplay stopped = steered(group, "'stop'", "deleted");
@@ -204,7 +204,7 @@ class ReplayGroupTopologyTest {
     }
 
     @Test
-    void restsAtItsEndAsOne() throws Exception {
+    void removesAnEndedGroupAsAWhole() throws Exception {
         String group = start("");
         DesiredReplay started = desired();
         farm.pass(Duration.ofMinutes(2));
@@ -229,7 +229,7 @@ class ReplayGroupTopologyTest {
     }
 
     @Test
-    void refusesToSteerOneAloneAndSingleSteps() throws Exception {
+    void rejectsCommandsToSingleMembersAndSteps() throws Exception {
         String group = start("");
         desired();
         for (String command : List.of("pause", "stop", "step")) {
@@ -246,13 +246,13 @@ class ReplayGroupTopologyTest {
             'missions':['a','c','d']                        | unknown-mission | 'c', 'd'
             'mission':'c'                                   | unknown-mission | /api/recordings
             'missions':['a','b'],'from':90001               | wrong-member    | 'from'
-            'missions':['a','b'],'range':{'from':1,'to':2}  | wrong-member    | in common
+            'missions':['a','b'],'range':{'from':1,'to':2}  | wrong-member    | overlap
             'missions':['a','b'],'speed':'max'              | wrong-member    | max
             'mission':'a','startAt':'2026-03-31T08:00:01Z'  | wrong-member    | 30 days
             'mission':'a','topic':'data.x.replay.0000000a'  | replay-exists   | 'a.0000000a'
             'mission':'b','topic':'data.x.replay.0000000a'  | replay-exists   | 'data.x.replay.0000000a'
             """)
-    void rejectsAStart(String members, String error, String message) throws Exception {
+    void rejectsAnInvalidStart(String members, String error, String message) throws Exception {
         start("");
         assertThat(request("'command':'start','mission':'a','topic':'data.x.replay.0000000a'")
                         .error())
@@ -267,7 +267,7 @@ class ReplayGroupTopologyTest {
     }
 
     @Test
-    void findsMissionsAsLongAsTheyAreListed() throws Exception {
+    void acceptsOnlyListedMissions() throws Exception {
         start("");
         farm.pipe(Topics.RECORDINGS, "a", null);
         farm.pipe(Topics.RECORDINGS, "b", "no JSON".getBytes(UTF_8));
@@ -280,7 +280,7 @@ class ReplayGroupTopologyTest {
     }
 
     @Test
-    void needsTimesWhereItDoesNotKnowWhatIsStored() throws Exception {
+    void requiresTimesIfRecordingsAreUnknown() throws Exception {
         try (ManagerFixture without = new ManagerFixture()) {
             Set<String> answers = new HashSet<>();
             for (String times : List.of("", ",'from':1", ",'from':1,'to':9")) {

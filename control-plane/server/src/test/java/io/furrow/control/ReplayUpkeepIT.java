@@ -58,10 +58,10 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** Which missions are stored, and what is left of replays that are over; two instances of each. */
+/** Runs two instances each of recording watch and topic cleanup. */
 @Tag("full")
 class ReplayUpkeepIT {
-    /** Who may delete it may delete each topic. */
+    /** Denies the deletion of single topics only. */
     private static final ResourcePattern WHOLE_CLUSTER =
             new ResourcePattern(ResourceType.CLUSTER, Resource.CLUSTER_NAME, PatternType.LITERAL);
 
@@ -103,7 +103,7 @@ class ReplayUpkeepIT {
     }
 
     @Test
-    void findsWhatIsStoredAndRejectsReplaysOfAnythingElse() throws Exception {
+    void listsRecordedMissionsAndRejectsReplaysOfOthers() throws Exception {
         EmbeddedMongo mongo = opened(EmbeddedMongo.inMemory());
         MongoDatabase missions = opened(MongoClients.create(mongo.uri())).getDatabase("persistence");
         missions.getCollection("mission_weeding")
@@ -142,7 +142,7 @@ class ReplayUpkeepIT {
     }
 
     @Test
-    void deletesTheTopicsOfAReplayThatIsOverAndNoOthers() throws Exception {
+    void deletesOnlyTopicsOfFinishedReplays() throws Exception {
         String own = "data.show.replay.0000000a";
         List<String> removed = List.of(own, own + ".collision", own + ".collision.late", own + ".clocks");
         List<String> retained = List.of("""
@@ -154,7 +154,7 @@ class ReplayUpkeepIT {
         send(Topics.REPLAYS, "a.0000000a", desired("a", own));
         send(Topics.REPLAYS_STATUS, "a.0000000a", over());
         send(Topics.REPLAYS, "b.0000000b", desired("b", "data.b.replay.0000000b"));
-        send(Topics.REPLAYS_STATUS, "b.0000000b", over()); // of before it was started again
+        send(Topics.REPLAYS_STATUS, "b.0000000b", over()); // of the previous start
         send(Topics.REPLAYS, "a.0000000a", null);
 
         TopicCleanup early = opened(
@@ -173,7 +173,7 @@ class ReplayUpkeepIT {
     }
 
     @Test
-    void deletesTheTopicOfADeletedMissionADayLaterWhereNothingNewIsInIt() throws Exception {
+    void deletesTheTopicOfADeletedMissionAfterAQuietDay() throws Exception {
         kafka.createTopics(Stream.of("weeding", "mowing", "sowing", "played", "own")
                 .map(mission -> new NewTopic("data.farm.realtime." + mission, 2, (short) 1))
                 .toList());
@@ -223,7 +223,7 @@ class ReplayUpkeepIT {
     }
 
     @Test
-    void deletesWhatItMayWhereItMayNotDeleteAnother() throws Exception {
+    void deletesOtherTopicsIfOneDeletionIsDenied() throws Exception {
         List<String> guarded = IntStream.range(0, 8)
                 .mapToObj(number -> "data.farm.realtime.guarded-" + number)
                 .toList();

@@ -17,14 +17,14 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 
 class SilenceTopologyTest {
-    private static final Duration REMEMBERED = Duration.ofHours(1);
+    private static final Duration REQUEST_RETENTION = Duration.ofHours(1);
     private static final String THERMOMETER = "urn:ngsi-ld:Thermometer:m-1";
 
     @AutoClose
     private final FarmWatchFixture farm = new FarmWatchFixture();
 
     @Test
-    void raisesAnAlarmOfADeviceThatIsSilentAndEndsItWhenItReportsAgain() throws Exception {
+    void raisesAnAlarmUntilASilentDeviceReportsAgain() throws Exception {
         farm.addDesired(THERMOMETER, "Thermometer", true);
         report("");
         farm.pass(Duration.ofSeconds(30));
@@ -63,7 +63,7 @@ class SilenceTopologyTest {
     }
 
     @Test
-    void reportsThatAMissionIsUnavailableRatherThanItsDevices() throws Exception {
+    void raisesAMissionAlarmIfManyDevicesAreSilent() throws Exception {
         farm.addDesired(THERMOMETER, "Thermometer", "other", true);
         addThermometers(i -> "m");
         passTimeWithReports(0, 0);
@@ -83,7 +83,7 @@ class SilenceTopologyTest {
     }
 
     @Test
-    void reportsOnceThatNothingArrivesAnyMore() throws Exception {
+    void raisesOneFarmAlarmIfNoReportsArrive() throws Exception {
         addThermometers(i -> "m" + i % 10);
         for (int i = 0; i < 120; i++) {
             farm.pass(Duration.ofSeconds(1));
@@ -100,7 +100,7 @@ class SilenceTopologyTest {
     }
 
     @Test
-    void deliversNoAlarmOfAMissionWhileReportsComeBack() throws Exception {
+    void inhibitsMissionAlarmsDuringRecovery() throws Exception {
         addThermometers(i -> "m" + i % 10);
         for (int i = 0; i < 120; i++) {
             farm.pass(Duration.ofSeconds(1));
@@ -122,9 +122,9 @@ class SilenceTopologyTest {
                 .hasSize(open.size() - 1);
     }
 
-    /** One device reports every five seconds while a sign of life of each comes every thirty. */
+    /** One device reports every five seconds, while each emits a heartbeat every thirty. */
     @Test
-    void doesNotReportThatNothingArrivesWhileOneDeviceReports() throws Exception {
+    void raisesNoFarmAlarmWhileOneDeviceReports() throws Exception {
         farm.addDesired(THERMOMETER, "Thermometer", "other", true);
         addThermometers(i -> "m");
         for (int second = 0; second < 300; second++) {
@@ -137,11 +137,12 @@ class SilenceTopologyTest {
                 .extracting(alarm -> alarm.path("kind").asText())
                 .contains("silent-mission")
                 .doesNotContain("silent-farm");
-        assertThat(farm.signs().stream().filter(key -> key.isEmpty()).count()).isBetween(50L, 61L);
+        assertThat(farm.heartbeats().stream().filter(key -> key.isEmpty()).count())
+                .isBetween(50L, 61L);
     }
 
     @Test
-    void doesNotLetASilenceBeClosedByHandWhileItLasts() throws Exception {
+    void rejectsClosingAnOngoingSilence() throws Exception {
         farm.addDesired(THERMOMETER, "Thermometer", true);
         report("");
         farm.pass(Duration.ofSeconds(30));

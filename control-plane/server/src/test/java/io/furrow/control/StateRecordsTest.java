@@ -8,7 +8,7 @@ import io.furrow.model.ngsi.StateJson;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** The records on topics and in stores are written as they were read, member by member, whole and without what may be missing. */
+/** Records of topics and stores are written as they were read, with and without their optional members. */
 class StateRecordsTest {
     @ParameterizedTest
     @CsvSource(delimiter = ';', quoteCharacter = '"', textBlock = """
@@ -24,7 +24,7 @@ class StateRecordsTest {
             mission.Mission; {'mission':'m','domain':'d','template':'t@1','parts':1,'deviceCount':2,'running':true,'start':3,'duration':4,'created':5,'sequence':6}
             mission.Mission; {'mission':'m','domain':'d','parts':0,'deviceCount':0,'running':false,'created':5,'sequence':6}
             """)
-    void areWrittenAsTheyWereRead(String type, String record) throws ClassNotFoundException {
+    void preservesRecordsOfOlderVersions(String type, String record) throws ClassNotFoundException {
         String json = record.replace('\'', '"');
         Object read = StateJson.read(json.getBytes(UTF_8), Class.forName("io.furrow.control." + type));
         assertThat(new String(StateJson.write(read), UTF_8)).isEqualTo(json);

@@ -32,9 +32,9 @@ class StreamsApplicationIT {
     private final AtomicInteger failures = new AtomicInteger();
     private final AtomicInteger handled = new AtomicInteger();
 
-    /** What no handler of exceptions is asked about: an error of the JVM; and then a client that cannot be made at first. */
+    /** Survives failures that bypass the exception handlers: an error of the JVM, then a client that cannot be created at first. */
     @Test
-    void startsAgainAfterAClientHasEnded(@TempDir Path directory) throws Exception {
+    void replacesAFailedClient(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory.resolve("kafka"))) {
             Properties client = kafka.client();
             client.setProperty("state.dir", directory.resolve("state").toString());

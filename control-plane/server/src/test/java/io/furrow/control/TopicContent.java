@@ -10,7 +10,7 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 
 import io.furrow.kafka.CommittedReader;
 
-/** What is committed on a topic at the moment. */
+/** Reads the committed records of a topic. */
 record TopicContent(Properties client, String topic) {
     List<ConsumerRecord<String, byte[]>> records() {
         List<ConsumerRecord<String, byte[]>> all = new ArrayList<>();
@@ -20,7 +20,7 @@ record TopicContent(Properties client, String topic) {
         return all;
     }
 
-    /** By key, as compaction would leave it. */
+    /** Returns the newest values by key, as compaction would leave them. */
     Map<String, byte[]> newest() {
         Map<String, byte[]> newest = new LinkedHashMap<>();
         for (ConsumerRecord<String, byte[]> record : records()) {

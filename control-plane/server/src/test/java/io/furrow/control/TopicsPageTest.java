@@ -19,7 +19,7 @@ import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** The table of topics in docs/topics.md names each topic of the code, and its cleanup policy. */
+/** Compares the table of topics in docs/topics.md with the topics of the code and their cleanup policies. */
 class TopicsPageTest {
     private static final Path PAGE = Path.of("..", "..", "docs", "topics.md");
     private static final Pattern ROW = Pattern.compile("\\| ((?:`[^`|]+`(?:, )?)+) \\|.*\\|");
@@ -36,7 +36,7 @@ class TopicsPageTest {
     }
 
     @Test
-    void saysWhichTopicsAreCompactedAndWhichAreRetainedLonger() throws IOException {
+    void namesTheCleanupPolicyAndRetentionOfEachTopic() throws IOException {
         Map<String, String> rows = rows();
 
         assertThat(ServiceTopics.desired(ControlSettings.of(new Properties())))

@@ -20,15 +20,14 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class WatchTopologyTest {
-    private static final Duration REMEMBERED = Duration.ofHours(1);
-    private static final Duration WINDOW = Duration.ofSeconds(30);
+    private static final Duration REQUEST_RETENTION = Duration.ofHours(1);
     private static final String THERMOMETER = "urn:ngsi-ld:Thermometer:m-1";
 
     @AutoClose
     private final FarmWatchFixture farm = new FarmWatchFixture();
 
     @Test
-    void publishesWhenADeviceWasLastSeenAndHowFullItsBatteryIs() throws Exception {
+    void publishesLastReportAndBattery() throws Exception {
         farm.addDesired(THERMOMETER, "Thermometer", true);
         farm.pass(Duration.ofSeconds(1));
         farm.report(Entity.builder(THERMOMETER, "Thermometer").number("battery", 81.5));
@@ -40,9 +39,9 @@ class WatchTopologyTest {
         assertThat(health.path("mission").asText()).isEqualTo("m");
     }
 
-    /** Of a clock that is far ahead the event time is that of the receipt, which says nothing of the clock. */
+    /** If the clock of a device is far ahead, the event time is the time of receipt, which does not reveal the clock. */
     @Test
-    void publishesTheTimeThatADeviceItselfGave() throws Exception {
+    void publishesTheTimeReportedByADevice() throws Exception {
         farm.addDesired(THERMOMETER, "Thermometer", true);
         for (int report = 0; report < 2; report++) {
             farm.pass(Duration.ofSeconds(31));
@@ -56,122 +55,7 @@ class WatchTopologyTest {
     }
 
     @Test
-    void raisesACollisionAnewThatWasClosedByHandWhileTheEncounterLasts() throws Exception {
-        farm.encounter("started", 3.2);
-        farm.pass(Duration.ofMinutes(2));
-        farm.request(Topics.ALARM_MANAGER, "'command':'close','alarm':'collision-1'");
-        assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("closed");
-        farm.encounter("ongoing", 3.2);
-        JsonNode again = farm.newest(Topics.ALARMS);
-        assertThat(again.path("state").asText()).isEqualTo("open");
-        farm.pipe(
-                Topics.ALARM_MANAGER,
-                null,
-                "{'type':'request','command':'close','alarm':'%s'}"
-                        .formatted(again.path("alarm").asText()));
-        assertThat(farm.newest(Topics.ALARM_MANAGER).path("error").asText()).isEqualTo("wrong-state");
-        assertThat(farm.read(Topics.ALARMS)).isEmpty();
-    }
-
-    @Test
-    void raisesAnAlarmOfACollisionUntilItHasEnded() throws Exception {
-        farm.addDesired(FarmWatchFixture.ROBOT, null, true);
-        farm.report(Entity.builder(FarmWatchFixture.ROBOT, "ROBOT"));
-        farm.encounter("predicted", 3.2);
-        JsonNode predicted = farm.newest(Topics.ALARMS);
-        assertThat(predicted.path("kind").asText()).isEqualTo("predicted-encounter");
-        assertThat(predicted.at("/devices/0/type").asText()).isEqualTo("ROBOT");
-        farm.encounter("predicted", 3.2);
-        assertThat(farm.read(Topics.ALARMS)).isEmpty();
-        farm.encounter("started", 3.2);
-        List<JsonNode> both = farm.all(Topics.ALARMS);
-        assertThat(both).extracting(each -> each.path("state").asText()).containsExactly("closed", "open");
-        assertThat(both.get(1).path("severity").asText()).isEqualTo("critical");
-        farm.encounter("ongoing", 3.2);
-        farm.encounter("ended", 3.2);
-        farm.pass(Duration.ofSeconds(29));
-        assertThat(farm.read(Topics.ALARMS)).isEmpty();
-        farm.pass(Duration.ofSeconds(1));
-        JsonNode closed = farm.newest(Topics.ALARMS);
-        assertThat(closed.path("state").asText()).isEqualTo("closed");
-        assertThat(closed.path("count").asInt()).as("encounters").isEqualTo(1);
-        assertThat(closed.path("reason").asText())
-                .isEqualTo("the encounter has ended, and the pair has had no other since");
-    }
-
-    /** Devices at the border of what is close: whoever is notified of alarms hears of one. */
-    @Test
-    void raisesOneAlarmOfAPairThatComesCloseAgainAndAgain() throws Exception {
-        for (int i = 0; i < 12; i++) {
-            farm.encounter("predicted", 4.8);
-            farm.encounter("started", 4.8);
-            farm.encounter("ended", 5.2);
-            farm.pass(Duration.ofSeconds(29));
-        }
-        List<JsonNode> open = farm.all(Topics.ALARMS).stream()
-                .filter(alarm -> alarm.path("kind").asText().equals("collision"))
-                .toList();
-        assertThat(open).extracting(alarm -> alarm.path("sequence").asLong()).containsOnly(3L);
-        assertThat(open.get(open.size() - 1).path("count").asInt()).isEqualTo(12);
-        farm.pass(Duration.ofSeconds(1));
-        assertThat(farm.all(Topics.ALARMS)).singleElement().satisfies(closed -> {
-            assertThat(closed.path("state").asText()).isEqualTo("closed");
-            assertThat(closed.path("count").asInt()).isEqualTo(12);
-        });
-        farm.encounter("predicted", 4.8);
-        assertThat(farm.newest(Topics.ALARMS).path("kind").asText()).isEqualTo("predicted-encounter");
-    }
-
-    @Test
-    void raisesAnAlarmOfASensorThatIsSetAsideInThreeWindowsInARowUntilItIsNotForThree() throws Exception {
-        suspectFor(2);
-        farm.temperature("f", 18, List.of());
-        farm.pass(WINDOW);
-        suspectFor(2);
-        assertThat(farm.read(Topics.ALARMS)).as("never three in a row").isEmpty();
-        farm.temperature("f", 18, List.of(THERMOMETER));
-        assertThat(farm.newest(Topics.ALARMS).path("kind").asText()).isEqualTo("suspect-sensor");
-        farm.pass(WINDOW);
-        farm.temperature("f", 18, List.of());
-        farm.pass(WINDOW);
-        farm.temperature("f", 18, List.of(THERMOMETER));
-        farm.pass(Duration.ofSeconds(89));
-        assertThat(farm.read(Topics.ALARMS)).as("one window makes it last").isEmpty();
-        farm.pass(Duration.ofSeconds(1));
-        assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("closed");
-    }
-
-    @Test
-    void countsAWindowOfASensorOnceAndNoneWithoutAVerdict() throws Exception {
-        farm.temperature("f", 18, List.of(THERMOMETER));
-        farm.temperature("f", 18, List.of(THERMOMETER));
-        farm.temperature("f", 18, List.of(THERMOMETER));
-        farm.temperature("g", 18, List.of(THERMOMETER));
-        farm.pass(WINDOW);
-        suspectFor(1);
-        farm.unverified("f");
-        farm.pass(WINDOW);
-        assertThat(farm.read(Topics.ALARMS)).isEmpty();
-        suspectFor(1);
-        assertThat(farm.all(Topics.ALARMS)).hasSize(1);
-    }
-
-    @Test
-    void countsNoWindowAgainThatASoundOneHasFollowed() throws Exception {
-        byte[] first = farm.temperature("f", 18, List.of(THERMOMETER));
-        farm.pass(WINDOW);
-        byte[] second = farm.temperature("f", 18, List.of(THERMOMETER));
-        farm.pass(WINDOW);
-        farm.temperature("f", 18, List.of());
-        farm.pipe(Topics.TEMPERATURE, "f", first);
-        farm.pipe(Topics.TEMPERATURE, "f", second);
-        farm.pass(WINDOW);
-        suspectFor(2);
-        assertThat(farm.read(Topics.ALARMS)).isEmpty();
-    }
-
-    @Test
-    void raisesAnAlarmOfADeviceWhosePositionsComeTooLate() throws Exception {
+    void raisesAnAlarmForADeviceWhosePositionsArriveTooLate() throws Exception {
         farm.addDesired(FarmWatchFixture.ROBOT, "ROBOT", true);
         farm.clockBehind(FarmWatchFixture.ROBOT, 999);
         JsonNode alarm = farm.newest(Topics.ALARMS);
@@ -186,15 +70,15 @@ class WatchTopologyTest {
         farm.pass(Duration.ofSeconds(179));
         farm.pipe(
                 Topics.CLOCKS, "x", Entity.builder("x", "Analytics:ClockOffset").toBytes());
-        assertThat(closedClocks()).isZero();
+        assertThat(countClosedClockAlarms()).isZero();
         farm.pass(Duration.ofSeconds(1));
-        assertThat(closedClocks()).isEqualTo(1);
+        assertThat(countClosedClockAlarms()).isEqualTo(1);
         farm.pipe(Topics.CLOCKS, "x", "{}".getBytes(UTF_8));
         assertThat(farm.read(Topics.dead(Topics.CLOCKS))).hasSize(1);
     }
 
     @Test
-    void raisesAnAlarmOfEachDeviceOfOneId() throws Exception {
+    void raisesOneAlarmPerEntityOfAnAmbiguousId() throws Exception {
         for (String[] each :
                 new String[][] {{"farm", "ROBOT"}, {"other", "ROBOT"}, {"farm", "Camera"}, {"other", "ROBOT"}}) {
             EntityBuilder behind = Entity.builder("Analytics:ClockBehind:r", "Analytics:ClockBehind")
@@ -217,43 +101,7 @@ class WatchTopologyTest {
     }
 
     @Test
-    void endsTheCollisionOfATenantAndNotThatOfAnother() throws Exception {
-        for (String[] each : new String[][] {{"farm", "started"}, {"other", "started"}, {"other", "ended"}}) {
-            EntityBuilder encounter = Entity.builder("Analytics:Collision:1", "Analytics:Collision")
-                    .text("encounter", "e")
-                    .text("phase", each[1])
-                    .text("Device1_ID", "r1")
-                    .text("Device1_type", "ROBOT")
-                    .text("Device2_ID", "r2")
-                    .text("Device2_type", "Camera");
-            farm.pipe(Topics.COLLISION, each[0], "r1-r2", encounter.toBytes());
-        }
-        assertThat(farm.all(Topics.ALARMS)).hasSize(2);
-        farm.pass(Duration.ofSeconds(30));
-        assertThat(farm.all(Topics.ALARMS)).singleElement().satisfies(closed -> {
-            assertThat(closed.path("state").asText()).isEqualTo("closed");
-            assertThat(closed.path("identity").asText()).isEqualTo("other|/|ROBOT Camera|r1-r2");
-        });
-    }
-
-    @Test
-    void countsTheWindowsOfSensorsOfOneIdAndTwoTypesEach() throws Exception {
-        for (int window = 0; window < 4; window++) {
-            farm.temperature("f", 18, List.of(THERMOMETER), List.of(window % 2 == 0 ? "Thermometer" : "Station"));
-            farm.pass(WINDOW);
-        }
-        assertThat(farm.read(Topics.ALARMS)).as("never three in a row").isEmpty();
-        for (int window = 0; window < 3; window++) {
-            farm.temperature("f", 18, List.of(THERMOMETER, THERMOMETER), List.of("Station", "Thermometer"));
-            farm.pass(WINDOW);
-        }
-        assertThat(farm.all(Topics.ALARMS))
-                .extracting(alarm -> alarm.path("identity").asText())
-                .containsExactlyInAnyOrder("farm|/|Station|" + THERMOMETER, "farm|/|Thermometer|" + THERMOMETER);
-    }
-
-    @Test
-    void raisesTheSameForADeviceOfAnyKindThatIsFarBehind() throws Exception {
+    void raisesAnAlarmForLateReportsOfAnyDevice() throws Exception {
         farm.pipe(
                 Topics.CLOCKS,
                 "t",
@@ -266,21 +114,7 @@ class WatchTopologyTest {
     }
 
     @Test
-    void endsACollisionWhoseEndWasLost() throws Exception {
-        farm.encounter("started", 3.2);
-        farm.pass(Duration.ofMinutes(50));
-        farm.encounter("ongoing", 3.2);
-        farm.pass(Duration.ofMinutes(50));
-        assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("open");
-        farm.pass(Duration.ofMinutes(11));
-        JsonNode closed = farm.newest(Topics.ALARMS);
-        assertThat(closed.path("state").asText()).isEqualTo("closed");
-        assertThat(closed.path("reason").asText())
-                .isEqualTo("nothing was reported of the encounter for 60 min, not its end either");
-    }
-
-    @Test
-    void raisesAnAlarmOfWhatDoesNotWorkInFurrowItselfWhileItIsRepeated() throws Exception {
+    void raisesAnAlarmWhileAFaultIsRepeated() throws Exception {
         for (int minutes = 0; minutes < 5; minutes++) {
             farm.pipe(Topics.FAULTS, "connector ngsi-sink", "{'text':'it failed; restart it'}");
             farm.pass(Duration.ofMinutes(1));
@@ -297,7 +131,7 @@ class WatchTopologyTest {
     }
 
     @Test
-    void namesTheDevicesThatAMissionMisses() throws Exception {
+    void namesMissingDevicesOfAMission() throws Exception {
         farm.pipe(Topics.MISSIONS_STATUS, "m", status("starting", "[]", "null"));
         assertThat(farm.read(Topics.ALARMS)).isEmpty();
         farm.pipe(
@@ -314,10 +148,10 @@ class WatchTopologyTest {
     }
 
     @Test
-    void renewsTheWordsOfAnAlarmWithoutNotifyingAnew() throws Exception {
-        misses("it has not connected");
+    void updatesTheTextWithoutANewSequenceNumber() throws Exception {
+        reportMissing("it has not connected");
         JsonNode raised = farm.newest(Topics.ALARMS);
-        misses("its password was refused once");
+        reportMissing("its password was refused once");
         JsonNode reworded = farm.newest(Topics.ALARMS);
         assertThat(reworded.path("text").asText()).isEqualTo("mission m: t (its password was refused once)");
         assertThat(reworded.path("sequence")).isEqualTo(raised.path("sequence"));
@@ -325,8 +159,8 @@ class WatchTopologyTest {
     }
 
     @Test
-    void publishesEachExtentInTheEndThoughChangesFollowOneAnotherQuickly() throws Exception {
-        misses("why");
+    void publishesTheFinalExtentAfterQuickChanges() throws Exception {
+        reportMissing("why");
         farm.pipe(
                 Topics.MISSIONS_STATUS,
                 "m",
@@ -337,7 +171,7 @@ class WatchTopologyTest {
         assertThat(newest.path("change").asText()).isEqualTo("updated");
     }
 
-    private void misses(String why) {
+    private void reportMissing(String why) {
         farm.pipe(
                 Topics.MISSIONS_STATUS,
                 "m",
@@ -349,22 +183,15 @@ class WatchTopologyTest {
                 .formatted(state, missing, reason);
     }
 
-    private long closedClocks() throws Exception {
+    private long countClosedClockAlarms() throws Exception {
         return farm.all(Topics.ALARMS).stream()
                 .filter(alarm -> alarm.path("kind").asText().equals("clock-behind"))
                 .filter(alarm -> alarm.path("state").asText().equals("closed"))
                 .count();
     }
 
-    private void suspectFor(int windows) {
-        for (int i = 0; i < windows; i++) {
-            farm.temperature("f", 18, List.of(THERMOMETER));
-            farm.pass(WINDOW);
-        }
-    }
-
     @Test
-    void answersWhatIsRequestedOfAlarms() throws Exception {
+    void executesCommands() throws Exception {
         farm.encounter("started", 3.2);
         farm.newest(Topics.ALARMS);
         farm.request(
@@ -384,7 +211,7 @@ class WatchTopologyTest {
     }
 
     @Test
-    void setsAsideWhatItCannotReadOnce() {
+    void writesOneDeadLetterPerUnreadableRecord() {
         farm.pipe(Topics.COLLISION, "a-b", "{}".getBytes(UTF_8));
         farm.pipe(Topics.TEMPERATURE, "f", "[".getBytes(UTF_8));
         farm.pipe(Topics.RAW, "x", "[".getBytes(UTF_8));
@@ -401,9 +228,9 @@ class WatchTopologyTest {
         assertThat(farm.read(Topics.dead(Topics.TEMPERATURE))).hasSize(1);
     }
 
-    /** It would be the last record that is ever handled: no internal topic takes it. */
+    /** An internal topic would reject such a record, and processing would stop. */
     @Test
-    void setsAsideWhatIsTooLargeToBeHandled() {
+    void writesDeadLettersForOversizedRecords() {
         farm.pipe(Topics.COLLISION, "a-b", new byte[Limits.RECORD_BYTES]);
         farm.pipe(Topics.TEMPERATURE, "x".repeat(Limits.RECORD_BYTES), "{}");
         farm.encounter("started", 3.2);
@@ -423,8 +250,8 @@ class WatchTopologyTest {
 
     /** State and offsets are found by these names. */
     @Test
-    void hasANameForEveryStoreAndEveryTopicOfItsOwn() {
-        assertThat(WatchTopology.of(REMEMBERED, WatchOptions.DEFAULT, FiwareScope.DEFAULT)
+    void namesEveryStoreAndInternalTopic() {
+        assertThat(WatchTopology.of(REQUEST_RETENTION, WatchOptions.DEFAULT, FiwareScope.DEFAULT)
                         .describe()
                         .toString())
                 .doesNotContain("-0000")

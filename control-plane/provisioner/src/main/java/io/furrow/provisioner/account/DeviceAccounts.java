@@ -15,40 +15,40 @@ import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
 
 /**
- * The accounts of devices at the MQTT brokers. What nobody shall get in with any more, as the password of a stolen device, is
- * removed whether the IoT Agent answers or not; an account is granted once the agent knows the device.
+ * Manages the accounts of devices at the MQTT brokers. Revoked accounts, for instance of a stolen device, are removed
+ * even if the IoT Agent is unavailable; an account is granted only after the agent has registered the device.
  */
 public final class DeviceAccounts {
     private final List<MqttAccounts> brokers;
     private final SecretSource secret;
     private final boolean gateways;
-    /** As all brokers have them; null if that is not known. */
+    /** Accounts that all brokers have; null if unknown. */
     private List<MqttAccount> granted;
 
     private Set<String> allowed;
-    /** Whose accounts this Kafka has asked for since the start: devices and missions. */
+    /** Devices and missions for which this Kafka has requested accounts since the start. */
     private final Set<String> own = new HashSet<>();
-    /** Users that nothing asks for and that may not be removed. */
+    /** Users that are not desired but must not be removed. */
     private final Set<String> retained = new TreeSet<>();
 
-    private Map<String, String> refused = Map.of();
+    private Map<String, String> rejected = Map.of();
 
-    /** @param gateways whether each mission has an account that may speak for all its devices */
+    /** @param gateways whether each mission has an account for all of its devices */
     public DeviceAccounts(List<MqttAccounts> brokers, SecretSource secret, boolean gateways) {
         this.brokers = brokers;
         this.secret = secret;
         this.gateways = gateways;
     }
 
-    /** Takes nothing for granted: another process may have been at work. */
-    public void startAnew() {
+    /** Discards the cached state, because another process may have changed the accounts. */
+    public void reset() {
         granted = null;
         allowed = null;
         own.clear();
         retained.clear();
     }
 
-    /** The ids of the topics whose devices the brokers' accounts are noted to be of. */
+    /** Returns the ids of the topics whose devices have the accounts, as recorded at the brokers. */
     public Set<String> origins() throws IOException {
         Set<String> origins = new HashSet<>();
         for (MqttAccounts broker : brokers) {
@@ -57,21 +57,21 @@ public final class DeviceAccounts {
         return origins;
     }
 
-    /** Notes that all accounts are of devices of a topic. @param topic its id; empty if it is not known */
-    public void noteOrigin(String topic) throws IOException {
+    /** Records the topic whose devices have all accounts. @param topic its id; empty if unknown */
+    public void recordOrigin(String topic) throws IOException {
         for (MqttAccounts broker : topic.isEmpty() ? List.<MqttAccounts>of() : brokers) {
-            broker.noteOrigin(topic);
+            broker.recordOrigin(topic);
         }
     }
 
-    /** Users that nothing asks for and that may not be removed. */
+    /** Returns the users that are not desired but must not be removed. */
     public Set<String> retained() {
         return Set.copyOf(retained);
     }
 
-    /** Tries those again that a broker has refused. */
-    public void retryRefused() {
-        if (!refused.isEmpty()) {
+    /** Makes the next step retry accounts that a broker has rejected. */
+    public void retryRejected() {
+        if (!rejected.isEmpty()) {
             granted = null;
         }
         if (!retained.isEmpty()) {
@@ -80,9 +80,10 @@ public final class DeviceAccounts {
     }
 
     /**
-     * Removes the accounts that none of the desired devices has any more.
+     * Removes the accounts that no desired device has.
      *
-     * @param all whether those too that no desired device has had since the start, and whose key is accepted
+     * @param all whether to remove also accounts that no desired device has had since the start and whose key is still
+     *     accepted
      */
     public void revoke(Collection<DesiredDevice> desired, boolean all) throws IOException {
         Set<String> users = new HashSet<>(byUser(desired).keySet());
@@ -96,43 +97,43 @@ public final class DeviceAccounts {
                             .toList();
             retained.clear();
             for (MqttAccounts broker : brokers) {
-                retained.addAll(broker.retain(users, user -> all || mayGo(UserName.of(user))));
+                retained.addAll(broker.retain(users, user -> all || isRemovable(UserName.of(user))));
             }
         }
         retained.removeAll(users);
         allowed = users;
     }
 
-    private boolean mayGo(UserName user) {
+    private boolean isRemovable(UserName user) {
         return own.contains(user.owner()) || !secret.get().acceptedKeys().contains(user.key());
     }
 
     /**
-     * Lets devices in that the agent knows. A desired device that the agent does not know, or no longer, does not lose its account.
+     * Grants accounts to devices that the agent has. A desired device that the agent lacks retains its account.
      *
-     * @param there by key
-     * @param complete whether these are all
-     * @return why, by key, of those that cannot have their account
+     * @param registered devices that the agent has, by key
+     * @param complete whether these are all desired devices
+     * @return the reason, by key, for each device that cannot have its account
      */
-    public Map<String, String> grant(Map<String, DesiredDevice> there, boolean complete) throws IOException {
-        List<MqttAccount> accounts = List.copyOf(byUser(there.values()).values());
+    public Map<String, String> grant(Map<String, DesiredDevice> registered, boolean complete) throws IOException {
+        List<MqttAccount> accounts = List.copyOf(byUser(registered.values()).values());
         boolean grows = granted != null && new HashSet<>(accounts).containsAll(granted);
         if (!accounts.equals(granted) && (complete || grows)) {
             granted = null;
-            refused = new HashMap<>();
+            rejected = new HashMap<>();
             Set<String> retain = new HashSet<>(retained);
             retain.addAll(allowed);
             accounts.forEach(account -> retain.remove(account.login().user()));
             for (MqttAccounts broker : brokers) {
-                refused.putAll(broker.replace(accounts, retain));
+                rejected.putAll(broker.replace(accounts, retain));
             }
             granted = accounts;
         }
         Map<String, String> reasons = new TreeMap<>();
-        if (!refused.isEmpty()) {
-            there.forEach((key, device) -> byUser(List.of(device)).keySet().stream()
-                    .filter(refused::containsKey)
-                    .forEach(user -> reasons.put(key, refused.get(user))));
+        if (!rejected.isEmpty()) {
+            registered.forEach((key, device) -> byUser(List.of(device)).keySet().stream()
+                    .filter(rejected::containsKey)
+                    .forEach(user -> reasons.put(key, rejected.get(user))));
         }
         return reasons;
     }

@@ -19,18 +19,19 @@ import org.slf4j.LoggerFactory;
 import io.furrow.model.device.DeviceConnection;
 
 /**
- * Accounts for an MQTT broker in this JVM, which asks at each connection and message, and what it asked. Safe from all threads.
+ * Holds accounts for an MQTT broker in this JVM, which checks each connection and message against them, and records the
+ * results. Thread-safe.
  */
 public final class InMemoryAccounts implements MqttAccounts, LoginReports {
     private static final Logger LOG = LoggerFactory.getLogger(InMemoryAccounts.class);
-    private static final int MAX_STRANGERS = 1000;
-    private static final int MAX_LOGGED = 200;
+    private static final int MAX_UNKNOWN_USERS = 1000;
+    private static final int MAX_LOGGED_LENGTH = 200;
     private static final long LOG_EVERY_MS = 10_000;
 
     private final LongSupplier clock;
     private final LoginHistory owners = new LoginHistory(Integer.MAX_VALUE);
-    private final AtomicLong logged = new AtomicLong(Long.MIN_VALUE / 2);
-    private final LoginHistory strangers = new LoginHistory(MAX_STRANGERS);
+    private final AtomicLong lastLogged = new AtomicLong(Long.MIN_VALUE / 2);
+    private final LoginHistory unknownUsers = new LoginHistory(MAX_UNKNOWN_USERS);
     private volatile Map<String, MqttAccount> byUser = Map.of();
 
     public InMemoryAccounts() {
@@ -73,16 +74,16 @@ public final class InMemoryAccounts implements MqttAccounts, LoginReports {
 
     @Override
     public Map<String, LoginReport> reports() {
-        Map<String, LoginReport> all = new HashMap<>(strangers.reports());
+        Map<String, LoginReport> all = new HashMap<>(unknownUsers.reports());
         all.putAll(owners.reports());
         return all;
     }
 
-    /** Whether somebody who connects is who he says he is. */
+    /** Whether the password is that of the user. */
     public boolean authenticates(String user, byte[] password) {
         MqttAccount account = byUser.get(user);
         if (account == null) {
-            strangers.refused(user, DeviceConnection.UNKNOWN_USER, clock.getAsLong());
+            unknownUsers.refused(user, DeviceConnection.UNKNOWN_USER, clock.getAsLong());
             log("login of an unknown user", user);
             return false;
         }
@@ -100,7 +101,7 @@ public final class InMemoryAccounts implements MqttAccounts, LoginReports {
         return byUser.containsKey(user);
     }
 
-    /** Whether a message that somebody publishes may go to its topic. */
+    /** Whether a user may publish to a topic. */
     public boolean mayWrite(String user, String topic) {
         MqttAccount account = byUser.get(user);
         boolean may = account != null && account.mayWrite(topic);
@@ -111,12 +112,13 @@ public final class InMemoryAccounts implements MqttAccounts, LoginReports {
         return may;
     }
 
-    /** Not each of them, and no sign that would make another line: anybody can cause them. */
+    /** Limits rate and length and removes control characters, because any client can cause these lines. */
     private void log(String what, String user) {
         long now = clock.getAsLong();
-        long before = logged.get();
-        if (now - before >= LOG_EVERY_MS && logged.compareAndSet(before, now)) {
-            String name = user.substring(0, Math.min(user.length(), MAX_LOGGED)).replaceAll("\\p{Cntrl}", "?");
+        long before = lastLogged.get();
+        if (now - before >= LOG_EVERY_MS && lastLogged.compareAndSet(before, now)) {
+            String name = user.substring(0, Math.min(user.length(), MAX_LOGGED_LENGTH))
+                    .replaceAll("\\p{Cntrl}", "?");
             LOG.info("the MQTT broker refused a {}, {}; further ones within 10 s are not logged", what, name);
         }
     }

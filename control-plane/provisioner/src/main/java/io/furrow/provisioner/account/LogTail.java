@@ -11,11 +11,11 @@ import java.nio.file.attribute.BasicFileAttributes;
 import java.util.function.Consumer;
 
 /**
- * Reads the lines that are appended to a file, and goes on when the file was renamed or truncated: what was written in between is
- * read too where the renamed file still exists. Begins a few megabytes before the end. For one thread.
+ * Reads the lines that are appended to a file, and follows it when it is renamed or truncated: the rest of a renamed
+ * file is read too, if it still exists. Starts a few megabytes before the end. Not thread-safe.
  */
 final class LogTail {
-    /** At most so much is read at once; the rest with the next call. */
+    /** Maximum number of bytes read at once. */
     private static final int MAX_BYTES = 4 * 1024 * 1024;
 
     private final Path file;
@@ -28,19 +28,19 @@ final class LogTail {
     }
 
     /**
-     * Reads complete lines. A file that is missing has none.
+     * Reads the complete lines since the previous call. A missing file has none.
      *
-     * @throws IOException if the file is there and cannot be read
+     * @throws IOException if the file exists but cannot be read
      */
     void read(Consumer<String> lines) throws IOException {
         boolean first = key == null;
         Object now = key();
-        boolean other = now != null && !now.equals(key);
-        boolean more = open != null && readOn(lines);
-        while (other && more) {
-            more = readOn(lines);
+        boolean replaced = now != null && !now.equals(key);
+        boolean more = open != null && readMore(lines);
+        while (replaced && more) {
+            more = readMore(lines);
         }
-        if (other) {
+        if (replaced) {
             close();
             open = Files.newByteChannel(file);
             key = now;
@@ -48,11 +48,11 @@ final class LogTail {
                 open.position(open.size() - MAX_BYTES);
                 inLine = true;
             }
-            readOn(lines);
+            readMore(lines);
         }
     }
 
-    /** What tells the file from another of its name; null if there is none. */
+    /** Returns the identity of the file, which distinguishes it from its successor; null if it does not exist. */
     private Object key() throws IOException {
         try {
             BasicFileAttributes attributes = Files.readAttributes(file, BasicFileAttributes.class);
@@ -62,8 +62,8 @@ final class LogTail {
         }
     }
 
-    /** Returns whether there was anything to read. */
-    private boolean readOn(Consumer<String> lines) throws IOException {
+    /** Returns whether complete lines were read. */
+    private boolean readMore(Consumer<String> lines) throws IOException {
         if (open.size() < open.position()) {
             open.position(0);
             inLine = false;
@@ -71,7 +71,7 @@ final class LogTail {
         long begin = open.position();
         ByteBuffer buffer = ByteBuffer.allocate((int) Math.min(MAX_BYTES, open.size() - begin));
         while (buffer.hasRemaining() && open.read(buffer) >= 0) {
-            // until it is full or the file ends
+            // continues until the buffer is full or the file ends
         }
         byte[] bytes = buffer.array();
         int from = 0;
@@ -84,7 +84,7 @@ final class LogTail {
                 from = i + 1;
             }
         }
-        if (from == 0 && buffer.position() == MAX_BYTES) { // a line that no broker logs
+        if (from == 0 && buffer.position() == MAX_BYTES) { // longer than any line of a broker
             inLine = true;
             from = MAX_BYTES;
         }

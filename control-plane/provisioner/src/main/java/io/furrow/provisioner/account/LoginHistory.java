@@ -7,8 +7,8 @@ import java.util.function.UnaryOperator;
 import io.furrow.kafka.BoundedMap;
 
 /**
- * Remembers what happened at logins, of a limited number of users: those of whom nothing was heard for longest are forgotten.
- * Names and topics are bounded too, because clients choose them. Safe from all threads.
+ * Records the logins of a limited number of users, evicting the least recently active one. Names and topics are bounded
+ * too, because clients choose them. Thread-safe.
  */
 final class LoginHistory {
     private static final int MAX_USER = 1024;
@@ -33,7 +33,7 @@ final class LoginHistory {
         update(user, entry -> entry.published(begin, now));
     }
 
-    /** Forgets all others. */
+    /** Removes all other users. */
     synchronized void retain(Set<String> users) {
         byUser.keySet().retainAll(users);
     }

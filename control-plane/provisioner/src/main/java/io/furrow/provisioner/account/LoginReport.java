@@ -4,11 +4,11 @@ import io.furrow.model.device.DeviceConnection.ForeignTopic;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
 
 /**
- * What an MQTT broker noticed of a user.
+ * The observations of an MQTT broker about a user.
  *
- * @param loggedIn when it last connected, epoch ms; null if it has not
- * @param refused null if no login was
- * @param foreign null if it has published to no topic of somebody else
+ * @param loggedIn when the user last connected, epoch ms; null if never
+ * @param refused null if no login was refused
+ * @param foreign null if the user has not published to topics of others
  */
 public record LoginReport(Long loggedIn, RefusedLogin refused, ForeignTopic foreign) {
     static final LoginReport NONE = new LoginReport(null, null, null);
@@ -18,9 +18,9 @@ public record LoginReport(Long loggedIn, RefusedLogin refused, ForeignTopic fore
     }
 
     LoginReport refused(String user, String reason, long now) {
-        boolean goesOn = refused != null && (loggedIn == null || refused.last() > loggedIn);
+        boolean continues = refused != null && (loggedIn == null || refused.last() > loggedIn);
         return new LoginReport(
-                loggedIn, new RefusedLogin(goesOn ? refused.count() + 1 : 1, now, reason, user), foreign);
+                loggedIn, new RefusedLogin(continues ? refused.count() + 1 : 1, now, reason, user), foreign);
     }
 
     LoginReport published(String topic, long now) {

@@ -2,8 +2,8 @@ package io.furrow.provisioner.account;
 
 import java.util.Map;
 
-/** What an MQTT broker noticed of its users. Safe from all threads. */
+/** Reports the logins at an MQTT broker. Thread-safe. */
 public interface LoginReports {
-    /** By user. Of users without an account the newest are there, of others all of whom there is something to say. */
+    /** Returns the reports by user: of all users with an account, and of the newest users without. */
     Map<String, LoginReport> reports();
 }

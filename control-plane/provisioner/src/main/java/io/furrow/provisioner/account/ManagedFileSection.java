@@ -17,8 +17,9 @@ import org.slf4j.LoggerFactory;
 import io.furrow.model.file.PrivateFile;
 
 /**
- * The part of a text file between two marked lines. What stands before and after belongs to others and stays. The file is replaced
- * as a whole, so that no reader ever sees half of it, nor anybody after a power cut; it keeps its permissions and, where that is allowed, its group.
+ * Reads and writes the part of a text file between two marker lines; the rest of the file belongs to others and stays
+ * unchanged. The file is replaced atomically, so that it is never read half-written, not even after a power failure. It
+ * keeps its permissions and, if the process may set it, its group.
  */
 final class ManagedFileSection {
     private static final Logger LOG = LoggerFactory.getLogger(ManagedFileSection.class);
@@ -32,14 +33,14 @@ final class ManagedFileSection {
         this.file = file.toAbsolutePath();
     }
 
-    /** The lines of the section; none if there is no file or no section. */
+    /** Returns the lines of the section; empty if there is no file or no section. */
     List<String> read() throws IOException {
         List<String> all = lines();
         int begin = all.indexOf(BEGIN);
         return begin < 0 ? List.of() : List.copyOf(all.subList(begin + 1, end(all, begin)));
     }
 
-    /** The lines before and after the section. */
+    /** Returns the lines before and after the section. */
     List<String> readOthers() throws IOException {
         List<String> all = lines();
         int begin = all.indexOf(BEGIN);
@@ -61,13 +62,13 @@ final class ManagedFileSection {
         if (begin >= 0) {
             next.addAll(all.subList(Math.min(all.size(), end(all, begin) + 1), all.size()));
         }
-        Path written = Files.exists(file) ? file.toRealPath() : file; // a link stays one
-        Files.createDirectories(written.getParent());
-        Path fresh = written.resolveSibling(written.getFileName() + "." + UUID.randomUUID() + ".new");
+        Path target = Files.exists(file) ? file.toRealPath() : file; // preserves a symbolic link
+        Files.createDirectories(target.getParent());
+        Path fresh = target.resolveSibling(target.getFileName() + "." + UUID.randomUUID() + ".new");
         try {
             PrivateFile.create(fresh, String.join("\n", next) + "\n");
-            giveTo(fresh);
-            Files.move(fresh, written, StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
+            copyPermissionsTo(fresh);
+            Files.move(fresh, target, StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
         } finally {
             Files.deleteIfExists(fresh);
         }
@@ -82,8 +83,8 @@ final class ManagedFileSection {
         return end < begin ? all.size() : end;
     }
 
-    /** Lets those read the new file who could read the old one; of a first one its owner and its group. */
-    private void giveTo(Path fresh) throws IOException {
+    /** Gives the new file the permissions and group of the old one; without an old one its owner and group may read it. */
+    private void copyPermissionsTo(Path fresh) throws IOException {
         PosixFileAttributeView view = Files.getFileAttributeView(fresh, PosixFileAttributeView.class);
         if (view == null) {
             return;
@@ -104,7 +105,6 @@ final class ManagedFileSection {
         view.setPermissions(old.permissions());
     }
 
-    /** The file. */
     @Override
     public String toString() {
         return file.toString();

@@ -26,14 +26,14 @@ import org.slf4j.LoggerFactory;
 import io.furrow.model.device.FarmSecret;
 
 /**
- * Accounts as a section of Mosquitto's password file and of its ACL file. Where nothing changes nothing is written. After a
- * change a command lets the broker read them again, once a second at most.
+ * Writes accounts to sections of Mosquitto's password file and ACL file, if they have changed, and then runs a command
+ * that makes the broker reload the files, at most once a second.
  */
 public final class MosquittoFiles implements MqttAccounts {
     private static final Logger LOG = LoggerFactory.getLogger(MosquittoFiles.class);
     private static final long COMMAND_SECONDS = 10;
     private static final int MAX_OUTPUT = 1000;
-    /** Mosquitto loses a signal that comes while it reads its files for the one before: 0.4 s with ten thousand accounts. */
+    /** Mosquitto loses a signal that arrives while it reloads its files: 0.4 s with ten thousand accounts. */
     private static final long BETWEEN_RELOADS_NANOS = TimeUnit.SECONDS.toNanos(1);
 
     private static final Pattern USER_RULE = Pattern.compile("\\s*user\\s+(.*?)\\s*");
@@ -41,11 +41,11 @@ public final class MosquittoFiles implements MqttAccounts {
     private final ManagedFileSection passwords;
     private final ManagedFileSection rules;
     private final String reload;
-    /** What was made or checked already, because a check takes as long as a login. */
-    private Map<FarmSecret.Login, String> checked = Map.of();
+    /** Lines that were created or verified, because a verification takes as long as a login. */
+    private Map<FarmSecret.Login, String> verified = Map.of();
 
     private Map<String, String> reported = Map.of();
-    /** At the start too: a process that died may have written the files and not notified the broker. */
+    /** True at the start: a crashed process may have written the files without notifying the broker. */
     private boolean reloadIsDue = true;
 
     private long reloaded = System.nanoTime() - BETWEEN_RELOADS_NANOS;
@@ -53,8 +53,8 @@ public final class MosquittoFiles implements MqttAccounts {
     /**
      * @param passwords option {@code password_file} of the broker
      * @param rules option {@code acl_file} of the broker
-     * @param reload for {@code sh -c}, as in {@code kill -HUP $(cat /run/mosquitto/mosquitto.pid)}; null for none. It may hold a password,
-     *     so no message has it
+     * @param reload command for {@code sh -c}, as in {@code kill -HUP $(cat /run/mosquitto/mosquitto.pid)}; null for
+     *     none. Messages do not contain it, because it may contain a password
      */
     public MosquittoFiles(Path passwords, Path rules, String reload) {
         this.passwords = new ManagedFileSection(passwords);
@@ -63,50 +63,50 @@ public final class MosquittoFiles implements MqttAccounts {
     }
 
     @Override
-    public synchronized Map<String, String> replace(List<MqttAccount> accounts, Set<String> preserved)
+    public synchronized Map<String, String> replace(List<MqttAccount> accounts, Set<String> retained)
             throws IOException {
         List<String> before = passwords.read();
-        Map<String, String> refused = refused(accounts, SectionComments.of(before));
+        Map<String, String> rejected = rejected(accounts, SectionComments.of(before));
         List<MqttAccount> own = accounts.stream()
-                .filter(account -> !refused.containsKey(account.login().user()))
+                .filter(account -> !rejected.containsKey(account.login().user()))
                 .toList();
         Set<String> users = own.stream().map(account -> account.login().user()).collect(Collectors.toSet());
-        Predicate<String> retain = user -> preserved.contains(user) && !users.contains(user);
+        Predicate<String> retain = user -> retained.contains(user) && !users.contains(user);
         List<String> nextRules = rulesOf(retain);
         nextRules.addAll(rules(own));
         List<String> next = passwordsOf(before, retain);
         next.addAll(passwords(own));
-        // The rules first: should only one of both be written, nobody gets in without them.
+        // Rules before passwords: if only one file is written, no user can log in without rules.
         reloadIsDue |= write(rules, nextRules);
-        reloadIsDue |= write(passwords, SectionComments.of(before).with(users).before(next));
+        reloadIsDue |= write(passwords, SectionComments.of(before).with(users).linesBefore(next));
         reloadIfDue();
-        return refused;
+        return rejected;
     }
 
-    /** A user that stands elsewhere in the files is somebody else's: Mosquitto would take the later line of two. */
-    private Map<String, String> refused(List<MqttAccount> accounts, SectionComments notes) throws IOException {
+    /** Rejects users that exist outside of the section: of two lines Mosquitto would use the later one. */
+    private Map<String, String> rejected(List<MqttAccount> accounts, SectionComments comments) throws IOException {
         Set<String> users = new HashSet<>();
         accounts.forEach(account -> users.add(account.login().user()));
-        Map<String, String> refused = new TreeMap<>();
-        users.forEach(user -> notes.refusal(user).ifPresent(reason -> refused.put(user, reason)));
+        Map<String, String> rejected = new TreeMap<>();
+        users.forEach(user -> comments.rejection(user).ifPresent(reason -> rejected.put(user, reason)));
         for (String line : passwords.readOthers()) {
-            refuse(MosquittoPassword.user(line), passwords, users, refused);
+            reject(MosquittoPassword.user(line), passwords, users, rejected);
         }
         for (String line : rules.readOthers()) {
-            refuse(user(line), rules, users, refused);
+            reject(user(line), rules, users, rejected);
         }
-        if (!refused.isEmpty() && !refused.equals(reported)) {
-            refused.values().forEach(LOG::warn);
+        if (!rejected.isEmpty() && !rejected.equals(reported)) {
+            rejected.values().forEach(LOG::warn);
         }
-        reported = refused;
-        return refused;
+        reported = rejected;
+        return rejected;
     }
 
-    private static void refuse(String user, ManagedFileSection file, Set<String> users, Map<String, String> refused) {
+    private static void reject(String user, ManagedFileSection file, Set<String> users, Map<String, String> rejected) {
         if (users.contains(user)) {
-            refused.put(
+            rejected.put(
                     user,
-                    "a user '%s' stands outside of Furrow's section of %s, and counts as somebody else's; remove it there"
+                    "user '%s' exists outside of Furrow's section of %s and is not replaced; remove it there"
                             .formatted(user, file));
         }
     }
@@ -123,8 +123,8 @@ public final class MosquittoFiles implements MqttAccounts {
         };
         List<String> next = passwordsOf(before, retain);
         List<String> nextRules = rulesOf(retain);
-        // The passwords first: should only one of both be written, nobody gets in who shall not.
-        reloadIsDue |= write(passwords, SectionComments.of(before).with(users).before(next));
+        // Passwords before rules: if only one file is written, revoked users cannot log in.
+        reloadIsDue |= write(passwords, SectionComments.of(before).with(users).linesBefore(next));
         reloadIsDue |= write(rules, nextRules);
         reloadIfDue();
         return next.stream()
@@ -135,7 +135,7 @@ public final class MosquittoFiles implements MqttAccounts {
 
     private static List<String> passwordsOf(List<String> lines, Predicate<String> users) {
         return lines.stream()
-                .filter(line -> !SectionComments.isNote(line) && users.test(MosquittoPassword.user(line)))
+                .filter(line -> !SectionComments.isComment(line) && users.test(MosquittoPassword.user(line)))
                 .collect(Collectors.toCollection(ArrayList::new));
     }
 
@@ -158,12 +158,12 @@ public final class MosquittoFiles implements MqttAccounts {
     }
 
     @Override
-    public synchronized void noteOrigin(String topic) throws IOException {
+    public synchronized void recordOrigin(String topic) throws IOException {
         List<String> before = passwords.read();
-        write(passwords, SectionComments.of(before).with(topic).before(passwordsOf(before, any -> true)));
+        write(passwords, SectionComments.of(before).with(topic).linesBefore(passwordsOf(before, any -> true)));
     }
 
-    /** The user with which a line of the rules begins; null if it begins none. */
+    /** Returns the user of a {@code user} line of the rules; null for other lines. */
     private static String user(String rule) {
         Matcher user = USER_RULE.matcher(rule);
         return user.matches() ? user.group(1) : null;
@@ -184,7 +184,7 @@ public final class MosquittoFiles implements MqttAccounts {
         return true;
     }
 
-    /** Lines that are right already stay as they are; a new one has another salt each time. */
+    /** Reuses existing lines that match, because each new line has another salt. */
     private List<String> passwords(List<MqttAccount> accounts) throws IOException {
         Map<String, String> existing = new HashMap<>();
         passwords.read().forEach(line -> existing.put(MosquittoPassword.user(line), line));
@@ -192,10 +192,10 @@ public final class MosquittoFiles implements MqttAccounts {
         for (MqttAccount account : accounts) {
             FarmSecret.Login login = account.login();
             String line = existing.getOrDefault(login.user(), "");
-            boolean retain = line.equals(checked.get(login)) || MosquittoPassword.isOf(line, login);
+            boolean retain = line.equals(verified.get(login)) || MosquittoPassword.isOf(line, login);
             next.put(login, retain ? line : MosquittoPassword.line(login));
         }
-        checked = next;
+        verified = next;
         return List.copyOf(next.values());
     }
 
@@ -219,7 +219,7 @@ public final class MosquittoFiles implements MqttAccounts {
             Files.delete(output);
         }
         reloaded = System.nanoTime();
-        LOG.debug("asked the MQTT broker to reload its files");
+        LOG.debug("the MQTT broker reloads its files");
     }
 
     private void reload(Path output) throws IOException {

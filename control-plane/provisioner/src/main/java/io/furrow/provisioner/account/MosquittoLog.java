@@ -18,17 +18,17 @@ import io.furrow.kafka.BoundedMap;
 import io.furrow.model.device.FarmSecret;
 
 /**
- * Reads in Mosquitto's log who connected ({@code log_type notice}) and who published where he may not ({@code log_type debug}).
- * Of a refused login Mosquitto 2.0 logs neither user nor client.
+ * Extracts connections ({@code log_type notice}) and denied messages ({@code log_type debug}) from Mosquitto's log. For
+ * a refused login Mosquitto 2.0 logs neither user nor client.
  *
- * <p>A client chooses its id and its topics, and so parts of lines. An id is taken up to the last text that could end it, so that
- * none can speak for another client; what cannot be told apart is left out.
+ * <p>A client controls parts of lines, because it chooses its id and topics. An id is matched up to the last text that
+ * could end it, so that no client can impersonate another; ambiguous lines are skipped.
  */
 public final class MosquittoLog implements LoginReports {
     private static final Logger LOG = LoggerFactory.getLogger(MosquittoLog.class);
     private static final int MAX_CLIENTS = 100_000;
     private static final int MAX_ID = 256;
-    /** The time in front is {@code log_timestamp_format}, by default seconds; there is none with {@code log_timestamp false}. */
+    /** The prefix follows {@code log_timestamp_format}, by default seconds; missing with {@code log_timestamp false}. */
     private static final String TIME = "(?:([^ ]+(?: [\\d:.]+)?): )?";
 
     private static final Pattern CONNECTED =
@@ -43,7 +43,7 @@ public final class MosquittoLog implements LoginReports {
     private final Map<String, String> userByClient = BoundedMap.byAccess(MAX_CLIENTS);
     private String failure = "";
 
-    /** @param file of option {@code log_dest file}; it need not be there yet */
+    /** @param file of option {@code log_dest file}; it need not exist yet */
     public MosquittoLog(Path file) {
         this(file, System::currentTimeMillis);
     }
@@ -59,7 +59,7 @@ public final class MosquittoLog implements LoginReports {
         try {
             tail.read(this::take);
             failure = "";
-        } catch (IOException e) { // its rights, for instance; what was read before holds
+        } catch (IOException e) { // for instance missing permissions; earlier reports stay valid
             if (!e.toString().equals(failure)) {
                 failure = e.toString();
                 LOG.warn("Mosquitto's log cannot be read, so it is not known which devices connect: {}", failure);
@@ -100,7 +100,7 @@ public final class MosquittoLog implements LoginReports {
                     .atZone(ZoneId.systemDefault())
                     .toInstant()
                     .toEpochMilli();
-        } catch (DateTimeParseException e) { // another format: about when it was read
+        } catch (DateTimeParseException e) { // another format: the time of reading is close
             return clock.getAsLong();
         }
     }

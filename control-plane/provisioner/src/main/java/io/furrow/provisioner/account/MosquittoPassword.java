@@ -12,11 +12,14 @@ import javax.crypto.spec.PBEKeySpec;
 
 import io.furrow.model.device.FarmSecret;
 
-/** Lines of Mosquitto's password file: {@code user:$7$iterations$salt$hash}, PBKDF2 with HMAC-SHA-512, as mosquitto_passwd makes it. */
+/**
+ * Creates and verifies lines of Mosquitto's password file: {@code user:$7$iterations$salt$hash}, PBKDF2 with
+ * HMAC-SHA-512, as mosquitto_passwd does.
+ */
 public final class MosquittoPassword {
     private static final Pattern LINE = Pattern.compile("([^:]+):\\$7\\$(\\d{1,9})\\$([^$]+)\\$([^$]+)");
     private static final String FUNCTION = "PBKDF2WithHmacSHA512";
-    /** That of Mosquitto 2.0; the passwords have some 130 random bits, so that no number of them matters. */
+    /** The default of Mosquitto 2.0; passwords with about 130 random bits need no more. */
     private static final int ITERATIONS = 101;
 
     private static final int SALT_BYTES = 12;
@@ -37,13 +40,13 @@ public final class MosquittoPassword {
                         base64.encodeToString(hash(login.password(), salt, ITERATIONS)));
     }
 
-    /** The user of a line; the whole line where it names none. */
+    /** Returns the user of a line; the whole line if it names none. */
     static String user(String line) {
         int colon = line.indexOf(':');
         return colon < 0 ? line : line.substring(0, colon);
     }
 
-    /** Whether a line is of a user and lets the password in. */
+    /** Whether a line belongs to the user of a login and matches its password. */
     static boolean isOf(String line, FarmSecret.Login login) {
         Matcher parts = LINE.matcher(line);
         if (!parts.matches() || !parts.group(1).equals(login.user())) {
@@ -54,7 +57,7 @@ public final class MosquittoPassword {
             byte[] expected = Base64.getDecoder().decode(parts.group(4));
             return MessageDigest.isEqual(
                     expected, hash(login.password(), salt, Math.max(1, Integer.parseInt(parts.group(2)))));
-        } catch (IllegalArgumentException e) { // somebody has edited the line; it is made again
+        } catch (IllegalArgumentException e) { // an edited line; it is written again
             return false;
         }
     }

@@ -6,28 +6,28 @@ import java.util.List;
 import io.furrow.model.device.FarmSecret;
 
 /**
- * Who may do what at the MQTT broker. A device may publish its own measures and results of commands, and hear its own commands; a
- * gateway may the same for all devices of its mission.
+ * An account at the MQTT broker with its permissions. A device may publish its own measures and command results, and
+ * subscribe to its own commands; a gateway may do so for all devices of its mission.
  *
  * @param login user and password
  * @param writes topic filters that it may publish to
  * @param reads topic filters that it may subscribe to
  */
 public record MqttAccount(FarmSecret.Login login, List<String> writes, List<String> reads) {
-    /** The IoT Agent takes topics with either. */
+    /** The IoT Agent accepts topics with and without the prefix. */
     private static final List<String> PREFIXES = List.of("", "/json");
 
-    /** Of a device whose credentials were never rotated, with the newest key. */
+    /** Returns the account of a device whose credentials were never rotated, with the newest key. */
     public static MqttAccount device(FarmSecret secret, String mission, String device) {
         return of(secret.device(mission, device), secret.apiKey(mission), device);
     }
 
-    /** With the newest key. */
+    /** Returns the account of a mission's gateway with the newest key. */
     public static MqttAccount gateway(FarmSecret secret, String mission) {
         return of(secret.gateway(mission), secret.apiKey(mission), "+");
     }
 
-    /** One for each key that is accepted. */
+    /** Returns one account for each accepted key. */
     public static List<MqttAccount> devices(FarmSecret secret, String mission, String device, int generation) {
         String apiKey = secret.apiKey(mission);
         return secret.devices(mission, device, generation).stream()
@@ -35,7 +35,7 @@ public record MqttAccount(FarmSecret.Login login, List<String> writes, List<Stri
                 .toList();
     }
 
-    /** One for each key that is accepted. */
+    /** Returns one account for each accepted key. */
     static List<MqttAccount> gateways(FarmSecret secret, String mission) {
         String apiKey = secret.apiKey(mission);
         return secret.gateways(mission).stream()
@@ -59,21 +59,21 @@ public record MqttAccount(FarmSecret.Login login, List<String> writes, List<Stri
         return writes.stream().anyMatch(granted -> covers(granted, topic));
     }
 
-    /** @param filter of a subscription, with wildcards or without */
+    /** @param filter of a subscription, with or without wildcards */
     public boolean mayRead(String filter) {
         return reads.stream().anyMatch(granted -> covers(granted, filter));
     }
 
-    /** Whether a filter takes no topic that the granted one does not. */
+    /** Whether the granted filter matches every topic that another filter matches. */
     private static boolean covers(String granted, String filter) {
-        String[] desired = filter.split("/", -1);
-        String[] given = granted.split("/", -1);
-        if (desired.length != given.length) {
+        String[] filterLevels = filter.split("/", -1);
+        String[] grantedLevels = granted.split("/", -1);
+        if (filterLevels.length != grantedLevels.length) {
             return false;
         }
-        for (int i = 0; i < given.length; i++) {
-            boolean any = given[i].equals("+") && !desired[i].equals("#");
-            if (!any && !given[i].equals(desired[i])) {
+        for (int i = 0; i < grantedLevels.length; i++) {
+            boolean any = grantedLevels[i].equals("+") && !filterLevels[i].equals("#");
+            if (!any && !grantedLevels[i].equals(filterLevels[i])) {
                 return false;
             }
         }

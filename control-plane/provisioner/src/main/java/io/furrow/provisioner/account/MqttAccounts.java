@@ -7,32 +7,32 @@ import java.util.Optional;
 import java.util.Set;
 import java.util.function.Predicate;
 
-/** Where accounts of devices and gateways are put, so that an MQTT broker knows them. */
+/** Stores accounts of devices and gateways where an MQTT broker reads them. */
 public interface MqttAccounts {
     /**
-     * Lets exactly these accounts be known from now on, and those that stay as they are; each user is there once. Called with all of
-     * them after every change.
+     * Replaces all accounts; each user occurs once. Called with the complete list after every change.
      *
-     * @param retained users that stay if they are there
-     * @return why, by user, of those that are not known because somebody else has a user of that name
-     * @throws IOException naming what could not be written or run; it is called again later then
+     * @param retained users that stay if they exist
+     * @return the reason, by user, for each account that was rejected because a foreign user has the same name
+     * @throws IOException naming what could not be written or executed; the caller retries
      */
     Map<String, String> replace(List<MqttAccount> accounts, Set<String> retained) throws IOException;
 
     /**
-     * Removes the accounts of other users, also those that another process or an earlier start has put there.
+     * Removes the accounts of other users, including those written by another process or an earlier run.
      *
-     * @param removable which of them may be removed; a login of a device stays anyway while {@code users} have only an earlier one of it
-     * @return the other users that stay
+     * @param removable tells which of them may be removed; a later login of a device than that in {@code users} always
+     *     stays
+     * @return the retained other users
      * @throws IOException as {@link #replace}
      */
     Set<String> retain(Set<String> users, Predicate<String> removable) throws IOException;
 
-    /** Id of the topic whose devices have the accounts, where that was noted. */
+    /** Returns the recorded id of the topic whose devices have the accounts. */
     default Optional<String> origin() throws IOException {
         return Optional.empty();
     }
 
-    /** Notes that all accounts are of devices of a topic. @param topic its id */
-    default void noteOrigin(String topic) throws IOException {}
+    /** Records the topic whose devices have all accounts. @param topic its id */
+    default void recordOrigin(String topic) throws IOException {}
 }

@@ -10,11 +10,12 @@ import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 /**
- * What Furrow's section of a password file says in comments, because it must outlive Kafka: of the devices of which topic the accounts are, and from
- * which generation on logins of a device are accepted. A login that was revoked is not accepted again by a Kafka that has lost that.
+ * The comments in Furrow's section of a password file, which must outlive Kafka: the topic whose devices have the
+ * accounts, and the minimum generation of each device's logins. So a revoked login stays revoked even if Kafka has lost
+ * the revocation.
  *
- * @param topic its id; null if it is not noted
- * @param generations the latest, by device; those whose credentials were never rotated are not there
+ * @param topic its id; null if not recorded
+ * @param generations latest generation by device, without devices whose credentials were never rotated
  */
 record SectionComments(String topic, Map<String, Integer> generations) {
     private static final String TOPIC = "# Furrow: devices of the topic ";
@@ -39,7 +40,7 @@ record SectionComments(String topic, Map<String, Integer> generations) {
         return new SectionComments(topic, generations).with(users);
     }
 
-    static boolean isNote(String line) {
+    static boolean isComment(String line) {
         return line.startsWith("#");
     }
 
@@ -51,7 +52,7 @@ record SectionComments(String topic, Map<String, Integer> generations) {
         return new SectionComments(newTopic, generations);
     }
 
-    /** Notes the generations of users. */
+    /** Adds the generations of users. */
     SectionComments with(Collection<String> users) {
         Map<String, Integer> next = new TreeMap<>(generations);
         for (String user : users) {
@@ -63,8 +64,8 @@ record SectionComments(String topic, Map<String, Integer> generations) {
         return new SectionComments(topic, next);
     }
 
-    /** Why a user may not log in; empty if he may. */
-    Optional<String> refusal(String user) {
+    /** Returns the reason why a user may not log in; empty if it may. */
+    Optional<String> rejection(String user) {
         UserName name = UserName.of(user);
         int current = generations.getOrDefault(name.owner(), 0);
         return name.generation() >= current
@@ -75,8 +76,8 @@ record SectionComments(String topic, Map<String, Integer> generations) {
                                 .formatted(user, current - name.generation(), current));
     }
 
-    /** The lines of a section that has these notes. */
-    List<String> before(List<String> accounts) {
+    /** Returns the lines of a section: these comments, then the accounts. */
+    List<String> linesBefore(List<String> accounts) {
         List<String> lines = new ArrayList<>();
         origin().ifPresent(id -> lines.add(TOPIC + id));
         generations.forEach((device, generation) ->

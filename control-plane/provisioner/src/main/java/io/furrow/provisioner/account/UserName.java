@@ -4,10 +4,10 @@ import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 /**
- * What the name of a user of ours says, see {@link io.furrow.model.device.FarmSecret#device(String, String, int)}.
+ * The parts of a user name of this farm, see {@link io.furrow.model.device.FarmSecret#device(String, String, int)}.
  *
  * @param owner device or mission, the name without key and generation
- * @param key of the secret; -1 of a user that is none of ours
+ * @param key of the secret; -1 for a foreign user
  * @param generation how often the device's credentials were rotated
  */
 record UserName(String owner, int key, int generation) {
@@ -22,6 +22,6 @@ record UserName(String owner, int key, int generation) {
         Matcher mission = MISSION.matcher(user);
         return mission.matches()
                 ? new UserName(mission.group(1), Integer.parseInt(mission.group(2)), 0)
-                : new UserName(user, -1, 0); // somebody has edited the section
+                : new UserName(user, -1, 0); // an edited section
     }
 }

@@ -1,2 +1,2 @@
-/** Accounts of devices at an MQTT broker. */
+/** Manages the accounts of devices at MQTT brokers. */
 package io.furrow.provisioner.account;

@@ -31,7 +31,7 @@ class InMemoryAccountsTest {
     }
 
     @Test
-    void remembersTheLastLogin() {
+    void recordsTheLastLogin() {
         assertThat(login(DEVICE.user(), DEVICE.password())).isTrue();
         now.set(2000);
         assertThat(login(DEVICE.user(), DEVICE.password())).isTrue();
@@ -40,7 +40,7 @@ class InMemoryAccountsTest {
     }
 
     @Test
-    void countsTheLoginsThatWereRefusedSinceTheLastOneAndReportsWhy() {
+    void countsRefusedLoginsSinceTheLastSuccess() {
         login(DEVICE.user(), "guessed");
         login(DEVICE.user(), DEVICE.password());
         now.set(2000);
@@ -56,7 +56,7 @@ class InMemoryAccountsTest {
     }
 
     @Test
-    void remembersTheTopicsToWhichAUserMayNotPublishButBoundsThem() {
+    void recordsForbiddenTopicsInBoundedLength() {
         assertThat(accounts.mayWrite(DEVICE.user(), TOPIC)).isTrue();
         assertThat(accounts.reports()).isEmpty();
         accounts.mayWrite(DEVICE.user(), "/other/d/attrs");
@@ -67,9 +67,9 @@ class InMemoryAccountsTest {
         assertThat(foreign.topic()).startsWith("/ttt").hasSizeLessThan(300);
     }
 
-    /** Anybody can name as many users as he likes. */
+    /** Any client can name any number of users. */
     @Test
-    void forgetsStrangersAndNeverAnOwner() {
+    void evictsUnknownUsersButNoOwner() {
         login(DEVICE.user(), DEVICE.password());
         for (int i = 0; i < 5000; i++) {
             login("stranger-" + i, "guessed");
@@ -80,7 +80,7 @@ class InMemoryAccountsTest {
     }
 
     @Test
-    void forgetsAnAccountThatIsRemoved() {
+    void dropsReportsOfARemovedAccount() {
         login(DEVICE.user(), DEVICE.password());
 
         accounts.replace(List.of(), Set.of());

@@ -44,7 +44,7 @@ class MosquittoFilesTest {
     }
 
     @Test
-    void leavesUsersOfOthersAndThePermissionsAsTheyAre() throws IOException {
+    void retainsForeignUsersAndPermissions() throws IOException {
         Files.write(passwords(), List.of("agent:$7$101$c2FsdA==$aGFzaA=="));
         Files.setPosixFilePermissions(passwords(), PosixFilePermissions.fromString("rw-r--r--"));
         files(null).replace(List.of(gateway, device), Set.of());
@@ -61,7 +61,7 @@ class MosquittoFilesTest {
     }
 
     @Test
-    void writesTheFileToWhichALinkLeads() throws IOException {
+    void writesTheTargetOfASymbolicLink() throws IOException {
         Path real = Files.createFile(passwords().resolveSibling("real"));
         Files.setPosixFilePermissions(real, PosixFilePermissions.fromString("rw-r--r--"));
         Files.createSymbolicLink(passwords(), real);
@@ -75,7 +75,7 @@ class MosquittoFilesTest {
     }
 
     @Test
-    void touchesNothingAndNotifiesNobodyWhereNothingChanges() throws IOException {
+    void neitherWritesNorReloadsWithoutChanges() throws IOException {
         MosquittoFiles files = files(count());
         files.replace(List.of(gateway, device), Set.of());
         byte[] before = Files.readAllBytes(passwords());
@@ -89,9 +89,9 @@ class MosquittoFilesTest {
         assertThat(calls()).isEqualTo(2);
     }
 
-    /** As for a rotation, which removes an account and adds one: Mosquitto would lose the second signal, and refuse the new password. */
+    /** A rotation removes an account and adds one: Mosquitto would lose the second signal, and reject the new password. */
     @Test
-    void letsTheBrokerReadTheFilesBeforeItNotifiesItAgain() throws IOException {
+    void waitsASecondBetweenReloads() throws IOException {
         MosquittoFiles files = files(count());
         files.replace(List.of(gateway, device), Set.of());
         FileTime first = Files.getLastModifiedTime(directory.resolve("calls"));
@@ -104,7 +104,7 @@ class MosquittoFilesTest {
     }
 
     @Test
-    void notifiesTheBrokerOnceAfterAStartWhatAProcessThatDiedMayNotHaveReported() throws IOException {
+    void reloadsOnceAfterAStart() throws IOException {
         files(null).replace(List.of(device), Set.of());
         byte[] before = Files.readAllBytes(passwords());
         MosquittoFiles started = files(count());
@@ -117,7 +117,7 @@ class MosquittoFilesTest {
     }
 
     @Test
-    void makesAPasswordAnewThatIsNotOfTheSecret() throws IOException {
+    void replacesAPasswordThatDoesNotMatchTheSecret() throws IOException {
         files(null).replace(List.of(device), Set.of());
         Files.writeString(passwords(), Files.readString(passwords()).replaceAll("\\$7\\$101\\$.", "\\$7\\$101\\$!"));
 
@@ -142,14 +142,14 @@ class MosquittoFilesTest {
     }
 
     @Test
-    void waitsForNoCommandThatTalks() throws IOException {
+    void doesNotBlockOnTheOutputOfTheCommand() throws IOException {
         files("yes | head -c 200000").replace(List.of(device), Set.of());
         assertThatThrownBy(() -> files("yes | head -c 200000; exit 3").replace(List.of(device), Set.of()))
                 .hasMessageStartingWith("the command of --mqtt-reload ended with 3: y");
     }
 
     @Test
-    void rejectsAUserThatStandsOutsideOfItsSectionOfEitherFile() throws IOException {
+    void rejectsAUserOutsideOfItsSection() throws IOException {
         String user = device.login().user();
         Files.write(passwords(), List.of(MosquittoPassword.line(new FarmSecret.Login(user, "plough"))));
         Files.write(rules(), List.of("  user   " + gateway.login().user(), "topic readwrite #"));
@@ -159,7 +159,7 @@ class MosquittoFilesTest {
 
         assertThat(refused).containsOnlyKeys(user, gateway.login().user());
         assertThat(refused.get(user))
-                .contains("'" + user + "' stands outside of Furrow's section of " + passwords(), "remove it there");
+                .contains("'" + user + "' exists outside of Furrow's section of " + passwords(), "remove it there");
         assertThat(Files.readAllLines(passwords()))
                 .startsWith(before.get(0))
                 .filteredOn(line -> line.contains(":$7$"))
@@ -174,7 +174,7 @@ class MosquittoFilesTest {
     }
 
     @Test
-    void removesTheAccountsOfAllOthersBothTheirPasswordsAndTheirRules() throws IOException {
+    void removesPasswordsAndRulesOfOtherUsers() throws IOException {
         Files.write(passwords(), List.of("agent:$7$101$c2FsdA==$aGFzaA=="));
         Files.write(rules(), List.of("user agent", "topic readwrite #"));
         MosquittoFiles files = files(count());

@@ -16,7 +16,7 @@ import io.furrow.model.device.DeviceConnection.ForeignTopic;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** With lines as Mosquitto 2.0.11 writes them. */
+/** Uses lines of Mosquitto 2.0.11. */
 class MosquittoLogTest {
     private static final String USER = "furrow.d.hoeing.d.1.0";
     private static final String CONNECTED =
@@ -28,7 +28,7 @@ class MosquittoLogTest {
     Path directory;
 
     @Test
-    void reportsWhoConnectedAndWhoPublishedWhereHeMayNot() throws Exception {
+    void reportsConnectionsAndDeniedMessages() throws Exception {
         MosquittoLog log = log(CONNECTED + DENIED + DENIED);
 
         assertThat(log.reports().get(USER))
@@ -53,7 +53,7 @@ class MosquittoLogTest {
 
     /** With {@code log_timestamp false}. */
     @Test
-    void takesTheTimeOfReadingWhereThereIsNoOther() throws Exception {
+    void usesTheTimeOfReadingWithoutATimestamp() throws Exception {
         assertThat(log(CONNECTED.replace("1795705077: ", ""))
                         .reports()
                         .get(USER)
@@ -62,7 +62,7 @@ class MosquittoLogTest {
     }
 
     @Test
-    void waitsForAFileThatIsMissingAndForTheEndOfALine() throws Exception {
+    void waitsForAMissingFileAndForTheEndOfALine() throws Exception {
         Path file = directory.resolve("mosquitto.log");
         MosquittoLog log = new MosquittoLog(file, () -> 42L);
         assertThat(log.reports()).isEmpty();
@@ -75,7 +75,7 @@ class MosquittoLogTest {
     }
 
     @Test
-    void goesOnWhenTheFileIsRenamedOrTruncated() throws Exception {
+    void followsARenamedOrTruncatedFile() throws Exception {
         Path file = directory.resolve("mosquitto.log");
         MosquittoLog log = log(CONNECTED);
         assertThat(log.reports().get(USER).foreign()).isNull();
@@ -94,9 +94,9 @@ class MosquittoLogTest {
         assertThat(log.reports()).hasSize(1);
     }
 
-    /** A client chooses its id and its topics. */
+    /** A client controls its id and topics. */
     @Test
-    void letsNoClientSpeakForAnother() throws Exception {
+    void preventsClientsFromImpersonatingOthers() throws Exception {
         String spy = "furrow.d.hoeing.spy.1.0";
         String id = "c3 (d0, q1, r0, m1, '/k', ... (1 bytes))";
         MosquittoLog log = log(CONNECTED

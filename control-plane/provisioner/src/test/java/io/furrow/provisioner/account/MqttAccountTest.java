@@ -16,7 +16,7 @@ class MqttAccountTest {
     private final MqttAccount gateway = MqttAccount.gateway(SECRET, "hoeing");
 
     @Test
-    void letsADeviceSpeakForItselfAndReceiveItsCommands() {
+    void allowsADeviceItsOwnMeasuresAndCommands() {
         assertThat(device.mayWrite(KEY + "/d/attrs")).isTrue();
         assertThat(device.mayWrite("/json" + KEY + "/d/cmdexe")).isTrue();
         assertThat(device.mayRead(KEY + "/d/cmd")).isTrue();
@@ -27,7 +27,7 @@ class MqttAccountTest {
     }
 
     @Test
-    void letsAGatewaySpeakForAllDevicesOfItsMissionOnly() {
+    void allowsAGatewayOnlyTheDevicesOfItsMission() {
         assertThat(gateway.mayWrite(KEY + "/d/attrs")).isTrue();
         assertThat(gateway.mayRead(KEY + "/+/cmd")).isTrue();
         assertThat(gateway.mayRead(KEY + "/d/cmd")).isTrue();
@@ -42,12 +42,12 @@ class MqttAccountTest {
                 "#", "/#", "/+/+/cmd", "/KEY/#", "/KEY/+/#",
                 "/KEY/+/+", "$SYS/#", "/KEY/d/e/cmd", "/KEY/d/cmd/e", "/KEY//d/cmd"
             })
-    void grantsNoFilterThatTakesMore(String filter) {
+    void rejectsWiderFilters(String filter) {
         assertThat(gateway.mayRead(filter.replace("/KEY", KEY))).isFalse();
     }
 
     @Test
-    void takesAWildcardOfOneLevelForNoWildcardOfAll() {
+    void doesNotMatchMultiLevelWildcards() {
         MqttAccount account = new MqttAccount(device.login(), List.of(), List.of("a/+"));
 
         assertThat(account.mayRead("a/+")).isTrue();

@@ -33,14 +33,14 @@ public record Alarm(
         String identity)
         implements StateRecord {
     /**
-     * What never changes.
+     * The constant part of an alarm.
      *
      * @param alarm its id, {@code <kind>-<number>}; never reused
      */
     public record Head(String alarm, AlarmKind kind, String subject, Severity severity) {}
 
     /**
-     * What it says.
+     * The text of an alarm and the devices that it concerns.
      *
      * @param text human-readable sentence
      * @param devices devices concerned, at most {@value Cause#MAX_DEVICES}
@@ -48,7 +48,7 @@ public record Alarm(
     public record Description(String text, List<Cause.AffectedDevice> devices) {}
 
     /**
-     * How long it lasts.
+     * The period of an alarm.
      *
      * @param raised when, epoch ms
      * @param changed when it last changed, epoch ms; a repeated cause is not a change
@@ -66,7 +66,7 @@ public record Alarm(
     }
 
     /**
-     * What users did about it.
+     * What users did about an alarm.
      *
      * @param mutedUntil end of its mute, epoch ms; null if it is not muted
      * @param acknowledgedBy user who acknowledged it; null if not named
@@ -75,7 +75,7 @@ public record Alarm(
     public record Handling(Long mutedUntil, String acknowledgedBy, String reason) {}
 
     /**
-     * How large the group is that it stands for.
+     * The extent of a group alarm.
      *
      * @param affected number of devices or pairs that a group alarm stands for now; null for an individual alarm
      * @param total out of how many; null if unknown
@@ -190,7 +190,7 @@ public record Alarm(
         return lasting(period.until(newUntil), now);
     }
 
-    /** Whoever was notified of it need not know that it will end. */
+    /** Sets the time of its end; this is not a change that is published. */
     Alarm ending(long newUntil) {
         return lasting(period.until(newUntil), seen);
     }
@@ -206,7 +206,7 @@ public record Alarm(
                 .updated(now);
     }
 
-    /** Copies the text alone from the cause: that is no change, so nobody is notified of it. */
+    /** Copies only the text from the cause; this is not a change, so it is not delivered. */
     Alarm reworded(Cause cause) {
         return described(new Description(cause.text(), description.devices), extent);
     }

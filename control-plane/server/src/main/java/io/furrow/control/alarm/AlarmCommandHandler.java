@@ -25,8 +25,8 @@ import io.furrow.model.topic.Topics;
  */
 public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     /**
-     * How long a collision lasts without a record of its encounter: many times the interval of those of an ongoing one, which its
-     * devices' time-to-live limits.
+     * How long a collision lasts without a record of its encounter: many times the interval between records of an
+     * ongoing encounter, which the time-to-live of its devices limits.
      */
     public static final Duration COLLISION_HOLDS = Duration.ofHours(1);
 
@@ -53,13 +53,13 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     public void raise(Cause cause, long now) {
         Alarm existing = current(cause.kind(), cause.identity());
         if (existing != null) {
-            tables.alarms().put(existing.alarm(), sure(existing, AlarmStateMachine.repeated(cause.until(now)), now));
-        } else if (!limit.take(cause, now)) {
+            tables.alarms().put(existing.alarm(), apply(existing, AlarmStateMachine.repeated(cause.until(now)), now));
+        } else if (!limit.count(cause, now)) {
             store(Alarm.raised(cause, mutedUntil(cause, now), sequence.next(), now));
         }
     }
 
-    /** As {@link #raise}; an existing alarm does not count a cause that goes on. */
+    /** As {@link #raise}, but an ongoing cause does not increase the count of an existing alarm. */
     public void raiseOrExtend(Cause cause, long now) {
         Alarm existing = current(cause.kind(), cause.identity());
         if (existing == null) {
@@ -69,7 +69,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         }
     }
 
-    /** As {@link #raise}; an existing alarm gets the words of the cause. */
+    /** As {@link #raise}, but an existing alarm gets the text of the cause. */
     public void raiseReworded(Cause cause, long now) {
         Alarm existing = current(cause.kind(), cause.identity());
         if (existing != null) {
@@ -88,8 +88,8 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         }
     }
 
-    /** The same of a cause that began anew: the count of its alarm is published. */
-    public void raiseAnew(Cause cause, long now) {
+    /** As {@link #raise}, for a cause that has started again: the new count of an existing alarm is published. */
+    public void raiseAgain(Cause cause, long now) {
         boolean exists = current(cause.kind(), cause.identity()) != null;
         raise(cause, now);
         if (exists) {
@@ -97,7 +97,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         }
     }
 
-    /** Lets the alarm of a kind and identity, if there is one, end at a time, unless it is raised again until then. */
+    /** Makes the alarm of a kind and identity, if there is one, expire at a time unless it is raised again before. */
     public void endAt(AlarmKind kind, String identity, long until) {
         Alarm existing = current(kind, identity);
         if (existing != null) {
@@ -108,8 +108,8 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     }
 
     /**
-     * Raises or updates the alarm of a group cause. If only its words changed, the alarm keeps its sequence number: whoever was
-     * notified of it is so again with its repetition.
+     * Raises or updates the alarm of a group cause. If only the text changed, the alarm keeps its sequence number, so
+     * that the new text is delivered only with the next repetition.
      *
      * @param inhibitor cause, reported before, whose alarm inhibits the delivery of this one; null if none
      */
@@ -175,12 +175,12 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
 
     private AlarmStateMachine.Event dismissal(AlarmCommand.Close close, long now) {
         Alarm alarm = tables.alarms().get(close.alarm());
-        boolean isOver = alarm != null
+        boolean causesEnded = alarm != null
                 && alarm.isOfGroup()
                 && alarm.state() != AlarmState.CLOSED
                 && AlarmLimit.KINDS.contains(alarm.kind())
                 && limit.clear(alarm.kind(), alarm.subject(), now);
-        return AlarmStateMachine.closedManually(close.user(), isOver);
+        return AlarmStateMachine.closedManually(close.user(), causesEnded);
     }
 
     private CommandResult answer(String id, AlarmStateMachine.Event event, String status, long now)
@@ -286,13 +286,13 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     }
 
     private void change(Alarm alarm, AlarmStateMachine.Event event, long now) {
-        Alarm next = sure(alarm, event, now);
+        Alarm next = apply(alarm, event, now);
         if (next != alarm) {
             store(next.numbered(sequence.next()));
         }
     }
 
-    private static Alarm sure(Alarm alarm, AlarmStateMachine.Event event, long now) {
+    private static Alarm apply(Alarm alarm, AlarmStateMachine.Event event, long now) {
         try {
             return event.next(alarm, now);
         } catch (RejectedException e) {

@@ -12,10 +12,7 @@ import java.util.stream.Collectors;
 import io.furrow.control.manager.Table;
 import io.furrow.model.control.AlarmKind;
 
-/**
- * Limits the number of open alarms per kind and mission or field. Causes beyond the limit are counted and share one
- * group alarm.
- */
+/** Limits the number of open alarms per kind and mission or field. Causes beyond the limit are counted and share one group alarm. */
 final class AlarmLimit {
     /** Maximum number of alarms per kind and group; further causes are only counted. */
     static final int MAX_ALARMS = 20;
@@ -28,7 +25,7 @@ final class AlarmLimit {
 
     private static final long RECOUNT_INTERVAL = Duration.ofSeconds(10).toMillis();
     private static final long SEEN_INTERVAL = Duration.ofSeconds(10).toMillis();
-    /** A validity to which {@link #SEEN_INTERVAL} does not matter. */
+    /** Validity from which the resolution of {@link #SEEN_INTERVAL} is negligible. */
     private static final long LONG = Duration.ofMinutes(30).toMillis();
 
     private final Table<Group> groups;
@@ -55,7 +52,7 @@ final class AlarmLimit {
      *
      * @param key kind and identity
      * @param until end of validity, epoch ms; null if it lasts until ended explicitly
-     * @param seen when it was last reported, epoch ms, to {@link #SEEN_INTERVAL}
+     * @param seen when it was last reported, epoch ms, with a resolution of {@link #SEEN_INTERVAL}
      */
     record Overflow(
             String key, AlarmKind kind, String group, List<Cause.AffectedDevice> devices, Long until, long seen) {}
@@ -66,8 +63,8 @@ final class AlarmLimit {
     }
 
     /**
-     * Returns what is stored of a kind and identity; null if nothing is. What a result reported that named no types has an identity
-     * without them.
+     * Returns the record of a kind and identity, also if it was stored by a result without types, whose identity lacks
+     * them; null if there is none.
      */
     static <T> T find(Table<T> records, AlarmKind kind, String identity) {
         T found = records.get(Cause.key(kind, identity));
@@ -83,7 +80,7 @@ final class AlarmLimit {
      *
      * @return whether it was counted; if not, the caller raises an alarm
      */
-    boolean take(Cause cause, long now) {
+    boolean count(Cause cause, long now) {
         if (cause.group() == null) {
             return false;
         }
@@ -93,13 +90,13 @@ final class AlarmLimit {
         if (!existing && group.alarms() < MAX_ALARMS) {
             return false;
         }
-        boolean hasRoom = group.counted() < MAX_COUNTED;
+        boolean isWithinMax = group.counted() < MAX_COUNTED;
         String key = existing ? before.key() : cause.key();
         Overflow counting = new Overflow(key, cause.kind(), cause.group(), cause.devices(), cause.until(now), now);
-        if (existing ? isNews(before, counting) : hasRoom) {
+        if (existing ? isUpdate(before, counting) : isWithinMax) {
             counted.put(key, counting);
         }
-        if (!existing && hasRoom) {
+        if (!existing && isWithinMax) {
             store(new Group(
                     group.key(),
                     group.kind(),
@@ -111,9 +108,10 @@ final class AlarmLimit {
         return true;
     }
 
-    private static boolean isNews(Overflow before, Overflow now) {
-        boolean lastsOtherwise = !(lastsLong(before) && lastsLong(now)) && !Objects.equals(before.until(), now.until());
-        return lastsOtherwise || now.seen() - before.seen() >= SEEN_INTERVAL;
+    private static boolean isUpdate(Overflow before, Overflow now) {
+        boolean validityChanged =
+                !(lastsLong(before) && lastsLong(now)) && !Objects.equals(before.until(), now.until());
+        return validityChanged || now.seen() - before.seen() >= SEEN_INTERVAL;
     }
 
     private static boolean lastsLong(Overflow cause) {
@@ -121,7 +119,7 @@ final class AlarmLimit {
     }
 
     /**
-     * Removes the counted causes of a group, of which the end may have been lost, unless one was reported lately.
+     * Removes the counted causes of a group, whose ends may have been lost, unless one was reported recently.
      *
      * @return whether they were removed
      */
@@ -146,7 +144,7 @@ final class AlarmLimit {
         }
     }
 
-    /** Lets the counted cause of a kind and identity, if there is one, end at a time. */
+    /** Sets the end of the counted cause of a kind and identity, if there is one. */
     void endAt(AlarmKind kind, String identity, long until) {
         Overflow existing = find(counted, kind, identity);
         if (existing != null) {

@@ -5,7 +5,7 @@ import io.furrow.model.text.Coded;
 /** State in the life cycle of an alarm. */
 public enum AlarmState implements Coded {
     OPEN,
-    /** Somebody is dealing with it. */
+    /** A user is handling it. */
     ACKNOWLEDGED,
     /** It has ended; the same cause raises a new alarm. */
     CLOSED;

@@ -16,7 +16,7 @@ final class AlarmStateMachine {
 
     private AlarmStateMachine() {}
 
-    /** What happens to an alarm. */
+    /** An event in the life cycle of an alarm. */
     interface Event {
         /**
          * Returns the next state of the alarm, or the same instance if nothing changes.
@@ -26,7 +26,7 @@ final class AlarmStateMachine {
         Alarm next(Alarm alarm, long now) throws RejectedException;
     }
 
-    /** The cause was observed again. @param until new end of validity, epoch ms; null if it lasts until it is ended explicitly */
+    /** The cause was observed again. @param until new end of validity, epoch ms; null if it lasts until ended explicitly */
     static Event repeated(Long until) {
         return ofOpen((alarm, now) -> alarm.repeated(until, now));
     }
@@ -52,12 +52,12 @@ final class AlarmStateMachine {
      * A user closes it.
      *
      * @param user null if not named
-     * @param isOver of a group alarm, whether none of its causes was reported lately
+     * @param causesEnded for a group alarm, whether none of its causes was reported recently
      */
-    static Event closedManually(String user, boolean isOver) {
+    static Event closedManually(String user, boolean causesEnded) {
         return ofOpen((alarm, now) -> {
             Duration ago = alarm.seen() == null ? null : Duration.ofMillis(now - alarm.seen());
-            boolean lasts = alarm.isOfGroup() ? !isOver : ago != null && ago.compareTo(CAUSE_LASTS) < 0;
+            boolean lasts = alarm.isOfGroup() ? !causesEnded : ago != null && ago.compareTo(CAUSE_LASTS) < 0;
             if (lasts) {
                 String seen = alarm.isOfGroup() ? "" : " (seen %d s ago)".formatted(ago.toSeconds());
                 throw new RejectedException(
@@ -85,7 +85,7 @@ final class AlarmStateMachine {
                 until == null && alarm.handling().mutedUntil() == null ? alarm : alarm.muted(until, now));
     }
 
-    /** Time has passed without any other event. */
+    /** Applies expiry and the end of a mute. */
     static Alarm afterTime(Alarm alarm, long now) {
         if (alarm.state() == AlarmState.CLOSED) {
             return alarm;
@@ -111,14 +111,14 @@ final class AlarmStateMachine {
         return alarm.become(AlarmState.CLOSED, alarm.handling().acknowledgedBy(), reason, now);
     }
 
-    /** The report of its end lets a collision expire at another time than its other reports. */
+    /** Returns the reason of an expiry. A collision whose end was reported expires at another time than one whose reports stopped. */
     private static String expired(Alarm alarm) {
         if (alarm.kind() != AlarmKind.COLLISION || alarm.seen() == null) {
             return "its cause was no longer observed";
         }
         Duration holds = AlarmCommandHandler.COLLISION_HOLDS;
         return alarm.period().until() - alarm.seen() == holds.toMillis()
-                ? "nothing was reported of the encounter for %d min, not its end either".formatted(holds.toMinutes())
+                ? "no report of the encounter for %d min, not even of its end".formatted(holds.toMinutes())
                 : "the encounter has ended, and the pair has had no other since";
     }
 

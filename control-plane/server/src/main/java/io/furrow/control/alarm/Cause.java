@@ -10,8 +10,8 @@ import io.furrow.model.event.FiwareScope;
  * The cause of an alarm.
  *
  * @param subject the affected entity or pair
- * @param identity what tells the subject from others of that id: tenant, service path, types and subject; the subject itself where there is
- *     nothing to tell apart. There is at most one open alarm per kind and identity
+ * @param identity unambiguous form of the subject: tenant, service path, types and subject, or the subject itself if
+ *     that is unambiguous. There is at most one open alarm per kind and identity
  * @param text human-readable sentence
  * @param devices devices concerned, at most {@value #MAX_DEVICES}
  * @param holds validity unless the cause is repeated; null if it lasts until ended explicitly

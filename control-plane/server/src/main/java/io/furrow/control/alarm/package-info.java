@@ -1,2 +1,2 @@
-/** Alarms: their causes and life cycle. */
+/** Manages alarms: their causes and life cycle. */
 package io.furrow.control.alarm;

@@ -19,8 +19,8 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param user user who issued it; {@value #KAFKA} if a record on Kafka did not name one
  * @param target its recipient: the topic of a manager, or {@value #DEVICE}
  * @param command name of the command; null if unreadable
- * @param about members of the command that are strings, numbers or booleans, for instance mission and device; and what the answer counts
- *     and names
+ * @param about members of the command that are strings, numbers or booleans, for instance mission and device, and the
+ *     counts and names of the answer
  * @param result {@code error} if it was rejected or failed
  * @param error code of the error; null if none
  * @param reason of the error, a sentence; null if none
@@ -92,7 +92,7 @@ public record AuditEntry(
                 null);
     }
 
-    /** Counts of the answer, and lists of names as one text. */
+    /** Adds the counts of the answer, and its lists of names as texts. */
     private static void addEffects(ObjectNode about, ObjectNode answer) {
         answer.properties().forEach(member -> {
             JsonNode value = member.getValue();
@@ -110,7 +110,7 @@ public record AuditEntry(
     private static JsonNode read(byte[] request) {
         try {
             return NgsiJson.read(request);
-        } catch (UnreadableException e) { // the answer reports it already
+        } catch (UnreadableException e) { // the answer reports it
             return NgsiJson.object();
         }
     }

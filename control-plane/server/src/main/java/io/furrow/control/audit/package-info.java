@@ -1,2 +1,2 @@
-/** Audit log: who issued which command, when, and its result. */
+/** Defines the audit log: user, command, time and result. */
 package io.furrow.control.audit;

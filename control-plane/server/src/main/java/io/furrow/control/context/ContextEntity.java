@@ -72,7 +72,7 @@ final class ContextEntity {
     }
 
     /** @param status null if not known yet */
-    static EntityBuilder of(Mission mission, MissionStatus status, MissionCounts tally) {
+    static EntityBuilder of(Mission mission, MissionStatus status, MissionCounts counts) {
         EntityBuilder entity = Entity.builder(missionId(mission.mission()), MISSION)
                 .text("name", mission.mission())
                 .text("domain", mission.domain())
@@ -83,9 +83,9 @@ final class ContextEntity {
         entity.freeText("template", mission.template());
         time(entity, "start", mission.start());
         time(entity, "end", status == null ? null : status.ends());
-        entity.integer("collisions", tally.collisions())
-                .integer("openEncounters", tally.open().size());
-        number(entity, "minDistance", tally.minDistance());
+        entity.integer("collisions", counts.collisions())
+                .integer("openEncounters", counts.open().size());
+        number(entity, "minDistance", counts.minDistance());
         return entity;
     }
 

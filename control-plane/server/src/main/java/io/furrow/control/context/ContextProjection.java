@@ -42,33 +42,33 @@ final class ContextProjection {
     /** @param domain null if it was deleted */
     void domain(String name, Domain domain) {
         tables.domains().put(name, domain == null ? null : domain.withoutArea());
-        outdate(ContextEntity.domainId(name));
+        markOutdated(ContextEntity.domainId(name));
     }
 
     /** @param mission null if it was deleted */
     void mission(String name, Mission mission) {
         Mission before = tables.missions().get(name);
         tables.missions().put(name, mission);
-        MissionCounts tally = tables.tallies().get(name);
+        MissionCounts counts = tables.tallies().get(name);
         if (mission == null) {
             tables.tallies().put(name, null);
-        } else if (tally == null || mission.running() && !Objects.equals(mission.start(), tally.start())) {
+        } else if (counts == null || mission.running() && !Objects.equals(mission.start(), counts.start())) {
             tables.tallies().put(name, MissionCounts.of(name, mission.start()));
         }
-        outdate(ContextEntity.missionId(name));
-        Mission either = mission == null ? before : mission;
-        if (either != null && (mission == null || before == null)) {
-            outdate(ContextEntity.domainId(either.domain()));
+        markOutdated(ContextEntity.missionId(name));
+        Mission newest = mission == null ? before : mission;
+        if (newest != null && (mission == null || before == null)) {
+            markOutdated(ContextEntity.domainId(newest.domain()));
         }
     }
 
     /** @param status null if the mission was deleted */
     void status(String mission, MissionStatus status) {
         tables.statuses().put(mission, status);
-        outdate(ContextEntity.missionId(mission));
+        markOutdated(ContextEntity.missionId(mission));
     }
 
-    /** Counts an encounter for the missions of both devices, if these are known. */
+    /** Counts an encounter for the missions of both devices. */
     void encounter(EncounterReport encounter) {
         TreeSet<String> missions = new TreeSet<>();
         encounter.members().forEach(member -> missions.add(member.mission()));
@@ -77,7 +77,7 @@ final class ContextProjection {
             MissionCounts after = before == null ? null : before.with(encounter);
             if (after != null && !after.equals(before)) {
                 tables.tallies().put(mission, after);
-                outdate(ContextEntity.missionId(mission));
+                markOutdated(ContextEntity.missionId(mission));
             }
         }
     }
@@ -88,7 +88,7 @@ final class ContextProjection {
         if (before == null || before.windowEnd() <= window.windowEnd()) {
             FieldState state = FieldState.of(window, now);
             tables.fields().put(window.field(), state);
-            outdateDomainsOf(state);
+            markDomainsOutdated(state);
         }
     }
 
@@ -122,7 +122,7 @@ final class ContextProjection {
     private void forgetOldFields(long now) {
         for (FieldState field : tables.fields().where(each -> each.known() + FIELD_HOLDS.toMillis() <= now)) {
             tables.fields().put(field.field(), null);
-            outdateDomainsOf(field);
+            markDomainsOutdated(field);
         }
     }
 
@@ -140,13 +140,13 @@ final class ContextProjection {
                         && domain.details().fields().contains(field.field());
     }
 
-    private void outdateDomainsOf(FieldState field) {
+    private void markDomainsOutdated(FieldState field) {
         tables.domains()
                 .where(domain -> isOf(field, domain))
-                .forEach(domain -> outdate(ContextEntity.domainId(domain.domain())));
+                .forEach(domain -> markOutdated(ContextEntity.domainId(domain.domain())));
     }
 
-    private void outdate(String entityId) {
+    private void markOutdated(String entityId) {
         if (tables.outdated().get(entityId) == null) {
             tables.outdated().put(entityId, entityId);
         }

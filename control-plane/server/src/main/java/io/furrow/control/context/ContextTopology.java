@@ -53,8 +53,8 @@ public final class ContextTopology {
     }
 
     /**
-     * What alarms are raised from too, in a single partition each: the records of {@code data.collision}, of
-     * {@code data.temperature} and of {@code service.missions.status}.
+     * The streams from which alarms are raised too, each in a single partition: {@code data.collision}, {@code
+     * data.temperature} and {@code service.missions.status}.
      */
     public record Shared(
             KStream<String, byte[]> collisions,
@@ -68,27 +68,28 @@ public final class ContextTopology {
 
         watch.observe(
                 "domains",
-                watch.desired(Topics.DOMAINS, "domains"),
+                Topics.DOMAINS,
                 projection -> new TimedObserver(
                         (record, now) -> projection.domain(record.key(), read(record, Domain.class)), projection));
 
         watch.observe(
                 "missions",
-                watch.desired(Topics.MISSIONS, "missions"),
+                Topics.MISSIONS,
                 projection -> (record, now) -> projection.mission(record.key(), read(record, Mission.class)));
 
-        watch.observeShared(
+        watch.observe(
                 "statuses",
                 shared.statuses(),
+                false,
                 projection -> (record, now) -> projection.status(record.key(), read(record, MissionStatus.class)));
 
-        watch.observeShared("encounters", shared.collisions(), projection -> (record, now) -> {
+        watch.observe("encounters", shared.collisions(), false, projection -> (record, now) -> {
             if (record.value() != null) {
                 projection.encounter(EncounterReport.read(record.value(), KafkaClients.scope(record.headers())));
             }
         });
 
-        watch.observeShared("fields", shared.temperatures(), projection -> (record, now) -> {
+        watch.observe("fields", shared.temperatures(), false, projection -> (record, now) -> {
             FieldWindow window = record.value() == null ? null : FieldWindow.of(Entity.parse(record.value()));
             if (window != null) {
                 projection.window(window, now);
@@ -96,24 +97,22 @@ public final class ContextTopology {
         });
     }
 
-    private KStream<String, byte[]> desired(String topic, String name) {
-        return topology.observed(topic, "context-" + name, AutoOffsetReset.earliest());
+    private void observe(String name, String topic, Function<ContextProjection, Observer> observerFactory) {
+        observe(name, topology.observed(topic, "context-" + name, AutoOffsetReset.earliest()), true, observerFactory);
     }
 
+    /** @param writesUnreadable false for shared streams: the processors that raise alarms write their dead letters */
     private void observe(
-            String name, KStream<String, byte[]> records, Function<ContextProjection, Observer> observing) {
-        ManagerTopology.observe(records, nodes(name), unitOfWork -> observing.apply(projection(unitOfWork)), STORES);
-    }
-
-    /** Does not write dead letters: the processors that raise alarms from the same records already do. */
-    private void observeShared(
-            String name, KStream<String, byte[]> records, Function<ContextProjection, Observer> observing) {
-        ManagerTopology.observeBesideAnother(
-                records, nodes(name), unitOfWork -> observing.apply(projection(unitOfWork)), STORES);
-    }
-
-    private static ManagerTopology.Nodes nodes(String name) {
-        return new ManagerTopology.Nodes("context-of-" + name, "context-of-" + name + "-out");
+            String name,
+            KStream<String, byte[]> records,
+            boolean writesUnreadable,
+            Function<ContextProjection, Observer> observerFactory) {
+        ManagerTopology.observe(
+                records,
+                new ManagerTopology.Nodes("context-of-" + name, "context-of-" + name + "-out"),
+                writesUnreadable,
+                unitOfWork -> observerFactory.apply(projection(unitOfWork)),
+                STORES);
     }
 
     /** The one observer that notifies the projection about the passing of time. */

@@ -21,7 +21,7 @@ record MissionCounts(String mission, Long start, long collisions, List<String> o
         return new MissionCounts(mission, start, 0, List.of(), null);
     }
 
-    /** Returns the tally after an encounter's record, or the same instance if its phase does not count. */
+    /** Returns the counts after an encounter's record, or the same instance if its phase does not count. */
     MissionCounts with(EncounterReport encounter) {
         boolean began = encounter.phase().equals("started") && !open.contains(encounter.id());
         boolean ended = encounter.phase().equals("ended");

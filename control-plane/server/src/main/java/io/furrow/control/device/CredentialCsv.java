@@ -17,7 +17,7 @@ public final class CredentialCsv {
 
     private CredentialCsv() {}
 
-    /** A line of titles, and one per device. @param devices of {@link DeviceCredentials#of} */
+    /** Returns a header line and one line per device. @param devices of {@link DeviceCredentials#of} */
     public static String of(Iterable<? extends JsonNode> devices) {
         StringBuilder csv = new StringBuilder(String.join(",", COLUMNS) + ",attributes,example\r\n");
         for (JsonNode device : devices) {

@@ -38,8 +38,8 @@ public final class DeviceCommands implements CommandSender {
     private static final String ROBOT = "Robot";
     private static final int MAX_QUOTE_LENGTH = 200;
     private static final int NOT_FOUND = 404;
-    /** Answers that asking again cannot change. Others that begin with 4 are about the control plane, as those of a proxy. */
-    private static final Set<Integer> REFUSALS = Set.of(400, NOT_FOUND, 409, 422);
+    /** Permanent rejections. Other 4xx responses concern the control plane, like those of a proxy. */
+    private static final Set<Integer> REJECTIONS = Set.of(400, NOT_FOUND, 409, 422);
 
     private final Semaphore pending;
     private final URI contextBroker;
@@ -78,7 +78,7 @@ public final class DeviceCommands implements CommandSender {
     /**
      * A command to a device, with the arguments of {@link CommandSender#send}.
      *
-     * @param value of any kind, an empty text for none; a robot takes none
+     * @param value any JSON value, an empty text for none; a robot accepts none
      */
     public record Order(String deviceId, String type, String command, JsonNode value) {}
 
@@ -141,7 +141,7 @@ public final class DeviceCommands implements CommandSender {
                         order.deviceId(),
                         answer.statusCode(),
                         message.orElseGet(() -> quoted(new String(answer.body(), StandardCharsets.UTF_8))));
-        if (message.isEmpty() || !REFUSALS.contains(answer.statusCode())) {
+        if (message.isEmpty() || !REJECTIONS.contains(answer.statusCode())) {
             throw new IOException(rejected);
         }
         throw answer.statusCode() != NOT_FOUND
@@ -152,10 +152,7 @@ public final class DeviceCommands implements CommandSender {
                                 .formatted(contextBroker, order.deviceId(), order.type(), order.command()));
     }
 
-    /**
-     * The desired type of a robot is {@code Robot}, while its entity has the type that it reports, {@code ROBOT} with
-     * FIROS.
-     */
+    /** The desired type of a robot is {@code Robot}, while its entity has the type that it reports, {@code ROBOT} with FIROS. */
     public static boolean isRobot(String type) {
         return ROBOT.equalsIgnoreCase(type);
     }
@@ -164,7 +161,7 @@ public final class DeviceCommands implements CommandSender {
         ObjectNode body = NgsiJson.object();
         if (isRobot(type)) {
             body.putObject("cmd").put("type", "String").put("value", command);
-            // The result of an earlier command does not stand for that of this one.
+            // Resets the result of an earlier command.
             body.putObject("cmd_status").put("type", "commandStatus").put("value", "PENDING");
         } else {
             body.putObject(command).put("type", "command").set("value", value);
@@ -176,7 +173,7 @@ public final class DeviceCommands implements CommandSender {
         String deviceId = order.deviceId();
         String type = order.type();
         ObjectNode body = body(type, order.command(), order.value());
-        // A robot is notified of the same command once more, too.
+        // Notifies a robot also if the command is the same as before.
         String query = isRobot(type) ? "?options=forcedUpdate" : "?type=" + encoded(type);
         HttpRequest.Builder request = HttpRequest.newBuilder(URI.create("%s/v2/entities/%s/attrs%s"
                         .formatted(contextBroker.toString().replaceAll("/+$", ""), encoded(deviceId), query)))
@@ -191,7 +188,7 @@ public final class DeviceCommands implements CommandSender {
         return request.build();
     }
 
-    /** The {@code description} of an NGSI error; empty of an answer that is none, as the page of a proxy. */
+    /** Returns the {@code description} of an NGSI error; empty for another body, such as the page of a proxy. */
     private static Optional<String> message(byte[] body) {
         if (body.length == 0) {
             return Optional.of("it does not say why");

@@ -17,11 +17,11 @@ import io.furrow.model.device.FarmSecret;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * What somebody needs who sets up a device: where the MQTT broker is, its login, its topics, what it may send, and a command that sends
- * one measure.
+ * Describes how to set up a device: address of the MQTT broker, login, topics, attributes, and a command that sends one
+ * measure.
  *
  * @param secret of the farm
- * @param broker as devices reach it, {@code mqtt://host:port} or {@code mqtts://host:port}; null if it is not known here
+ * @param broker address for devices, {@code mqtt://host:port} or {@code mqtts://host:port}; null if unknown
  */
 public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
     private static final String ROBOT = "Robot";
@@ -33,12 +33,12 @@ public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
     private static final int TLS_PORT = 8883;
     private static final int PORT = 1883;
 
-    /** Whether a device gets a login: those that only their ids are known of have one already, simulated robots need none. */
-    public static boolean has(DesiredDevice device) {
+    /** Whether the farm issues a login for a device: devices listed by id only have their own, simulated robots need none. */
+    public static boolean areIssuedFor(DesiredDevice device) {
         return device.device() != null && !(device.simulated() && ROBOT.equals(device.type()));
     }
 
-    /** Where the broker is, login and topics as a QR code of JSON, in SVG. */
+    /** Returns address, login and topics as JSON in a QR code, as SVG. */
     public String qr(DesiredDevice device) {
         ObjectNode json = of(device).retain(QR);
         QrCode code = QrCode.encodeText(new String(NgsiJson.write(json), StandardCharsets.UTF_8), QrCode.Ecc.LOW);
@@ -56,7 +56,7 @@ public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
                 """.formatted(code.size + 2 * QUIET, path);
     }
 
-    /** @param device with its settings */
+    /** @param device including the settings of its group */
     public ObjectNode of(DesiredDevice device) {
         String mission = device.version().mission();
         FarmSecret now = secret.get();
@@ -94,8 +94,8 @@ public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
     }
 
     private int port() {
-        int usual = isTls() ? TLS_PORT : PORT;
-        return broker.getPort() < 0 ? usual : broker.getPort();
+        int defaultPort = isTls() ? TLS_PORT : PORT;
+        return broker.getPort() < 0 ? defaultPort : broker.getPort();
     }
 
     private String example(String topic, FarmSecret.Login login, List<MeasuredAttribute> attributes) {
@@ -111,7 +111,7 @@ public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
         return String.join(" ", arguments);
     }
 
-    /** Its first attribute, which is what it measures. */
+    /** Returns an example of the first attribute, the one that the device measures. */
     private static String measure(List<MeasuredAttribute> attributes) {
         MeasuredAttribute first = attributes.get(0);
         ObjectNode measure = NgsiJson.object();

@@ -2,7 +2,7 @@ package io.furrow.control.device;
 
 import java.io.IOException;
 
-/** A command that the context broker refused, and would refuse again; the message is a sentence that says why. */
+/** Thrown if the context broker rejects a command permanently; the message is a sentence that says why. */
 public final class RejectedCommandException extends IOException {
     private static final long serialVersionUID = 1L;
 
@@ -13,7 +13,7 @@ public final class RejectedCommandException extends IOException {
         this.status = status;
     }
 
-    /** What the context broker answered: 400, 404, 409 or 422. */
+    /** Status of the context broker's response: 400, 404, 409 or 422. */
     public int status() {
         return status;
     }

@@ -72,7 +72,7 @@ public final class DomainCommandHandler {
         return about(create.domain(), "created");
     }
 
-    /** With its missions; its fields end. What is stored of them stays. */
+    /** Deletes a domain with its missions and ends its fields. Recorded data stays. */
     private CommandResult delete(Domain existing, boolean force, long now) throws RejectedException {
         String domain = existing.domain();
         List<String> active = missions.activeIn(domain);
@@ -99,7 +99,7 @@ public final class DomainCommandHandler {
                 .with("fields", named(ends.ids()));
     }
 
-    /** As many as an answer has room for. */
+    /** Truncates a list of names to the maximum of an answer. */
     private static List<String> named(List<String> names) {
         return names.subList(0, Math.min(MAX_NAMED, names.size()));
     }

@@ -36,7 +36,7 @@ public final class DomainManager {
         return new DomainCommandHandler(domains(unitOfWork), missions, dependencies, unitOfWork);
     }
 
-    /** Null of what is not a version of a field; the jobs report it. */
+    /** Returns null for an unreadable value; the jobs report it. */
     private static FieldVersion readable(byte[] value) {
         try {
             return FieldVersion.read(value);
@@ -65,10 +65,7 @@ public final class DomainManager {
         return new Quota(unitOfWork.table(SEQUENCE, Long.class), Limits.DEFINITIONS_BYTES);
     }
 
-    /**
-     * @param missions creates the access to missions, which needs further stores; these and {@link #stores()} must
-     * exist already
-     */
+    /** @param missions creates the access to missions, which needs further stores; these and {@link #stores()} must exist already */
     public static void add(
             ManagerTopology topology, Function<UnitOfWork, DomainMissions> missions, List<String> storesOfMissions) {
         topology.addGlobalStore(FIELDS, Topics.FIELDS);

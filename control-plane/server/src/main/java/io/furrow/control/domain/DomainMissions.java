@@ -10,6 +10,6 @@ public interface DomainMissions {
     /** Names of those that are starting, running or stopping. */
     List<String> activeIn(String domain);
 
-    /** Removes a mission with its devices, also one that runs: whoever hosts devices stops those that are gone. */
+    /** Removes a mission with its devices, even if it runs: hosts stop devices that are removed. */
     void remove(String mission);
 }

@@ -1,2 +1,2 @@
-/** Manages domains: creation, change, and deletion when no mission runs in them. */
+/** Manages domains: creation, change and deletion. */
 package io.furrow.control.domain;

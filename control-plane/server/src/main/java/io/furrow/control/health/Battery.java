@@ -10,9 +10,10 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Quantity;
 
 /**
- * Reads the battery charge of a device, 0 to 1, from the attribute {@code battery} or {@code batteryLevel}: a number, or with FIROS a
- * sensor_msgs/BatteryState, whose {@code percentage} is 0 to 1. Metadata {@code unitCode} says whether a number is in percent; without
- * it, that of a device that has ever reported more than 1 is. The dashboard's page reads charges by the same rules.
+ * Reads the battery charge of a device, 0 to 1, from the attribute {@code battery} or {@code batteryLevel}: a number,
+ * or with FIROS a sensor_msgs/BatteryState, whose {@code percentage} is 0 to 1. Metadata {@code unitCode} tells whether
+ * a number is in percent; without it, the numbers of a device that has ever reported more than 1 are. The dashboard's
+ * page reads charges by the same rules.
  */
 final class Battery {
     static final String ATTRIBUTE = "battery";
@@ -29,7 +30,7 @@ final class Battery {
         return levelOf(entity, false);
     }
 
-    /** @param percent whether the device reports in percent where it names no unit, see {@link #isPercent} */
+    /** @param percent whether numbers without a unit are in percent, see {@link #isPercent} */
     static Double levelOf(Entity entity, boolean percent) {
         String attribute = attributeOf(entity);
         Optional<Double> number = entity.number(attribute);
@@ -45,7 +46,7 @@ final class Battery {
         return percent ? value / PERCENT : value;
     }
 
-    /** Whether the entity shows that its device reports in percent where it names no unit. */
+    /** Whether the entity shows that its device reports numbers without a unit in percent. */
     static boolean isPercent(Entity entity) {
         String attribute = attributeOf(entity);
         return Quantity.unitOf(entity, attribute).isEmpty()
@@ -65,7 +66,7 @@ final class Battery {
             JsonNode level = state == null ? null : state.path(PERCENTAGE);
             return level == null || !level.isNumber() ? null : Double.valueOf(level.doubleValue());
         } catch (com.fasterxml.jackson.core.JsonProcessingException e) {
-            return null; // a text that is not a ROS message contains no charge
+            return null; // not a ROS message
         }
     }
 }

@@ -20,7 +20,7 @@ public record DeviceHealth(
         long since,
         @JsonUnwrapped NewestReport report) implements StateRecord {
     /**
-     * Which device it is.
+     * The identity of the device.
      *
      * @param id of the entity
      * @param service tenant, empty for the default one
@@ -43,8 +43,8 @@ public record DeviceHealth(
      * Its newest report.
      *
      * @param lastSeen event time, epoch ms; null if there is none
-     * @param heard when it arrived, epoch ms, at most about 30 s behind; null if none did
-     * @param deviceTime what the device itself gave as its time, epoch ms; null if it gave none
+     * @param heard when it was received, epoch ms, with a delay of at most about 30 s; null if none was
+     * @param deviceTime time reported by the device itself, epoch ms; null if none
      * @param battery 0 to 1; null if never reported
      * @param off whether it reported that it is switched off; it is never silent then
      */

@@ -11,9 +11,9 @@ import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.topic.Topics;
 
 /**
- * Maintains {@code service.devices.health}, and lets {@link SilenceAlarmReconciler} reconcile the alarms with it about once a second.
- * {@link SilenceDetector} reports silence. Periodic polling of all devices finds those that never reported or whose
- * detector died with its process.
+ * Maintains {@code service.devices.health}, and runs {@link SilenceAlarmReconciler} about once a second. {@link
+ * SilenceDetector} reports silence. Periodic polling of all devices finds those that never reported or whose detector
+ * died with its process.
  */
 final class DeviceHealthTracker {
     /** Longer than a device takes to start, and than the interval of heartbeats. */
@@ -27,7 +27,7 @@ final class DeviceHealthTracker {
     private final SilenceAlarmReconciler silence;
     private final EventPublisher publisher;
     private long checkedAt;
-    private Long began;
+    private Long startedAt;
 
     DeviceHealthTracker(
             Table<DeviceHealth> health,
@@ -52,18 +52,17 @@ final class DeviceHealthTracker {
         if (device.isEmpty()) {
             return; // the device was stopped meanwhile
         }
-        DeviceHealth remembered = health.get(key);
-        DeviceHealth existing =
-                remembered == null ? DeviceHealth.unheard(device.get(), now) : remembered.of(device.get());
+        DeviceHealth stored = health.get(key);
+        DeviceHealth existing = stored == null ? DeviceHealth.unheard(device.get(), now) : stored.of(device.get());
         boolean outdated = existing.report().heard() != null
                 && heartbeat.heard() < existing.report().heard();
         if (outdated) {
             return; // another detector has a newer report
         }
         DeviceHealth heard = existing.silent() && heartbeat.silent() ? existing : existing.heard(heartbeat, now);
-        DeviceHealth judged = heartbeat.silent() && !heard.silent() ? heard.silent(now) : heard;
-        store(key, judged);
-        watch(key, judged, device.get());
+        DeviceHealth next = heartbeat.silent() && !heard.silent() ? heard.silent(now) : heard;
+        store(key, next);
+        watch(key, next, device.get());
         if (!heartbeat.silent()) {
             silence.reported(heartbeat.heard());
         }
@@ -71,8 +70,8 @@ final class DeviceHealthTracker {
 
     /** Called about once a second. */
     void passTime(long now) {
-        if (began == null) {
-            began = now;
+        if (startedAt == null) {
+            startedAt = now;
         }
         if (now - checkedAt >= POLL_INTERVAL.toMillis()) {
             checkedAt = now;
@@ -81,27 +80,27 @@ final class DeviceHealthTracker {
                 running.add(device.version().key());
                 check(device, now);
             });
-            forgetAllBut(running);
+            removeAllExcept(running);
         }
-        silence.reconcile(began, now);
+        silence.reconcile(startedAt, now);
     }
 
     private void check(DesiredDevice device, long now) {
         String key = device.version().key();
-        DeviceHealth remembered = health.get(key);
-        DeviceHealth existing = remembered == null ? DeviceHealth.unheard(device, now) : remembered.of(device);
-        long quietSince = Math.max(
+        DeviceHealth stored = health.get(key);
+        DeviceHealth existing = stored == null ? DeviceHealth.unheard(device, now) : stored.of(device);
+        long silentSince = Math.max(
                 device.version().from(),
                 existing.report().heard() == null ? 0 : existing.report().heard());
-        boolean quiet = now - Math.max(quietSince, began) > options.silentAfter(device) + TIMEOUT.toMillis();
-        DeviceHealth judged = quiet && !existing.report().off() && !existing.silent() ? existing.silent(now) : existing;
-        if (!judged.equals(remembered)) {
-            store(key, judged);
+        boolean silent = now - Math.max(silentSince, startedAt) > options.silentAfter(device) + TIMEOUT.toMillis();
+        DeviceHealth next = silent && !existing.report().off() && !existing.silent() ? existing.silent(now) : existing;
+        if (!next.equals(stored)) {
+            store(key, next);
         }
-        watch(key, judged, device);
+        watch(key, next, device);
     }
 
-    private void forgetAllBut(Set<String> running) {
+    private void removeAllExcept(Set<String> running) {
         for (DeviceHealth each : health.where(some -> !running.contains(some.key()))) {
             health.put(each.key(), null);
             publisher.put(Topics.DEVICES_HEALTH, each.key(), null);

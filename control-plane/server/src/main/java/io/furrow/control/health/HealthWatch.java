@@ -72,6 +72,7 @@ public final class HealthWatch {
         ManagerTopology.observe(
                 ManagerTopology.toSinglePartition(signs, "device-heartbeats"),
                 new ManagerTopology.Nodes("keep-device-health", "device-health-out"),
+                true,
                 unitOfWork -> observer(new DeviceHealthTracker(
                         unitOfWork.table(HEALTH, DeviceHealth.class),
                         desired(unitOfWork),

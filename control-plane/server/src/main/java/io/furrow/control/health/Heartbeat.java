@@ -6,9 +6,9 @@ package io.furrow.control.health;
  * @param id of the entity; empty in a pulse, which only states that reports arrive
  * @param type of the entity
  * @param silent whether the device has not reported for too long; false for a heartbeat
- * @param heard when its last report arrived, epoch ms, by the clock of the control plane
+ * @param heard when its last report was received, epoch ms, by the clock of the control plane
  * @param reported event time of that report, epoch ms
- * @param deviceTime what the device itself gave as that time, however far ahead its clock is, epoch ms; null if it gave none
+ * @param deviceTime time of that report as given by the device, even if its clock is far ahead, epoch ms; null if none
  * @param battery 0 to 1; null if never reported
  * @param off whether it reported that it is switched off
  */
@@ -33,7 +33,7 @@ record Heartbeat(
         return new Heartbeat("", null, false, heard, heard, null, null, false);
     }
 
-    /** Says that nothing has come since. */
+    /** Returns the heartbeat that reports the device as silent. */
     Heartbeat silenced() {
         return new Heartbeat(id, type, true, heard, reported, deviceTime, battery, off);
     }

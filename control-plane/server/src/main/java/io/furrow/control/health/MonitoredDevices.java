@@ -18,7 +18,7 @@ import io.furrow.model.ngsi.UnreadableException;
 record MonitoredDevices(Table<byte[]> records) {
     private static final Logger LOG = LoggerFactory.getLogger(MonitoredDevices.class);
 
-    /** Returns the device of a key; empty if none is desired or no longer. */
+    /** Returns the device of a key; empty if it is not desired. */
     Optional<DesiredDevice> of(String key) {
         byte[] value = records.get(key);
         return value == null ? Optional.empty() : running(value);

@@ -14,11 +14,11 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.model.ngsi.Entity;
 
 /**
- * Tells a report of a device from what the context broker notifies about by itself, when a command is sent to the device, answered or
- * has expired. Holds hashes of the values only.
+ * Distinguishes reports of a device from notifications that the context broker sends when a command to the device is
+ * sent, answered or expired. Stores only hashes of the values.
  */
 final class ReportedState {
-    /** Attributes that are assigned to a device, not measured by it: they may be there before its first report. */
+    /** Attributes that are assigned to a device, not measured by it; they may exist before its first report. */
     private static final Pattern ASSIGNED = Pattern.compile("Domain|Mission|TimeInstant");
 
     private static final Pattern COMMAND = Pattern.compile("(.+)_(?:status|info)");
@@ -48,9 +48,9 @@ final class ReportedState {
     }
 
     private static int[] hashes(
-            List<Map.Entry<String, JsonNode>> attributes, Predicate<Map.Entry<String, JsonNode>> which) {
+            List<Map.Entry<String, JsonNode>> attributes, Predicate<Map.Entry<String, JsonNode>> selection) {
         return attributes.stream()
-                .filter(which)
+                .filter(selection)
                 .mapToInt(each -> 31 * each.getKey().hashCode()
                         + each.getValue().path("value").hashCode())
                 .sorted()
@@ -65,10 +65,10 @@ final class ReportedState {
     }
 
     /**
-     * Whether the device reported this after that: it measured something else, or the same at another time. A device without a clock
-     * gives all of its reports one time.
+     * Whether this state is a new report after another one: a measured value changed, or the event time changed without
+     * a change of commands. All reports of a device without a clock have the same time.
      *
-     * @param atAnotherTime whether the two have different event times
+     * @param atAnotherTime whether the two states have different event times
      */
     boolean isReportAfter(ReportedState before, boolean atAnotherTime) {
         return isChanged(before.measured, measured) || atAnotherTime && !isChanged(before.commands, commands);

@@ -33,10 +33,7 @@ import io.furrow.model.topic.Topics;
 final class SilenceAlarmReconciler {
     /** Minimum time without any report before the farm counts as silent. */
     static final Duration FARM_QUIET = Duration.ofSeconds(30);
-    /**
-     * How long the farm's alarm inhibits the others after reports arrive again, so that the devices have time to
-     * report.
-     */
+    /** How long the farm's alarm inhibits the others after reports arrive again, so that the devices have time to report. */
     static final Duration RECOVERY = Duration.ofMinutes(1);
 
     private static final int NAMED = 3;
@@ -56,9 +53,9 @@ final class SilenceAlarmReconciler {
      * The relevant state of a device.
      *
      * @param group its mission's entity
-     * @param heard when its last report arrived, epoch ms; null if none did
+     * @param heard when its last report was received, epoch ms; null if none was
      * @param silentAfter after how long without a report it is silent, ms
-     * @param cause why it is silent; null if that is not known
+     * @param cause why it is silent; null if unknown
      */
     record MonitoredDevice(
             String id,
@@ -85,7 +82,7 @@ final class SilenceAlarmReconciler {
                     null);
         }
 
-        MonitoredDevice because(SilenceCause newCause) {
+        MonitoredDevice withCause(SilenceCause newCause) {
             return new MonitoredDevice(id, type, scope, group, silent, off, since, heard, silentAfter, newCause);
         }
 
@@ -137,7 +134,7 @@ final class SilenceAlarmReconciler {
         }
     }
 
-    /** @param connections what is known of the connection of a device, by key */
+    /** @param connections returns the reported connection of a device by key */
     SilenceAlarmReconciler(
             HealthOptions options,
             AlarmCommandHandler alarms,
@@ -148,10 +145,10 @@ final class SilenceAlarmReconciler {
     }
 
     void put(String key, MonitoredDevice device) {
-        devices.put(key, device.silent() ? device.because(cause(key, device)) : device);
+        devices.put(key, device.silent() ? device.withCause(cause(key, device)) : device);
     }
 
-    /** Stays as it was said for a while where it only counts on. */
+    /** Returns the cause of the silence; a cause of which only the count has changed is renewed with a delay. */
     private SilenceCause cause(String key, MonitoredDevice device) {
         SilenceCause cause = connections
                 .apply(key)
@@ -178,9 +175,9 @@ final class SilenceAlarmReconciler {
     /**
      * Updates the alarms.
      *
-     * @param began since when reports of devices are read, epoch ms
+     * @param startedAt since when reports of devices are read, epoch ms
      */
-    void reconcile(long began, long now) {
+    void reconcile(long startedAt, long now) {
         Map<String, GroupSummary> groups = new TreeMap<>();
         GroupSummary all = new GroupSummary();
         for (MonitoredDevice device : devices.values()) {
@@ -192,7 +189,7 @@ final class SilenceAlarmReconciler {
             }
         }
         List<Cause> causes = new ArrayList<>();
-        Cause farm = farm(all, began, now);
+        Cause farm = farm(all, startedAt, now);
         if (farm != null) {
             alarms.report(farm, null, now);
             causes.add(farm);
@@ -209,7 +206,7 @@ final class SilenceAlarmReconciler {
                 .anyMatch(each -> alarms.isMuted(AlarmKind.SILENT_DEVICE, each, now));
     }
 
-    /** Whether another alarm has the device already: its mission misses it since its start. */
+    /** Whether the alarm for missing devices of its mission covers the device already. */
     private boolean isMissing(MonitoredDevice device) {
         return device.heard() == null && alarms.isRaised(AlarmKind.MISSING_DEVICES, device.group());
     }
@@ -236,9 +233,9 @@ final class SilenceAlarmReconciler {
      * Whether the share of silent devices is reached. Half of the share suffices if the alarm is raised already, so
      * that it does not flap.
      */
-    private boolean isShareReached(GroupSummary members, boolean wasReached) {
+    private boolean isShareReached(GroupSummary members, boolean wasRaised) {
         double share = (double) members.silent.size() / Math.max(1, members.total);
-        return wasReached
+        return wasRaised
                 ? share >= options.missionShare() / 2
                 : share >= options.missionShare() && members.silent.size() >= HealthOptions.MIN_OF_MISSION;
     }
@@ -248,21 +245,21 @@ final class SilenceAlarmReconciler {
      * longer than the other devices together may take, at least {@link #FARM_QUIET}. After reports arrive again it
      * recovers for as long, at least {@link #RECOVERY}, or until no device is silent.
      */
-    private Cause farm(GroupSummary all, long began, long now) {
-        boolean was = alarms.isRaised(AlarmKind.SILENT_FARM, Topics.RAW);
-        double together = all.expectedPerMs == 0 ? 0 : 1 / all.expectedPerMs;
-        double enough = Math.max(FARM_QUIET.toMillis(), together);
-        boolean unheard = was && lastReport == 0; // since this process began to read
-        boolean quiet = unheard || now - Math.max(lastReport, began) > enough;
-        if (quiet || !was) {
+    private Cause farm(GroupSummary all, long startedAt, long now) {
+        boolean wasRaised = alarms.isRaised(AlarmKind.SILENT_FARM, Topics.RAW);
+        double expectedInterval = all.expectedPerMs == 0 ? 0 : 1 / all.expectedPerMs;
+        double minQuiet = Math.max(FARM_QUIET.toMillis(), expectedInterval);
+        boolean unheard = wasRaised && lastReport == 0; // since this process began to read
+        boolean quiet = unheard || now - Math.max(lastReport, startedAt) > minQuiet;
+        if (quiet || !wasRaised) {
             resumed = null;
         } else if (resumed == null) {
             resumed = now;
         }
-        if (quiet && isShareReached(all, was)) {
+        if (quiet && isShareReached(all, wasRaised)) {
             return farm("nothing arrives on %s: %s silent", all);
         }
-        boolean recovers = resumed != null && now - resumed < Math.max(RECOVERY.toMillis(), enough);
+        boolean recovers = resumed != null && now - resumed < Math.max(RECOVERY.toMillis(), minQuiet);
         return recovers && !all.silent.isEmpty() ? farm("reports arrive on %s again: %s still silent", all) : null;
     }
 

@@ -15,23 +15,23 @@ import io.furrow.model.device.DeviceConnection.UnreadablePayload;
 import io.furrow.model.text.Counts;
 
 /**
- * Why a device does not report, as far as its MQTT broker and the IoT Agent know.
+ * The reason why a device does not report, according to its MQTT broker and the IoT Agent.
  *
- * @param code of the kind of cause
- * @param text a part of a sentence about the device
- * @param time when that was last observed, epoch ms; 0 if it has no time
+ * @param code kind of cause
+ * @param text part of a sentence about the device
+ * @param time when it was last observed, epoch ms; 0 if it has no time
  */
 public record SilenceCause(String code, String text, long time) {
     private static final String NO_MEASURE = "no-measure";
-    /** Where causes are shown, one that only counts on is renewed as often. */
+    /** Interval at which a shown cause is renewed if only its count has changed. */
     private static final Duration RENEWAL = Duration.ofMinutes(1);
 
     /**
-     * Why a device has not reported since it was asked for: the best reason that is known.
+     * Returns the best known reason why a device has not reported since it was requested.
      *
-     * @param connection null if nothing is known of it
-     * @param failure why it is not provisioned, as the provisioner said; null if it did not
-     * @param from since when it was asked for, epoch ms
+     * @param connection null if unknown
+     * @param failure why it is not provisioned, as reported by the provisioner; null if not reported
+     * @param from since when it is requested, epoch ms
      */
     public static SilenceCause ofUnheard(DeviceConnection connection, String failure, long from) {
         boolean registered = connection != null && Boolean.TRUE.equals(connection.registered());
@@ -45,9 +45,9 @@ public record SilenceCause(String code, String text, long time) {
     }
 
     /**
-     * The newest of what was observed since the last report; empty if nothing was.
+     * Returns the newest observation since the last report; empty if there is none.
      *
-     * @param heard when the last report arrived, epoch ms; null if none did
+     * @param heard when the last report was received, epoch ms; null if none was
      */
     public static Optional<SilenceCause> of(DeviceConnection connection, Long heard) {
         if (Boolean.FALSE.equals(connection.registered())) {
@@ -102,7 +102,7 @@ public record SilenceCause(String code, String text, long time) {
                 : null;
     }
 
-    /** Whether it is shown in place of an earlier one of the same device. */
+    /** Whether it replaces the cause that is shown for the same device. */
     public boolean replaces(SilenceCause shown) {
         return shown == null || !shown.code().equals(code) || time - shown.time() >= RENEWAL.toMillis();
     }

@@ -14,11 +14,13 @@ import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.ngsi.Entity;
 
 /**
- * Reduces the reports of devices to heartbeats: emits one at the first report of a device, then of its newest every 30 seconds, and
- * one when it has been silent for too long. Ten thousand devices yield some hundred heartbeats a second. Silence is
- * measured by the clock of the control plane, so that neither a device's clock nor a delayed read causes it.
+ * Reduces the reports of devices to heartbeats: emits one at the first report of a device, then one with its newest
+ * report every 30 seconds, and one when it has been silent for too long. Ten thousand devices yield some hundred
+ * heartbeats a second. Silence is measured by the clock of the control plane, so that neither a device's clock nor a
+ * delayed read causes it.
  *
- * <p>What the context broker notifies about when a command is sent to the device is not a report of it, see {@link ReportedState}.
+ * <p>Notifications that the context broker sends because of a command to the device are not reports, see
+ * {@link ReportedState}.
  */
 final class SilenceDetector {
     static final Duration HEARTBEAT_INTERVAL = Duration.ofSeconds(30);
@@ -34,7 +36,7 @@ final class SilenceDetector {
     private final HeartbeatListener listener;
     private final Map<String, TrackedDevice> devices = new HashMap<>();
     private long lookedUp;
-    private long passed;
+    private long lastTick;
 
     /** Receives the heartbeats. */
     interface HeartbeatListener {
@@ -50,7 +52,7 @@ final class SilenceDetector {
         private ReportedState state;
         private boolean percent;
         private long emittedAt;
-        /** The newest report was not emitted. */
+        /** Whether the newest report was not emitted yet. */
         private boolean pending;
 
         private boolean silent;
@@ -61,7 +63,7 @@ final class SilenceDetector {
             return now - emittedAt >= HEARTBEAT_INTERVAL.toMillis();
         }
 
-        /** After a new start of its mission the next report is emitted at once. */
+        /** Updates the settings of the device; after a new start of its mission the next report is emitted immediately. */
         void take(DesiredDevice device, long after) {
             silentAfter = after;
             if (from != device.version().from()) {
@@ -83,12 +85,12 @@ final class SilenceDetector {
         if (devices.containsKey(key)) {
             return true;
         }
-        TrackedDevice untracked = new TrackedDevice();
-        boolean listens = isDesiredStill(key, untracked);
-        if (listens) {
-            devices.put(key, untracked);
+        TrackedDevice added = new TrackedDevice();
+        boolean isDesired = isDesiredStill(key, added);
+        if (isDesired) {
+            devices.put(key, added);
         }
-        return listens;
+        return isDesired;
     }
 
     /**
@@ -135,7 +137,7 @@ final class SilenceDetector {
         listener.emit(key, tracked.newest);
     }
 
-    /** Whether the context broker notified about something else than what was assigned to the device or asked of it. */
+    /** Whether the entity has values other than assigned attributes and commands. */
     private static boolean isMeasured(Entity entity) {
         List<Map.Entry<String, JsonNode>> attributes = entity.attributes();
         return attributes.isEmpty()
@@ -148,13 +150,10 @@ final class SilenceDetector {
                                 .isPresent());
     }
 
-    /**
-     * Called about once a second. After a pause, in which no reports were read, detects no silence until the pending
-     * reports are read.
-     */
+    /** Called about once a second. After a pause, in which no reports were read, detects no silence until the pending reports are read. */
     void passTime(long now) {
-        boolean paused = now - passed > MAX_TICK.toMillis();
-        passed = now;
+        boolean paused = now - lastTick > MAX_TICK.toMillis();
+        lastTick = now;
         if (now - lookedUp >= LOOKUP_INTERVAL.toMillis()) {
             lookedUp = now;
             devices.entrySet().removeIf(entry -> !isDesiredStill(entry.getKey(), entry.getValue()));

@@ -7,17 +7,17 @@ import java.util.function.Consumer;
 import org.apache.kafka.streams.state.KeyValueIterator;
 import org.apache.kafka.streams.state.KeyValueStore;
 
-/** A store whose writes are seen by its own reads, and reach the store behind it with {@link #apply}. */
+/** Buffers the writes to a store until {@link #apply}; its own reads see them immediately. */
 final class BufferedStore implements Table<byte[]> {
     private final KeyValueStore<String, byte[]> store;
-    /** By key; null for what is deleted. */
+    /** Values by key; null for deletions. */
     private final Map<String, byte[]> staged = new TreeMap<>();
 
     BufferedStore(KeyValueStore<String, byte[]> store) {
         this.store = store;
     }
 
-    /** @throws OversizedRecordException where a value is larger than a changelog takes */
+    /** @throws OversizedRecordException if a value is larger than the changelog accepts */
     void check() {
         staged.forEach((key, value) -> OversizedRecordException.check(store.name(), key, value));
     }

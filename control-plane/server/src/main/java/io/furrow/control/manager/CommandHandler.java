@@ -6,13 +6,13 @@ import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.RejectedException;
 
 /**
- * Who answers the requests of one manager.
+ * Executes the commands of one manager.
  *
  * @param <C> its commands
  */
 public interface CommandHandler<C> {
     /**
-     * Grants or refuses; what is refused has changed nothing.
+     * Executes or rejects a command. A rejected command changes nothing.
      *
      * @param now epoch ms
      */
@@ -21,12 +21,12 @@ public interface CommandHandler<C> {
     /** Called about once a second, and before the first request. */
     default void passTime(long now) {}
 
-    /** What is to be done about once a second; each step takes effect as a whole or not at all, and none keeps the others up. */
+    /** Returns the steps to execute about once a second. Each step is atomic, and its failure does not affect the others. */
     default List<Runnable> due(long now) {
         return List.of(() -> passTime(now));
     }
 
-    /** What was begun and is too much for one transaction: the next part of each, called ten times a second. */
+    /** Returns the next part of each change that is too large for one transaction, called ten times a second. */
     default List<Runnable> pending(long now) {
         return List.of();
     }

@@ -27,13 +27,14 @@ import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
- * Gives every request one effect and one answer. The time is that of the control plane's clock, because commands are about now,
- * whatever the record's timestamp says. A request that makes the manager fail changes nothing, is answered with {@link
- * ErrorCode#INTERNAL_ERROR} and becomes a dead letter.
+ * Executes every request once and answers it once. The time is that of the control plane's clock, because commands take
+ * effect now, regardless of the record's timestamp. A request that makes the manager fail changes nothing, is answered
+ * with {@link ErrorCode#INTERNAL_ERROR} and becomes a dead letter.
  *
- * <p><b>State</b>: {@link RequestLog}, and what the handler remembers. <b>Twice</b>: a request whose id was answered is passed
- * over; another request under that id is refused. <b>Emits</b>: what the handler writes, then the answer on the request's topic, its
- * key the request's id, else the request's key, and an entry on {@code service.audit}; all in one transaction.
+ * <p><b>State</b>: {@link RequestLog}, and the handler's stores. <b>Duplicates</b>: a request whose id was answered is
+ * skipped; another request with that id is rejected. <b>Emits</b>: the handler's records, then the answer on the
+ * request's topic, keyed by the request's id, else by the request's key, and an entry on {@code service.audit}; all in
+ * one transaction.
  *
  * @param <C> commands of the manager
  */
@@ -43,31 +44,34 @@ final class CommandProcessor<C extends Command> extends ContextualProcessor<Stri
     private static final Duration STEP = Duration.ofMillis(100);
 
     private final ManagerTopic<C> manager;
-    private final Duration remembered;
-    private final Function<UnitOfWork, CommandHandler<C>> opening;
-    private RequestLog answered;
+    private final Duration requestRetention;
+    private final Function<UnitOfWork, CommandHandler<C>> handlerFactory;
+    private RequestLog requestLog;
     private UnitOfWork unitOfWork;
     private Punctuations punctuations;
     private CommandHandler<C> handler;
-    private boolean opened;
+    private boolean started;
 
     /**
-     * @param remembered how long ids of requests are
-     * @param opening makes the handler, whose stores are those of the context
+     * @param requestRetention how long ids of requests are stored for deduplication
+     * @param handlerFactory creates the handler on the stores of the context
      */
-    CommandProcessor(ManagerTopic<C> manager, Duration remembered, Function<UnitOfWork, CommandHandler<C>> opening) {
+    CommandProcessor(
+            ManagerTopic<C> manager,
+            Duration requestRetention,
+            Function<UnitOfWork, CommandHandler<C>> handlerFactory) {
         this.manager = manager;
-        this.remembered = remembered;
-        this.opening = opening;
+        this.requestRetention = requestRetention;
+        this.handlerFactory = handlerFactory;
     }
 
     @Override
     public void init(ProcessorContext<String, OutputRecord> context) {
         super.init(context);
-        answered = new RequestLog(context, manager.answers(), remembered);
+        requestLog = new RequestLog(context, manager.answers(), requestRetention);
         unitOfWork = new UnitOfWork(context);
-        handler = opening.apply(unitOfWork);
-        opened = false;
+        handler = handlerFactory.apply(unitOfWork);
+        started = false;
         punctuations = new Punctuations(unitOfWork, context.taskId());
         context.schedule(TICK, PunctuationType.WALL_CLOCK_TIME, now -> punctuations.run(handler.due(now)));
         context.schedule(STEP, PunctuationType.WALL_CLOCK_TIME, now -> punctuations.run(handler.pending(now)));
@@ -76,27 +80,27 @@ final class CommandProcessor<C extends Command> extends ContextualProcessor<Stri
     @Override
     public void process(Record<String, byte[]> record) {
         long now = context().currentSystemTimeMs();
-        if (!opened) {
+        if (!started) {
             punctuations.run(handler.due(now));
-            opened = true;
+            started = true;
         }
         long oversized = RequestProcessor.oversizedBytes(record);
         if (oversized > 0) {
-            refuseOversized(record, oversized, now);
+            rejectOversized(record, oversized, now);
             return;
         }
-        ParsedRequest<C> received = manager.read(record.value());
-        if (received instanceof ParsedRequest.Request<C> request) {
+        ParsedRequest<C> parsed = manager.read(record.value());
+        if (parsed instanceof ParsedRequest.Request<C> request) {
             answerOnce(
                     IdentifiedRequest.of(record, request.requestId()),
                     () -> answer(record, request.command(), now),
                     now);
-        } else if (received instanceof ParsedRequest.Refused<C> refused) {
-            answerOnce(IdentifiedRequest.of(record, refused.requestId()), refused::answer, now);
+        } else if (parsed instanceof ParsedRequest.Refused<C> rejected) {
+            answerOnce(IdentifiedRequest.of(record, rejected.requestId()), rejected::answer, now);
         }
     }
 
-    /** A request as a record, its id, which may be null, and what it asks for. */
+    /** A request with its id, which may be null, and its fingerprint. */
     private record IdentifiedRequest(Record<String, byte[]> record, String id, String fingerprint) {
         static IdentifiedRequest of(Record<String, byte[]> record, String id) {
             return new IdentifiedRequest(record, id, id == null ? "" : RequestFingerprint.of(record.value()));
@@ -107,64 +111,65 @@ final class CommandProcessor<C extends Command> extends ContextualProcessor<Stri
         CommandResult answer();
     }
 
-    private void answerOnce(IdentifiedRequest requested, ResponseSupplier answering, long now) {
-        String id = requested.id();
-        Optional<String> existing = id == null ? Optional.empty() : answered.fingerprint(id, now);
+    private void answerOnce(IdentifiedRequest identified, ResponseSupplier supplier, long now) {
+        String id = identified.id();
+        Optional<String> existing = id == null ? Optional.empty() : requestLog.fingerprint(id, now);
         if (existing.isPresent()) {
-            if (!existing.get().equals(requested.fingerprint())) {
+            if (!existing.get().equals(identified.fingerprint())) {
                 send(
-                        requested,
-                        refusal(requested, ErrorCode.REQUEST_ID_REUSED, "this id was given to another request"),
+                        identified,
+                        rejection(identified, ErrorCode.REQUEST_ID_REUSED, "this id was given to another request"),
                         now);
             }
             return;
         }
-        if (id != null && answered.isFull(now)) {
-            String reason = "%d requests of the last %d min are remembered, which is the most; ask again later"
-                    .formatted(Limits.REMEMBERED_REQUESTS, remembered.toMinutes());
-            send(requested, refusal(requested, ErrorCode.OVERLOADED, reason), now);
+        if (id != null && requestLog.isFull(now)) {
+            String reason =
+                    "the ids of %d requests of the last %d min are stored, which is the maximum; try again later"
+                            .formatted(Limits.REMEMBERED_REQUESTS, requestRetention.toMinutes());
+            send(identified, rejection(identified, ErrorCode.OVERLOADED, reason), now);
             return;
         }
-        CommandResult given = answering.answer();
+        CommandResult result = supplier.answer();
         if (id != null) {
-            answered.add(id, requested.fingerprint(), now);
+            requestLog.add(id, identified.fingerprint(), now);
         }
-        send(requested, given, now);
+        send(identified, result, now);
     }
 
-    private void refuseOversized(Record<String, byte[]> record, long bytes, long now) {
-        RequestSummary excerpt = RequestSummary.of(record.value());
+    private void rejectOversized(Record<String, byte[]> record, long bytes, long now) {
+        RequestSummary summary = RequestSummary.of(record.value());
         String reason =
                 "the request has %d bytes, and may have %d; send a long list of devices in several with 'add-devices'"
                         .formatted(bytes, Limits.REQUEST_BYTES);
         answerOnce(
-                IdentifiedRequest.of(record, excerpt.requestId()),
-                () -> excerpt.refusal(ErrorCode.TOO_LARGE, reason),
+                IdentifiedRequest.of(record, summary.requestId()),
+                () -> summary.refusal(ErrorCode.TOO_LARGE, reason),
                 now);
     }
 
-    private static CommandResult refusal(IdentifiedRequest requested, ErrorCode code, String reason) {
-        return RequestSummary.of(requested.record().value()).refusal(code, reason);
+    private static CommandResult rejection(IdentifiedRequest identified, ErrorCode code, String reason) {
+        return RequestSummary.of(identified.record().value()).refusal(code, reason);
     }
 
-    private void send(IdentifiedRequest requested, CommandResult given, long now) {
-        String id = requested.id();
+    private void send(IdentifiedRequest identified, CommandResult result, long now) {
+        String id = identified.id();
         String ownKey =
-                requested.record().key() == null || requested.record().key().isEmpty()
+                identified.record().key() == null || identified.record().key().isEmpty()
                         ? null
-                        : requested.record().key();
+                        : identified.record().key();
         String key = id == null ? ownKey : id;
-        CommandResult answer = given.to(id);
+        CommandResult answer = result.to(id);
         Record<String, OutputRecord> response = new Record<>(
                 key,
                 new OutputRecord(manager.topic(), answer.toBytes()),
                 context().currentSystemTimeMs());
         if (id != null) {
             response.headers()
-                    .add(RequestFingerprint.HEADER, requested.fingerprint().getBytes(StandardCharsets.UTF_8));
+                    .add(RequestFingerprint.HEADER, identified.fingerprint().getBytes(StandardCharsets.UTF_8));
         }
         context().forward(response);
-        byte[] entry = AuditEntry.of(manager.topic(), requested.record().value(), answer, now)
+        byte[] entry = AuditEntry.of(manager.topic(), identified.record().value(), answer, now)
                 .toBytes();
         context().forward(new Record<>(key, new OutputRecord(Topics.AUDIT, entry), response.timestamp()));
     }
@@ -176,7 +181,7 @@ final class CommandProcessor<C extends Command> extends ContextualProcessor<Stri
             return Requests.refusal(e, command);
         } catch (OversizedRecordException e) {
             return Requests.refusal(new RejectedException(ErrorCode.TOO_LARGE, e.getMessage()), command);
-        } catch (RuntimeException e) { // a fault of ours, which must not keep the other requests from being answered
+        } catch (RuntimeException e) { // a bug must not block the other requests
             RecordOrigin origin = RecordOrigin.of(record).orElseThrow();
             LOG.error("the request {} failed and changed nothing; it is a dead letter", origin, e);
             context().forward(DeadLetterRecords.of(record, origin, Reason.FAILED, FailureText.of(e)));

@@ -8,7 +8,7 @@ import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.topic.Topics;
 
-/** Dead letters of the control plane: the original record for {@code <topic>.dead}, with the reason in its headers. */
+/** Creates dead letters: the original record for {@code <topic>.dead}, with the reason in its headers. */
 final class DeadLetterRecords {
     /** Header {@code dead-stage}. */
     static final String STAGE = "control-plane";

@@ -13,26 +13,25 @@ import org.slf4j.LoggerFactory;
 import io.furrow.model.ngsi.StateJson;
 
 /**
- * Forwards each record of a topic once, also where the topic, or the repartition topic behind it, is read again from
- * an older offset: a group that was unavailable for {@code offsets.retention.minutes} has none, and a broker that was
- * killed may hand out offsets of some minutes ago. No request of last week is run again, and no encounter that has
- * ended raises a second alarm.
+ * Forwards each record of a topic once, even if the topic, or its repartition topic, is read again from an older
+ * offset: the offsets of a group expire after {@code offsets.retention.minutes}, and a killed broker may return offsets
+ * of some minutes ago. So no old request is executed again, and no ended encounter raises a second alarm.
  *
- * <p><b>State</b>: offset and newest timestamp by partition of the topic, in a named store. <b>Cleared</b>: never, it is as large as there are
- * partitions. <b>Twice</b>: dropped where neither the offset nor the timestamp is new; a topic that was deleted and made again
- * has old offsets, but new timestamps.
+ * <p><b>State</b>: offset and newest timestamp by partition of the topic, in a named store. <b>Cleared</b>: never; its
+ * size is bounded by the number of partitions. <b>Duplicates</b>: dropped if neither offset nor timestamp is new; a
+ * recreated topic has old offsets, but new timestamps.
  */
 final class DeduplicationProcessor extends ContextualProcessor<String, byte[], String, byte[]> {
     private static final Logger LOG = LoggerFactory.getLogger(DeduplicationProcessor.class);
 
     private final String store;
-    /** Partitions of which the last record was skipped, so that the log reports it once. */
-    private final Set<String> readAgain = new HashSet<>();
+    /** Partitions whose last record was skipped, so that this is logged once. */
+    private final Set<String> rereadPartitions = new HashSet<>();
 
     private KeyValueStore<String, byte[]> positions;
 
     /**
-     * How far a partition was read.
+     * The position in a partition.
      *
      * @param newest timestamp, epoch ms
      */
@@ -66,12 +65,12 @@ final class DeduplicationProcessor extends ContextualProcessor<String, byte[], S
         byte[] stored = positions.get(partition);
         Position existing = stored == null ? null : StateJson.read(stored, Position.class);
         if (existing != null && existing.covers(origin.offset(), record.timestamp())) {
-            if (readAgain.add(partition)) {
+            if (rereadPartitions.add(partition)) {
                 LOG.warn("{} is read again; records up to {}@{} are skipped", origin, partition, existing.offset());
             }
             return;
         }
-        readAgain.remove(partition);
+        rereadPartitions.remove(partition);
         Position now = new Position(origin.offset(), record.timestamp());
         positions.put(partition, StateJson.write(existing == null ? now : existing.with(now)));
         context().forward(record);

@@ -16,32 +16,34 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
 
 /**
- * Passes the records of a topic to an observer one by one, tombstones included, and notifies it that time passes. Each record is handled as
- * a whole or not at all; one that cannot be read or handled becomes a dead letter, so that it keeps no other from being handled.
+ * Passes the records of a topic to an observer, including tombstones, and notifies it about the passing of time. Each
+ * record is handled atomically; one that cannot be read or handled becomes a dead letter, so that it does not block
+ * others.
  */
 final class EventProcessor extends ContextualProcessor<String, byte[], String, OutputRecord> {
     private static final Logger LOG = LoggerFactory.getLogger(EventProcessor.class);
     private static final Duration TICK = Duration.ofSeconds(1);
 
-    private final Function<UnitOfWork, ? extends Observer> opening;
-    private final boolean first;
+    private final Function<UnitOfWork, ? extends Observer> observerFactory;
+    private final boolean writesUnreadable;
     private UnitOfWork unitOfWork;
     private Observer observer;
 
     /**
-     * @param opening makes the observer, on the stores of the processor
-     * @param first false beside another observer of the same records, which writes the dead letters of those that cannot be read
+     * @param observerFactory creates the observer on the stores of the processor
+     * @param writesUnreadable whether unreadable records become dead letters; false if another observer of the same
+     *     records writes them
      */
-    EventProcessor(Function<UnitOfWork, ? extends Observer> opening, boolean first) {
-        this.opening = opening;
-        this.first = first;
+    EventProcessor(Function<UnitOfWork, ? extends Observer> observerFactory, boolean writesUnreadable) {
+        this.observerFactory = observerFactory;
+        this.writesUnreadable = writesUnreadable;
     }
 
     @Override
     public void init(ProcessorContext<String, OutputRecord> context) {
         super.init(context);
         unitOfWork = new UnitOfWork(context);
-        observer = opening.apply(unitOfWork);
+        observer = observerFactory.apply(unitOfWork);
         Punctuations punctuations = new Punctuations(unitOfWork, context.taskId());
         context.schedule(
                 TICK, PunctuationType.WALL_CLOCK_TIME, now -> punctuations.run(List.of(() -> observer.passTime(now))));
@@ -55,27 +57,27 @@ final class EventProcessor extends ContextualProcessor<String, byte[], String, O
                 return null;
             });
         } catch (UnreadableException e) {
-            LOG.debug("{} cannot be read", described(record), e);
-            if (first) {
-                setAside(record, e.reason(), e.getMessage());
+            LOG.debug("{} cannot be read", describe(record), e);
+            if (writesUnreadable) {
+                deadLetter(record, e.reason(), e.getMessage());
             }
         } catch (OversizedRecordException e) {
-            LOG.error("{} changed nothing", described(record), e);
-            setAside(record, Reason.TOO_LARGE, e.getMessage());
-        } catch (RuntimeException e) { // a fault of ours, which must not keep the other records from being handled
-            LOG.error("{} failed and changed nothing", described(record), e);
-            setAside(record, Reason.FAILED, FailureText.of(e));
+            LOG.error("{} changed nothing", describe(record), e);
+            deadLetter(record, Reason.TOO_LARGE, e.getMessage());
+        } catch (RuntimeException e) { // a bug must not block the other records
+            LOG.error("{} failed and changed nothing", describe(record), e);
+            deadLetter(record, Reason.FAILED, FailureText.of(e));
         }
     }
 
-    private String described(Record<String, byte[]> record) {
+    private String describe(Record<String, byte[]> record) {
         return RecordOrigin.of(record)
                 .map(RecordOrigin::toString)
                 .orElseGet(() -> "a record of task " + context().taskId());
     }
 
-    /** What is not a record of a topic, but was made of one, is in the log only. */
-    private void setAside(Record<String, byte[]> record, Reason reason, String message) {
+    /** Writes a dead letter. A derived record without an origin is only logged. */
+    private void deadLetter(Record<String, byte[]> record, Reason reason, String message) {
         RecordOrigin.of(record)
                 .ifPresent(origin -> context().forward(DeadLetterRecords.of(record, origin, reason, message)));
     }

@@ -2,6 +2,6 @@ package io.furrow.control.manager;
 
 /** Receives the records that a manager writes; those of one request become visible together. */
 public interface EventPublisher {
-    /** @param value null deletes what has the key */
+    /** @param value null for a tombstone */
     void put(String topic, String key, byte[] value);
 }

@@ -28,9 +28,10 @@ import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
- * What Kafka Streams does where a record makes it fail, in all applications of the control plane: the record becomes a dead letter and
- * the rest continues. Processors handle their failures themselves, whole and with an answer, see {@link CommandProcessor} and {@link
- * EventProcessor}; this is for what escapes them. Where Kafka itself failed the thread is replaced instead, and the record read again.
+ * Handles failures of records in all Kafka Streams applications of the control plane: the record becomes a dead letter
+ * and processing continues. {@link CommandProcessor} and {@link EventProcessor} handle their own failures atomically
+ * and with an answer; this class handles the remaining ones. If Kafka itself failed, the thread is replaced and the
+ * record is read again.
  */
 public final class FailureHandler
         implements DeserializationExceptionHandler, ProcessingExceptionHandler, ProductionExceptionHandler {
@@ -67,7 +68,7 @@ public final class FailureHandler
         if (failure instanceof RetriableException) {
             return ProductionExceptionHandler.Response.retry();
         }
-        LOG.error("a record for {} made of {} cannot be written", record.topic(), source(context), failure);
+        LOG.error("a record for {} derived from {} cannot be written", record.topic(), source(context), failure);
         return ProductionExceptionHandler.Response.fail();
     }
 
@@ -78,16 +79,16 @@ public final class FailureHandler
             ProducerRecord record,
             Exception failure,
             SerializationExceptionOrigin origin) {
-        LOG.error("a record for {} made of {} cannot be serialized", record.topic(), source(context), failure);
+        LOG.error("a record for {} derived from {} cannot be serialized", record.topic(), source(context), failure);
         return ProductionExceptionHandler.Response.resume(deadLetters(context, failure));
     }
 
     @Override
     public void configure(Map<String, ?> configs) {
-        // There is nothing to set.
+        // There are no options.
     }
 
-    /** Whether Kafka failed, not the record. */
+    /** Whether the failure is one of Kafka, not of the record. */
     private static boolean isKafka(Throwable failure) {
         for (Throwable cause = failure; cause != null; cause = cause.getCause()) {
             if (cause instanceof RecordTooLargeException || cause instanceof SerializationException) {
@@ -100,7 +101,7 @@ public final class FailureHandler
         return false;
     }
 
-    /** The dead letter, and the answer where the record is a request; of a punctuation, which has no record, there is neither. */
+    /** Returns the dead letter, and the answer if the record is a request; nothing for a punctuation, which has no record. */
     private static List<ProducerRecord<byte[], byte[]>> deadLetters(ErrorHandlerContext context, Exception failure) {
         RecordOrigin origin = origin(context);
         if (origin == null || context.sourceRawValue() == null) {
@@ -118,16 +119,16 @@ public final class FailureHandler
     }
 
     private static ProducerRecord<byte[], byte[]> answer(String topic, ErrorHandlerContext context) {
-        RequestSummary excerpt = RequestSummary.of(context.sourceRawValue());
-        io.furrow.model.control.CommandResult refusal = excerpt.refusal(
+        RequestSummary summary = RequestSummary.of(context.sourceRawValue());
+        io.furrow.model.control.CommandResult refusal = summary.refusal(
                 ErrorCode.INTERNAL_ERROR,
                 "the manager failed at it; its log says why, and the request is a dead letter");
-        byte[] key = excerpt.requestId() == null ? null : excerpt.requestId().getBytes(StandardCharsets.UTF_8);
-        byte[] value = refusal.to(excerpt.requestId()).toBytes();
+        byte[] key = summary.requestId() == null ? null : summary.requestId().getBytes(StandardCharsets.UTF_8);
+        byte[] value = refusal.to(summary.requestId()).toBytes();
         return new ProducerRecord<>(topic, null, context.timestamp(), key, value);
     }
 
-    /** Where the record stood that failed; null if it stood on no topic of ours. */
+    /** Returns the origin of the failed record; null if it has none on an external topic. */
     private static RecordOrigin origin(ErrorHandlerContext context) {
         boolean internal = context.topic() == null || context.topic().endsWith("-repartition");
         return RecordOrigin.of(context.headers())

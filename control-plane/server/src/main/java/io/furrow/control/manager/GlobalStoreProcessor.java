@@ -6,9 +6,10 @@ import org.apache.kafka.streams.processor.api.Record;
 import org.apache.kafka.streams.state.KeyValueStore;
 
 /**
- * Copies a compacted topic into a global store, which each instance has whole.
+ * Copies a compacted topic into a global store, which every instance holds completely.
  *
- * <p><b>State</b>: the newest value by key. <b>Cleared</b>: by a tombstone. <b>Emits</b>: nothing; a record without a key is skipped.
+ * <p><b>State</b>: newest value by key. <b>Cleared</b>: by a tombstone. <b>Emits</b>: nothing; records without a key
+ * are skipped.
  */
 final class GlobalStoreProcessor extends ContextualProcessor<String, byte[], Void, Void> {
     private final String name;

@@ -12,9 +12,9 @@ import io.furrow.model.control.Requests;
 import io.furrow.model.topic.Topics;
 
 /**
- * The topic of a manager: requests come on it, answers go to it.
+ * The topic of a manager, for requests and answers.
  *
- * @param name the first part of the names of its stores and nodes; never changed, state is found by it
+ * @param name prefix of the names of its stores and nodes; never changed, because state is found by it
  * @param <C> its commands
  */
 public record ManagerTopic<C>(String name, String topic, Function<byte[], ParsedRequest<C>> reader) {
@@ -27,7 +27,7 @@ public record ManagerTopic<C>(String name, String topic, Function<byte[], Parsed
     public static final ManagerTopic<AlarmCommand> ALARM =
             new ManagerTopic<>("alarm", Topics.ALARM_MANAGER, Requests::alarm);
 
-    /** Whether a topic is one of those to which requests come. */
+    /** Whether a topic is that of a manager. */
     static boolean isManager(String topic) {
         return Stream.of(DOMAIN, MISSION, REPLAY, ALARM)
                 .anyMatch(each -> each.topic().equals(topic));
@@ -37,7 +37,7 @@ public record ManagerTopic<C>(String name, String topic, Function<byte[], Parsed
         return reader.apply(value);
     }
 
-    /** The store of the ids that were answered. */
+    /** Returns the name of the store of answered request ids. */
     public String answers() {
         return name + "-responses";
     }

@@ -25,20 +25,20 @@ import io.furrow.model.control.Limits;
 import io.furrow.model.ngsi.Reason;
 
 /**
- * Builds the topology of managers and observers. Records come to them each once, all in one line: one partition orders the requests of all
- * clients, so that of two that ask for one name the second one is rejected; a manager therefore runs on one instance at a time.
- * What is larger than {@link Limits#RECORD_BYTES} becomes a dead letter.
+ * Builds the topology of managers and observers. They receive each record once, all through a single partition: it
+ * orders the requests of all clients, so that the second of two requests for the same name is rejected. A manager
+ * therefore runs on one instance at a time. Records larger than {@link Limits#RECORD_BYTES} become dead letters.
  */
 public final class ManagerTopology {
     private static final String FITS = "-fits";
     private static final String OVERSIZED = "-oversized";
 
     private final StreamsBuilder builder = new StreamsBuilder();
-    private final Duration remembered;
+    private final Duration requestRetention;
 
-    /** @param remembered how long ids of requests are */
-    public ManagerTopology(Duration remembered) {
-        this.remembered = remembered;
+    /** @param requestRetention how long ids of requests are stored for deduplication */
+    public ManagerTopology(Duration requestRetention) {
+        this.requestRetention = requestRetention;
     }
 
     public Topology build() {
@@ -49,7 +49,7 @@ public final class ManagerTopology {
         names.forEach(name -> builder.addStateStore(StoreTable.builder(name)));
     }
 
-    /** A compacted topic in a store, which each instance has whole and processors need not name. */
+    /** Adds a global store of a compacted topic, which processors need not declare. */
     public void addGlobalStore(String name, String topic) {
         builder.addGlobalStore(
                 StoreTable.builder(name).withLoggingDisabled(),
@@ -58,53 +58,56 @@ public final class ManagerTopology {
                 () -> new GlobalStoreProcessor(name));
     }
 
-    /** Answers the requests to a manager. @param opening makes the handler, on stores that exist already */
+    /** Adds a manager. @param handlerFactory creates the handler on stores that exist already */
     public <C extends Command> void addManager(
-            ManagerTopic<C> manager, Function<UnitOfWork, CommandHandler<C>> opening, List<String> stores) {
-        builder.addStateStore(RequestLog.builder(manager.answers(), remembered));
+            ManagerTopic<C> manager, Function<UnitOfWork, CommandHandler<C>> handlerFactory, List<String> stores) {
+        builder.addStateStore(RequestLog.builder(manager.answers(), requestRetention));
         String name = manager.name();
         KStream<String, byte[]> accepted = builder.stream(manager.topic(), from(name + "-requests-in"))
                 .process(() -> new RequestProcessor(manager), Named.as(name + "-accept"));
         send(
-                once(toSinglePartition(accepted, name + "-requests"), name),
-                () -> new CommandProcessor<>(manager, remembered, opening),
+                deduplicated(toSinglePartition(accepted, name + "-requests"), name),
+                () -> new CommandProcessor<>(manager, requestRetention, handlerFactory),
                 new Nodes("answer-" + name + "-requests", name + "s-out"),
                 Stream.concat(stores.stream(), Stream.of(manager.answers())));
     }
 
-    /** Observes a topic on which executors report statuses. @param opening makes the observer, on stores that exist already */
+    /**
+     * Observes a topic of reported statuses.
+     *
+     * @param observerFactory creates the observer on stores that exist already
+     */
     public void addStatuses(
             String topic,
             String name,
             String output,
-            Function<UnitOfWork, Observer.OfStatuses> opening,
+            Function<UnitOfWork, Observer.OfStatuses> observerFactory,
             List<String> stores) {
         observe(
                 observed(builder.stream(topic, from(name + "-in")), name),
                 new Nodes("take-" + name, output),
-                opening,
+                true,
+                observerFactory,
                 stores);
     }
 
-    /** Observes records. @param opening makes the observer, on stores that exist already */
+    /**
+     * Observes records.
+     *
+     * @param writesUnreadable whether unreadable records become dead letters; false if another observer of the same
+     *     records writes them
+     * @param observerFactory creates the observer on stores that exist already
+     */
     public static void observe(
             KStream<String, byte[]> records,
             Nodes nodes,
-            Function<UnitOfWork, ? extends Observer> opening,
+            boolean writesUnreadable,
+            Function<UnitOfWork, ? extends Observer> observerFactory,
             List<String> stores) {
-        send(records, () -> new EventProcessor(opening, true), nodes, stores.stream());
+        send(records, () -> new EventProcessor(observerFactory, writesUnreadable), nodes, stores.stream());
     }
 
-    /** The same beside another observer of the same records, which writes the dead letters of what cannot be read. */
-    public static void observeBesideAnother(
-            KStream<String, byte[]> records,
-            Nodes nodes,
-            Function<UnitOfWork, ? extends Observer> opening,
-            List<String> stores) {
-        send(records, () -> new EventProcessor(opening, false), nodes, stores.stream());
-    }
-
-    /** Names of nodes: of the processor, and of its output. */
+    /** Names of a processor node and of its sink. */
     public record Nodes(String processor, String output) {}
 
     private static void send(
@@ -118,18 +121,22 @@ public final class ManagerTopology {
                         Produced.with(Serdes.String(), OutputRecord.SERDE).withName(nodes.output()));
     }
 
-    /** The records of a topic as they come. @param start where to begin when it was never read */
+    /** Returns the records of a topic. @param start position if the topic was never read */
     public KStream<String, byte[]> stream(String topic, String node, AutoOffsetReset start) {
         return builder.stream(topic, from(node).withOffsetResetPolicy(start));
     }
 
-    /** The records of a topic, each once and all in one line. @param start where to begin when it was never read */
+    /**
+     * Returns the records of a topic, deduplicated, in a single partition.
+     *
+     * @param start position if the topic was never read
+     */
     public KStream<String, byte[]> observed(String topic, String name, AutoOffsetReset start) {
         return observed(stream(topic, name + "-in", start), name);
     }
 
     private KStream<String, byte[]> observed(KStream<String, byte[]> stream, String name) {
-        return once(
+        return deduplicated(
                 toSinglePartition(stream.process(SourcePositionProcessor::new, Named.as(name + "-note-origin")), name),
                 name);
     }
@@ -139,13 +146,13 @@ public final class ManagerTopology {
     }
 
     /** Positions are written to the changelog once per commit, not once per record. */
-    private KStream<String, byte[]> once(KStream<String, byte[]> line, String name) {
+    private KStream<String, byte[]> deduplicated(KStream<String, byte[]> records, String name) {
         String positions = name + "-positions";
         builder.addStateStore(StoreTable.builder(positions).withCachingEnabled());
-        return line.process(() -> new DeduplicationProcessor(positions), Named.as(name + "-take-once"), positions);
+        return records.process(() -> new DeduplicationProcessor(positions), Named.as(name + "-take-once"), positions);
     }
 
-    /** In the order in which they come, all on one instance at a time. */
+    /** Routes the records through a single partition, which one instance processes at a time. */
     public static KStream<String, byte[]> toSinglePartition(KStream<String, byte[]> stream, String name) {
         Map<String, KStream<String, byte[]>> bySize = stream.split(Named.as(name))
                 .branch(
@@ -163,7 +170,7 @@ public final class ManagerTopology {
                         .withNumberOfPartitions(1));
     }
 
-    /** Makes a dead letter of a record that is too large to be handled. */
+    /** Converts a record that is too large to a dead letter. */
     private static final class RejectOversized extends ContextualProcessor<String, byte[], String, OutputRecord> {
         @Override
         public void process(Record<String, byte[]> record) {

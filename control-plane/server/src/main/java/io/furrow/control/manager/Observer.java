@@ -7,7 +7,7 @@ import io.furrow.model.ngsi.UnreadableException;
 /** Receives the records of other parts of Furrow. */
 public interface Observer {
     /**
-     * @param record whose key may be empty and whose value is null for a deletion
+     * @param record its key may be empty; its value is null for a deletion
      * @param now epoch ms
      */
     void take(Record<String, byte[]> record, long now) throws UnreadableException;
@@ -15,7 +15,7 @@ public interface Observer {
     /** Called about once a second. */
     default void passTime(long now) {}
 
-    /** Receives the statuses that hosts and players report; a record without a key or a value says nothing. */
+    /** Receives the statuses that hosts and players report; skips records without a key or a value. */
     interface OfStatuses extends Observer {
         /** @param now epoch ms */
         void take(String key, byte[] status, long now) throws UnreadableException;

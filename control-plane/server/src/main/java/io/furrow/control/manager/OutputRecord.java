@@ -4,9 +4,9 @@ import org.apache.kafka.common.serialization.Serde;
 import org.apache.kafka.common.serialization.Serdes;
 
 /**
- * A record on its way out of a manager.
+ * A record to be written to a topic.
  *
- * @param value null deletes what has the key
+ * @param value null for a tombstone
  */
 public record OutputRecord(String topic, byte[] value) {
     static final Serde<OutputRecord> SERDE =

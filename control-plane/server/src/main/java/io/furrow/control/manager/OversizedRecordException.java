@@ -2,7 +2,7 @@ package io.furrow.control.manager;
 
 import io.furrow.model.control.Limits;
 
-/** A record would be larger than {@link Limits#RECORD_BYTES}; nothing was written. */
+/** Thrown if a record would be larger than {@link Limits#RECORD_BYTES}; nothing was written. */
 final class OversizedRecordException extends RuntimeException {
     private static final long serialVersionUID = 1L;
     private static final int MAX_QUOTE_LENGTH = 80;
@@ -23,7 +23,7 @@ final class OversizedRecordException extends RuntimeException {
         return key == null || key.length() <= MAX_QUOTE_LENGTH ? key : key.substring(0, MAX_QUOTE_LENGTH) + "...";
     }
 
-    /** Bytes of key and value, at most: a character of the key counts as three bytes in UTF-8. */
+    /** Returns an upper bound of the bytes of key and value, with three bytes per character of the key. */
     static long size(String key, byte[] value) {
         return (value == null ? 0 : value.length) + (key == null ? 0 : 3L * key.length());
     }

@@ -8,8 +8,8 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 /**
- * Runs what is due from time to time, each step as a whole or not at all: a step that fails is logged, once a minute at most, and
- * tried again with the next punctuation, while the others continue.
+ * Runs periodic steps, each atomically. A failed step is logged, at most once a minute, and retried at the next
+ * punctuation, while the others continue.
  */
 final class Punctuations {
     private static final Logger LOG = LoggerFactory.getLogger(Punctuations.class);
@@ -31,7 +31,7 @@ final class Punctuations {
                     step.run();
                     return null;
                 });
-            } catch (RuntimeException e) { // a fault of ours, which must not end the thread of all
+            } catch (RuntimeException e) { // a bug must not end the thread
                 log(e);
             }
         }

@@ -4,14 +4,14 @@ import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RejectedException;
 
 /**
- * Room for all definitions together, which are held in memory: how many bytes are used is remembered.
+ * Limits the total size of all definitions, which are held in memory.
  *
- * @param used where it is remembered how much is used, under a key of its own
+ * @param used stores the number of used bytes under its own key
  */
 public record Quota(Table<Long> used, long bytes) {
     private static final String USED = "used-bytes";
 
-    /** @throws RejectedException where there is not so much room left */
+    /** @throws RejectedException if the quota would be exceeded */
     public void require(long further) throws RejectedException {
         if (further > 0 && inUse() + further > bytes) {
             throw new RejectedException(
@@ -21,15 +21,15 @@ public record Quota(Table<Long> used, long bytes) {
         }
     }
 
-    /** Uses more, or less where it is negative. */
+    /** Changes the number of used bytes; negative to release. */
     public void use(long further) {
         used.put(USED, Math.max(0, inUse() + further));
     }
 
     /**
-     * Puts one value in the place of another; either may be null.
+     * Replaces one value by another; either may be null.
      *
-     * @throws RejectedException if there is no room for it
+     * @throws RejectedException if the quota would be exceeded
      */
     public void replace(byte[] before, byte[] after) throws RejectedException {
         long further = (after == null ? 0 : after.length) - (before == null ? 0 : before.length);

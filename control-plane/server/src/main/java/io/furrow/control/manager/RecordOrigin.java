@@ -10,17 +10,17 @@ import org.apache.kafka.streams.processor.api.RecordMetadata;
 
 import io.furrow.kafka.KafkaClients;
 
-/** Where a record stood before it was repartitioned: a header that stays with it. */
+/** The position of a record before repartitioning, transported in a header. */
 record RecordOrigin(String topic, int partition, long offset) {
     private static final String HEADER = "request-origin";
 
-    /** That of the record which a processor is given from its topic. */
+    /** Returns the origin of the record that a processor receives from its topic. */
     static RecordOrigin of(ProcessorContext<?, ?> context) {
         RecordMetadata at = context.recordMetadata().orElseThrow();
         return new RecordOrigin(at.topic(), at.partition(), at.offset());
     }
 
-    /** As noted on a record; empty if it has no such header. */
+    /** Parses the origin from the header of a record; empty if it has none. */
     static Optional<RecordOrigin> of(Record<?, ?> record) {
         return of(record.headers());
     }
@@ -38,12 +38,12 @@ record RecordOrigin(String topic, int partition, long offset) {
                 Long.parseLong(text.substring(at + 1)));
     }
 
-    /** The topic and its partition, {@code <topic>-<partition>}. */
+    /** Returns {@code <topic>-<partition>}. */
     String topicPartition() {
         return topic + "-" + partition;
     }
 
-    <K, V> Record<K, V> noteOn(Record<K, V> record) {
+    <K, V> Record<K, V> addTo(Record<K, V> record) {
         record.headers().remove(HEADER);
         record.headers().add(HEADER, toString().getBytes(StandardCharsets.UTF_8));
         return record;

@@ -17,54 +17,54 @@ import org.apache.kafka.streams.state.WindowStoreIterator;
 import io.furrow.model.control.Limits;
 
 /**
- * The ids of requests that were answered, each with the fingerprint of its request; at most {@link Limits#REMEMBERED_REQUESTS}.
+ * Stores the ids of answered requests with their fingerprints; at most {@link Limits#REMEMBERED_REQUESTS}.
  *
- * <p><b>State</b>: the fingerprint by request id, in a named window store of one manager. <b>Cleared</b> by the store itself, which
- * drops whole windows, some time between one and {@code 1 + 1/}{@value #WINDOWS} times what was asked for, by the clock of the
- * control plane: that of a client must not decide what is forgotten.
+ * <p><b>State</b>: fingerprint by request id, in a named window store of one manager. <b>Cleared</b>: by the store,
+ * which drops whole windows after one to {@code 1 + 1/}{@value #WINDOWS} times the retention, by the clock of the
+ * control plane, because a client's clock must not control deletions.
  */
 final class RequestLog {
-    /** A look-up costs as many steps. */
+    /** A lookup takes as many steps. */
     private static final int WINDOWS = 12;
 
     private final WindowStore<String, byte[]> store;
-    private final long remembered;
+    private final long retention;
     private final TreeMap<Long, Integer> countByWindow = new TreeMap<>();
 
-    RequestLog(ProcessorContext<?, ?> context, String name, Duration remembered) {
+    RequestLog(ProcessorContext<?, ?> context, String name, Duration retention) {
         this.store = context.getStateStore(name);
-        this.remembered = remembered.toMillis();
+        this.retention = retention.toMillis();
         try (KeyValueIterator<Windowed<String>, byte[]> all = store.all()) {
             all.forEachRemaining(entry -> count(entry.key.window().start()));
         }
     }
 
-    static StoreBuilder<WindowStore<String, byte[]>> builder(String name, Duration remembered) {
-        Duration window = Duration.ofMillis(window(remembered.toMillis()));
+    static StoreBuilder<WindowStore<String, byte[]>> builder(String name, Duration retention) {
+        Duration window = Duration.ofMillis(window(retention.toMillis()));
         return Stores.windowStoreBuilder(
-                Stores.inMemoryWindowStore(name, remembered.plus(window), window, false),
+                Stores.inMemoryWindowStore(name, retention.plus(window), window, false),
                 Serdes.String(),
                 Serdes.ByteArray());
     }
 
-    /** The fingerprint of the request that was answered under an id; empty if none was. */
+    /** Returns the fingerprint of the answered request with an id; empty if there is none. */
     Optional<String> fingerprint(String requestId, long now) {
         try (WindowStoreIterator<byte[]> found =
-                store.fetch(requestId, Math.max(0, now - remembered - window(remembered)), Long.MAX_VALUE)) {
+                store.fetch(requestId, Math.max(0, now - retention - window(retention)), Long.MAX_VALUE)) {
             return found.hasNext()
                     ? Optional.of(new String(found.next().value, StandardCharsets.UTF_8))
                     : Optional.empty();
         }
     }
 
-    /** Whether there is room for no further id until the oldest window is forgotten. */
+    /** Whether no further id can be stored until the oldest window is dropped. */
     boolean isFull(long now) {
-        countByWindow.headMap(now - remembered - 2 * window(remembered)).clear();
+        countByWindow.headMap(now - retention - 2 * window(retention)).clear();
         return countByWindow.values().stream().mapToInt(Integer::intValue).sum() >= Limits.REMEMBERED_REQUESTS;
     }
 
     void add(String requestId, String fingerprint, long now) {
-        long window = now - now % window(remembered);
+        long window = now - now % window(retention);
         store.put(requestId, fingerprint.getBytes(StandardCharsets.UTF_8), window);
         count(window);
     }
@@ -73,7 +73,7 @@ final class RequestLog {
         countByWindow.merge(window, 1, Integer::sum);
     }
 
-    private static long window(long remembered) {
-        return Math.max(1, remembered / WINDOWS);
+    private static long window(long retention) {
+        return Math.max(1, retention / WINDOWS);
     }
 }

@@ -11,9 +11,9 @@ import io.furrow.model.control.ParsedRequest;
 import io.furrow.model.control.RequestSummary;
 
 /**
- * Forwards the requests on a manager's topic, not its responses, with their position in headers; a missing key becomes
- * empty. Of a request that is larger than {@link Limits#REQUEST_BYTES} only what its rejection needs is forwarded, with a
- * header that says so.
+ * Forwards the requests on a manager's topic, not its responses, with their origin in headers; a missing key becomes
+ * empty. A request larger than {@link Limits#REQUEST_BYTES} is reduced to what its rejection needs, with its size in a
+ * header.
  */
 final class RequestProcessor extends ContextualProcessor<String, byte[], String, byte[]> {
     private static final String OVERSIZED = "request-bytes";
@@ -24,7 +24,7 @@ final class RequestProcessor extends ContextualProcessor<String, byte[], String,
         this.manager = manager;
     }
 
-    /** How many bytes an oversized request had; 0 for one that was not. */
+    /** Returns the size of an oversized request; 0 for other requests. */
     static long oversizedBytes(Record<?, ?> record) {
         String bytes = KafkaClients.text(record.headers(), OVERSIZED);
         return bytes == null ? 0 : Long.parseLong(bytes);
@@ -34,23 +34,23 @@ final class RequestProcessor extends ContextualProcessor<String, byte[], String,
     public void process(Record<String, byte[]> record) {
         record.headers().remove(OVERSIZED);
         if (record.value() != null && record.value().length > Limits.REQUEST_BYTES) {
-            refuse(record);
+            forwardSummary(record);
         } else if (!(manager.read(record.value()) instanceof ParsedRequest.Passed)) {
             forward(record);
         }
     }
 
-    private void refuse(Record<String, byte[]> record) {
-        RequestSummary excerpt = RequestSummary.of(record.value());
-        if (!excerpt.isResponse()) {
+    private void forwardSummary(Record<String, byte[]> record) {
+        RequestSummary summary = RequestSummary.of(record.value());
+        if (!summary.isResponse()) {
             byte[] bytes = Integer.toString(record.value().length).getBytes(StandardCharsets.UTF_8);
             record.headers().add(OVERSIZED, bytes);
-            forward(record.withValue(excerpt.toBytes()));
+            forward(record.withValue(summary.toBytes()));
         }
     }
 
     private void forward(Record<String, byte[]> record) {
         Record<String, byte[]> request = record.withKey(record.key() == null ? "" : record.key());
-        context().forward(RecordOrigin.of(context()).noteOn(request));
+        context().forward(RecordOrigin.of(context()).addTo(request));
     }
 }

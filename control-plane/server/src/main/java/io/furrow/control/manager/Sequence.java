@@ -1,9 +1,10 @@
 package io.furrow.control.manager;
 
 /**
- * Sequence numbers that grow with each desired state, over restarts too, so that a host can tell old from new.
+ * Generates sequence numbers that increase with each desired state, across restarts, so that hosts can distinguish old
+ * from new.
  *
- * @param last where the last number is remembered; not shared with others
+ * @param last stores the last number; not shared with other sequences
  */
 public record Sequence(Table<Long> last) {
     private static final String LAST = "last";

@@ -3,11 +3,11 @@ package io.furrow.control.manager;
 import org.apache.kafka.streams.processor.api.ContextualProcessor;
 import org.apache.kafka.streams.processor.api.Record;
 
-/** Notes on each record where it stood, so that a dead letter of it can say so; what a punctuation made stood nowhere. */
+/** Adds the origin to the headers of each record, for dead letters; records of a punctuation have none. */
 final class SourcePositionProcessor extends ContextualProcessor<String, byte[], String, byte[]> {
     @Override
     public void process(Record<String, byte[]> record) {
-        boolean stood = context().recordMetadata().isPresent();
-        context().forward(stood ? RecordOrigin.of(context()).noteOn(record) : record);
+        boolean hasOrigin = context().recordMetadata().isPresent();
+        context().forward(hasOrigin ? RecordOrigin.of(context()).addTo(record) : record);
     }
 }

@@ -10,8 +10,8 @@ import org.apache.kafka.streams.state.StoreBuilder;
 import org.apache.kafka.streams.state.Stores;
 
 /**
- * Remembers in a named store. What managers remember is small: the stores are in memory and rebuilt from their changelogs, so
- * that there is no local state which could be lost or out of step.
+ * Accesses a named store as a table of typed values. The state of managers is small: stores are held in memory and
+ * restored from their changelogs, so that no local state can be lost or inconsistent.
  */
 public record StoreTable<T>(Table<byte[]> store, Function<T, byte[]> writer, Function<byte[], T> reader)
         implements Table<T> {
@@ -19,7 +19,7 @@ public record StoreTable<T>(Table<byte[]> store, Function<T, byte[]> writer, Fun
         return Stores.keyValueStoreBuilder(Stores.inMemoryKeyValueStore(name), Serdes.String(), Serdes.ByteArray());
     }
 
-    /** The values in a store, for a processor that only reads it. */
+    /** Returns the values of a store, for a processor that only reads it. */
     public static Table<byte[]> readOnly(ProcessorContext<?, ?> context, String name) {
         return new BufferedStore(context.getStateStore(name));
     }

@@ -6,24 +6,24 @@ import java.util.function.Consumer;
 import java.util.function.Predicate;
 
 /**
- * What a manager remembers, by key.
+ * A key-value store of a manager.
  *
- * @param <T> is never changed, only put again
+ * @param <T> type of values, which are immutable
  */
 public interface Table<T> {
-    /** Null if there is none. */
+    /** Returns the value; null if there is none. */
     T get(String key);
 
-    /** Whether there is one, without reading it. */
+    /** Whether there is a value, without deserializing it. */
     boolean contains(String key);
 
     /** @param value null removes it */
     void put(String key, T value);
 
-    /** In the order of the keys. What is put or removed meanwhile may be seen or not. */
+    /** Visits the values in the order of their keys. Concurrent changes may or may not be visible. */
     void forEach(Consumer<T> each);
 
-    /** A copy, so that those may be put or removed meanwhile. */
+    /** Returns a copy of the matching values, so that the table may be changed during the iteration. */
     default List<T> where(Predicate<T> some) {
         List<T> found = new ArrayList<>();
         forEach(each -> {
@@ -34,7 +34,7 @@ public interface Table<T> {
         return found;
     }
 
-    /** As {@link #where}. */
+    /** Returns a copy of all values, as {@link #where}. */
     default List<T> all() {
         return where(each -> true);
     }

@@ -12,8 +12,8 @@ import org.apache.kafka.streams.processor.api.Record;
 import io.furrow.model.ngsi.StateJson;
 
 /**
- * The stores and the output of a processor, whose writes take effect together or not at all: within {@link #call} they are staged, and
- * applied when that returns. What throws has changed nothing, and no record larger than {@code Limits.RECORD_BYTES} is written, so
+ * Makes the writes of a processor to its stores and output atomic: {@link #call} stages them and applies them when the
+ * work returns. Work that throws changes nothing, and no record larger than {@code Limits.RECORD_BYTES} is written, so
  * that neither can end the thread.
  */
 public final class UnitOfWork implements EventPublisher {
@@ -25,7 +25,7 @@ public final class UnitOfWork implements EventPublisher {
      * Work that reads and writes.
      *
      * @param <T> its result
-     * @param <E> what it throws where it is refused
+     * @param <E> exception for rejections
      */
     @FunctionalInterface
     public interface Work<T, E extends Exception> {
@@ -37,9 +37,9 @@ public final class UnitOfWork implements EventPublisher {
     }
 
     /**
-     * Does the work and applies what it wrote; where it throws, nothing of it.
+     * Runs the work and applies its writes; discards them if it throws.
      *
-     * @throws OversizedRecordException where it wrote a record that is too large, with nothing applied
+     * @throws OversizedRecordException if it wrote a record that is too large; nothing is applied then
      */
     public <T, E extends Exception> T call(Work<T, E> work) throws E {
         boolean done = false;
@@ -66,33 +66,33 @@ public final class UnitOfWork implements EventPublisher {
         records.forEach(context::forward);
     }
 
-    /** Writes under the time of the control plane's clock. */
+    /** Writes a record with the current time of the control plane's clock. */
     @Override
     public void put(String topic, String key, byte[] value) {
         forward(new Record<>(key, new OutputRecord(topic, value), now()));
     }
 
-    /** Writes a record that has a time and headers. */
+    /** Writes a record with its own time and headers. */
     public void forward(Record<String, OutputRecord> record) {
         staged.add(record);
     }
 
-    /** The time of the control plane's clock, epoch ms. */
+    /** Returns the time of the control plane's clock, epoch ms. */
     public long now() {
         return context.currentSystemTimeMs();
     }
 
-    /** The values in a store as they are. */
+    /** Returns the raw values of a store. */
     public Table<byte[]> table(String store) {
         return stores.computeIfAbsent(store, name -> new BufferedStore(context.getStateStore(name)));
     }
 
-    /** What is in a store as JSON of a type. */
+    /** Returns the values of a store that are stored as JSON. */
     public <T> Table<T> table(String store, Class<T> type) {
         return table(store, StateJson::write, json -> StateJson.read(json, type));
     }
 
-    /** What is in a store in a format of its own. */
+    /** Returns the values of a store with a custom format. */
     public <T> Table<T> table(String store, Function<T, byte[]> writer, Function<byte[], T> reader) {
         return new StoreTable<>(table(store), writer, reader);
     }

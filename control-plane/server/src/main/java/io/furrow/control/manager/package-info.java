@@ -1,2 +1,2 @@
-/** What the managers share: requests once, answers once, what they write, the topics. */
+/** Provides the foundation of managers: deduplicated requests, answers, atomic writes, stores and topologies. */
 package io.furrow.control.manager;

@@ -14,8 +14,9 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
 
 /**
- * Writes the devices of missions to {@code service.devices}, a bounded number at a time: what is left is a {@link PendingAssignment}. A device is
- * on one mission at a time, also while that is still being written.
+ * Writes the devices of missions to {@code service.devices}, a bounded number per transaction; the rest is a
+ * {@link PendingAssignment}. A device is on one mission at a time, even while the mission's devices are still being
+ * written.
  */
 record DeviceAssignments(
         MissionTables tables,
@@ -23,32 +24,32 @@ record DeviceAssignments(
         MissionSettings options,
         SharedStores farm,
         EventPublisher publisher) {
-    /** Begins to ask for all devices of a mission, or for none of them where one is another's. Answers how many there are. */
+    /** Starts to request all devices of a mission; none if one of them is on another mission. Returns their number. */
     int assign(Mission mission, long now) throws RejectedException {
         List<DesiredDevice> planned = planned(mission, now);
-        Set<String> beingWritten = beingWrittenFor(mission);
-        checkFree(mission, planned, beingWritten);
-        checkRoom(planned, beingWritten);
+        Set<String> pendingKeys = pendingKeysBeside(mission);
+        checkFree(mission, planned, pendingKeys);
+        checkRoom(planned, pendingKeys);
         advance(mission, new PendingAssignment(mission.mission(), PendingAssignment.Kind.START, 0, now));
         return planned.size();
     }
 
-    private void checkFree(Mission mission, List<DesiredDevice> planned, Set<String> beingWritten)
+    private void checkFree(Mission mission, List<DesiredDevice> planned, Set<String> pendingKeys)
             throws RejectedException {
         Set<String> keys = new HashSet<>();
         for (DesiredDevice desired : planned) {
             String key = desired.version().key();
             String id = desired.version().id();
             DeviceState existing = tables.devices().get(key);
-            boolean taken = existing != null
+            boolean isAssigned = existing != null
                     && existing.device().running()
                     && !existing.mission().equals(mission.mission());
-            if (taken) {
+            if (isAssigned) {
                 throw new RejectedException(
                         ErrorCode.DEVICE_TAKEN,
                         "device '%s' is on mission '%s'; stop that first".formatted(id, existing.mission()));
             }
-            if (beingWritten.contains(key)) {
+            if (pendingKeys.contains(key)) {
                 throw new RejectedException(
                         ErrorCode.DEVICE_TAKEN, "device '%s' is on another mission; stop that first".formatted(id));
             }
@@ -59,19 +60,19 @@ record DeviceAssignments(
         }
     }
 
-    private void checkRoom(List<DesiredDevice> planned, Set<String> beingWritten) throws RejectedException {
-        long fresh = planned.stream()
+    private void checkRoom(List<DesiredDevice> planned, Set<String> pendingKeys) throws RejectedException {
+        long added = planned.stream()
                 .map(desired -> desired.version().key())
                 .filter(key -> !tables.devices().contains(key))
                 .count();
-        long unwritten = beingWritten.stream()
+        long unwritten = pendingKeys.stream()
                 .filter(key -> !tables.devices().contains(key))
                 .count();
-        farm.quota().require((fresh + unwritten) * Limits.DEVICE_BYTES);
+        farm.quota().require((added + unwritten) * Limits.DEVICE_BYTES);
     }
 
-    /** The devices of other missions that have begun to start, of which some are not written yet. */
-    private Set<String> beingWrittenFor(Mission mission) {
+    /** Returns the devices of other starting missions of which some are not written yet. */
+    private Set<String> pendingKeysBeside(Mission mission) {
         Set<String> keys = new HashSet<>();
         tables.pending().forEach(pending -> {
             if (pending.kind() == PendingAssignment.Kind.START
@@ -84,8 +85,8 @@ record DeviceAssignments(
     }
 
     /**
-     * Begins to want none of its devices any more. Their records stay, so that jobs know to whom their past belongs. Answers how
-     * many are simulated and have to go: of a real device only the login ends.
+     * Starts to withdraw the request for all of its devices. Their records stay, so that jobs can attribute earlier
+     * reports. Returns the number of simulated devices, which have to stop; of real devices only the login ends.
      */
     int release(Mission mission, long now) {
         int simulated = 0;
@@ -96,12 +97,12 @@ record DeviceAssignments(
         return simulated;
     }
 
-    /** Whether devices of a mission are still to be written. */
-    boolean isBeingWritten(String mission) {
+    /** Whether some devices of a mission are not written yet. */
+    boolean isPending(String mission) {
         return tables.pending().get(mission) != null;
     }
 
-    /** Writes the next devices of an assignment. Answers whether it is done. */
+    /** Writes the next devices of an assignment. Returns whether it is done. */
     boolean advance(Mission mission, PendingAssignment pending) {
         List<DesiredDevice> planned = planned(mission, pending.time());
         int end = Math.min(planned.size(), pending.next() + options.devicesPerStep());
@@ -128,10 +129,11 @@ record DeviceAssignments(
     }
 
     /**
-     * Gives a device new credentials. It counts as up as before: whoever hosts it says whether it is with the new ones.
+     * Gives a device new credentials. Its confirmation stays unchanged: its host reports whether it works with the new
+     * ones.
      *
      * @param id of its entity
-     * @return how often that was done
+     * @return the new generation
      */
     int rotateCredentials(String id) throws RejectedException {
         DeviceState existing = tables.devices().get(options.scope().identity(id));
@@ -152,16 +154,13 @@ record DeviceAssignments(
         return rotated.generation();
     }
 
-    /** Forgets its devices, their past too. */
+    /** Deletes the records of its devices. */
     void forget(Mission mission) {
         tables.pending().put(mission.mission(), null);
         forget(mission, Set.of());
     }
 
-    /**
-     * Forgets the devices of a mission as it was, but not those that it has as it is now; of these it stops the ones that a stop has not
-     * reached yet.
-     */
+    /** Deletes the records of a mission's previous devices except those still listed. A pending stop is completed for these. */
     void forgetAllBut(List<DeviceState> before, Mission now) {
         Set<String> retained = new HashSet<>();
         planned(now, 0).forEach(device -> retained.add(device.version().key()));
@@ -181,7 +180,7 @@ record DeviceAssignments(
         for (DeviceState existing : devices) {
             String key = existing.device().version().key();
             if (!retained.contains(key)) {
-                // Else a device of the same name would let the stolen password in again.
+                // Preserves the generation: else a new device of the same name would accept a revoked password again.
                 tables.devices().put(key, existing.generation() == 0 ? null : existing.asForgotten());
                 farm.quota().use(existing.generation() == 0 ? -Limits.DEVICE_BYTES : 0);
                 publisher.put(Topics.DEVICES, key, null);
@@ -189,7 +188,7 @@ record DeviceAssignments(
         }
     }
 
-    /** Some of its devices that are not up, or, if it shall not run, that are still simulated, and why. */
+    /** Returns some devices with reasons: those that are not up, or, for a mission that is not desired, still simulated. */
     List<MissionStatus.Missing> missing(Mission mission) {
         return of(mission).stream()
                 .filter(existing -> !existing.confirmed()
@@ -199,7 +198,7 @@ record DeviceAssignments(
                 .toList();
     }
 
-    /** Those of its devices that are still its own. */
+    /** Returns its devices that are not on another mission now. */
     List<DeviceState> of(Mission mission) {
         List<DeviceState> own = new ArrayList<>();
         for (DesiredDevice each : planned(mission, 0)) {

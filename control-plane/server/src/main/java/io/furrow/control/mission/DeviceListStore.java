@@ -20,7 +20,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
 /**
- * The device lists of missions, part by part as they were requested: remembered, and on {@code service.missions.devices}.
+ * Stores the device lists of missions in parts as requested, and publishes them on {@code service.missions.devices}.
  *
  * @param parts records of the topic by their keys
  */
@@ -33,7 +33,7 @@ record DeviceListStore(Table<byte[]> parts, Sequence sequence, Quota quota, Even
         return MissionDevices.of(all);
     }
 
-    /** Its groups in the order of the list. */
+    /** Returns its groups in the order of the list. */
     List<ListedGroup> groups(Mission mission) {
         List<GroupRef> refs = new ArrayList<>();
         for (MissionDeviceList part : parts(mission)) {
@@ -50,9 +50,9 @@ record DeviceListStore(Table<byte[]> parts, Sequence sequence, Quota quota, Even
     }
 
     /**
-     * Makes these the list of a mission.
+     * Replaces the device list of a mission.
      *
-     * @return the mission with it
+     * @return the mission with the new list
      */
     Mission replace(Mission mission, MissionDevices devices) throws RejectedException {
         for (int part = 1; part < mission.parts(); part++) {
@@ -67,9 +67,9 @@ record DeviceListStore(Table<byte[]> parts, Sequence sequence, Quota quota, Even
     }
 
     /**
-     * Appends to the list of a mission.
+     * Appends to the device list of a mission.
      *
-     * @return the mission with it
+     * @return the mission with the new list
      */
     Mission append(Mission mission, MissionDevices more) throws RejectedException {
         if (more.groups().isEmpty()) {
@@ -117,7 +117,7 @@ record DeviceListStore(Table<byte[]> parts, Sequence sequence, Quota quota, Even
         }
     }
 
-    /** What a part counts for: its bytes, and what each of its devices has for itself. Null is none. */
+    /** Returns the quota that a part uses: its bytes and the settings of its devices; 0 for null. */
     private static long cost(byte[] part) {
         return part == null
                 ? 0

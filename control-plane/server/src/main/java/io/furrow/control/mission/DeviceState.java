@@ -9,13 +9,13 @@ import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * A device that was asked for, as it is remembered under its key.
+ * A requested device as stored by its key.
  *
  * @param desired the record of {@code service.devices}
- * @param confirmed whether it is in the desired state: its host says so, or a real device has reported
- * @param reason why it is not, as its host or the provisioner says; null if neither said anything
- * @param forgotten whether only its generation is remembered, because its mission was deleted
- * @param connection how a real device was connected when that last explained something else; null if nothing is known of it
+ * @param confirmed whether it is in the desired state: its host confirmed it, or a real device has reported
+ * @param reason why it is not, as reported by its host or the provisioner; null if not reported
+ * @param forgotten whether only its generation is retained, because its mission was deleted
+ * @param connection connection of a real device as of the last change of its explanation; null if unknown
  */
 record DeviceState(
         @JsonProperty("wanted") JsonNode desired,
@@ -23,7 +23,7 @@ record DeviceState(
         String reason,
         boolean forgotten,
         DeviceConnection connection) {
-    /** @param before null if it was never asked for */
+    /** @param before null if it was never requested */
     static DeviceState requested(DesiredDevice device, DeviceState before) {
         DeviceConnection connection = before == null ? null : before.connection();
         JsonNode json = NgsiJson.own(() -> NgsiJson.read(device.toBytes()));
@@ -42,7 +42,7 @@ record DeviceState(
         return new DeviceState(desired, asDesired, why, forgotten, connection);
     }
 
-    /** Returns the same instance if it says nothing new. */
+    /** Returns the same instance if the connection explains nothing new. */
     DeviceState connected(DeviceConnection newConnection) {
         DeviceState next = new DeviceState(desired, confirmed, reason, forgotten, newConnection);
         return next.silence().replaces(silence()) ? next : this;
@@ -67,7 +67,7 @@ record DeviceState(
         return new DeviceState(desired, confirmed, reason, true, null);
     }
 
-    /** How often its credentials were rotated. */
+    /** Returns how often its credentials were rotated. */
     int generation() {
         return desired.path("generation").asInt();
     }

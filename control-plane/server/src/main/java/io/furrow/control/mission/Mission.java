@@ -3,18 +3,18 @@ package io.furrow.control.mission;
 import io.furrow.model.ngsi.StateRecord;
 
 /**
- * What is requested of a mission: remembered, and a record of {@code service.missions} under its name. Its devices are listed on {@code
- * service.missions.devices}, see {@link DeviceListStore}.
+ * The desired state of a mission: stored, and a record of {@code service.missions} keyed by its name. Its devices are
+ * listed on {@code service.missions.devices}, see {@link DeviceListStore}.
  *
- * @param domain that it belongs to for good
- * @param template {@code <name>@<version>} that its devices were taken from; null if they were listed
- * @param parts how many parts its device list has
- * @param deviceCount how many devices the list has
- * @param running whether it shall run, now or from {@code start} on
- * @param start when it was or is to be started, epoch ms; null if it never was
+ * @param domain that it belongs to permanently
+ * @param template {@code <name>@<version>} from which its devices were copied; null if they were listed
+ * @param parts number of parts of its device list
+ * @param deviceCount number of devices in the list
+ * @param running whether it is desired to run, now or from {@code start} on
+ * @param start when it was or will be started, epoch ms; null if never
  * @param duration after which it is stopped, ms; null for never
  * @param created when, epoch ms
- * @param sequence grows with every change of anything that is requested
+ * @param sequence increases with every change of the desired state
  */
 public record Mission(
         String mission,
@@ -38,7 +38,7 @@ public record Mission(
                 mission, domain, newTemplate, parts, deviceCount, running, start, duration, created, sequence);
     }
 
-    /** The same with a list that was written. */
+    /** Returns the mission with another device list. */
     Mission listing(int newParts, int newDeviceCount) {
         return new Mission(
                 mission, domain, template, newParts, newDeviceCount, running, start, duration, created, sequence);

@@ -21,7 +21,7 @@ import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
 
-/** Grants or refuses what is asked of missions, and takes them through their life. What is refused has changed nothing. */
+/** Executes or rejects commands on missions and manages their life cycle. A rejected command changes nothing. */
 final class MissionCommandHandler implements CommandHandler<MissionCommand>, DomainMissions {
     private final MissionTables tables;
     private final Predicate<String> isDomain;
@@ -34,7 +34,7 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
     private final long timeout;
     private final EventPublisher publisher;
 
-    /** @param farm what there is besides missions */
+    /** @param farm stores shared with domains */
     MissionCommandHandler(MissionTables tables, SharedStores farm, MissionSettings options, EventPublisher publisher) {
         this.tables = tables;
         this.isDomain = farm.isDomain();
@@ -173,8 +173,8 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
     }
 
     /**
-     * Takes the status of a device from its host or the provisioner, unless the device or the state is no longer desired. A real
-     * device has no host, and one that reports is up whatever else is said.
+     * Processes the status of a device from its host or the provisioner, unless the device or the state is no longer
+     * desired. A real device has no host, and once it reports it is up, regardless of other statuses.
      */
     void reported(String key, DeviceStatus report, long now) {
         DeviceState existing = tables.devices().get(key);
@@ -189,7 +189,7 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
         }
     }
 
-    /** Takes the health of a device: a real one is up by its first report since it was asked for. */
+    /** Processes the health of a device: a real one is up after its first report since it was requested. */
     void reported(String key, DeviceHealth health, long now) {
         DeviceState existing = tables.devices().get(key);
         boolean isUp = existing != null
@@ -203,7 +203,7 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
         }
     }
 
-    /** Takes what is known of the connection of a device: why a real one has not reported yet. */
+    /** Processes the connection of a device, which explains why a real one has not reported yet. */
     void reported(String key, DeviceConnection connection, long now) {
         DeviceState existing = tables.devices().get(key);
         if (existing != null && !existing.device().simulated()) {
@@ -215,8 +215,8 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
     }
 
     /**
-     * Counts a device for its mission where it was written since that came to its state: while one is being written, some devices are
-     * still of the time before.
+     * Stores a changed device, and counts it for its mission only if it was written after the mission's last change of
+     * state: while devices are being written, some records are still older.
      */
     private void changed(DeviceState before, DeviceState after, long now) {
         DeviceVersion version = after.device().version();
@@ -233,21 +233,21 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
         }
     }
 
-    /** The packaged template, and what waits for no one but the time, mission by mission: start dates, durations, devices that are late. */
+    /** Returns the installation of the built-in template and the timed steps of each mission: start dates, durations, late devices. */
     @Override
     public List<Runnable> due(long now) {
         List<Runnable> steps = new ArrayList<>();
         steps.add(templates::installBuiltIn);
         tables.statuses().forEach(status -> {
             boolean ends = status.ends() != null && status.ends() <= now;
-            if (status.isDue(now) && (ends || !devices.isBeingWritten(status.mission()))) {
-                steps.add(() -> goOn(status, now));
+            if (status.isDue(now) && (ends || !devices.isPending(status.mission()))) {
+                steps.add(() -> proceed(status, now));
             }
         });
         return steps;
     }
 
-    /** The next devices of each mission of which some are still to be written. */
+    /** Returns the next step of each mission whose devices are not all written. */
     @Override
     public List<Runnable> pending(long now) {
         return tables.pending().all().stream()
@@ -255,7 +255,7 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
                 .toList();
     }
 
-    /** The time for coming up or going counts from the last device on. */
+    /** Writes the next devices; the timeout for starting or stopping begins with the last one. */
     private void advance(PendingAssignment pending, long now) {
         if (devices.advance(tables.missions().get(pending.mission()), pending)) {
             MissionStatus status = tables.statuses().get(pending.mission());
@@ -266,7 +266,7 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
         }
     }
 
-    private void goOn(MissionStatus status, long now) {
+    private void proceed(MissionStatus status, long now) {
         Mission mission = tables.missions().get(status.mission());
         if (status.ends() != null && status.ends() <= now) {
             stop(mission.mission(), now);

@@ -22,8 +22,9 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /**
- * Answers {@code service.missionmanager}, keeps {@code service.missions}, {@code .missions.status}, {@code .templates} and {@code
- * .devices}, and reads {@code service.devices.status}, {@code .health} and {@code .connection}.
+ * Processes requests on {@code service.missionmanager}, maintains {@code service.missions}, {@code .missions.status},
+ * {@code .templates} and {@code .devices}, and reads {@code service.devices.status}, {@code .health} and
+ * {@code .connection}.
  */
 public final class MissionManager {
     private static final String MISSIONS = "missions";
@@ -36,12 +37,12 @@ public final class MissionManager {
 
     private MissionManager() {}
 
-    /** Stores of its own; whoever uses {@link #handler} needs them, and those of {@link DomainManager}. */
+    /** Names of its stores; users of {@link #handler} need them and those of {@link DomainManager}. */
     public static List<String> stores() {
         return List.of(MISSIONS, STATUSES, LISTS, ROLLOUTS, DEVICES, TEMPLATES, VERSIONS);
     }
 
-    /** Missions as they are in the stores of a processor. */
+    /** Creates a handler on the stores of a processor. */
     public static MissionCommandHandler handler(UnitOfWork unitOfWork, MissionSettings options) {
         Table<Domain> domains = DomainManager.domains(unitOfWork);
         MissionTables tables = new MissionTables(
@@ -57,7 +58,7 @@ public final class MissionManager {
         return new MissionCommandHandler(tables, farm, options, unitOfWork);
     }
 
-    /** Its stores and those of domains are there already. */
+    /** Adds the manager; its stores and those of domains must exist already. */
     public static void add(ManagerTopology topology, MissionSettings options) {
         List<String> stores = Stream.concat(DomainManager.stores().stream(), stores().stream())
                 .toList();
@@ -97,7 +98,7 @@ public final class MissionManager {
         };
     }
 
-    /** A record that missions take. */
+    /** Passes a record to the handler. */
     private interface Report {
         void take(MissionCommandHandler missions, String key, byte[] value, long now) throws UnreadableException;
     }

@@ -19,7 +19,7 @@ final class MissionPlanner {
     private final DeviceAssignments devices;
     private final Quota quota;
 
-    /** @param farm what there is besides missions */
+    /** @param farm stores shared with domains */
     MissionPlanner(SharedStores farm, TemplateStore templates, DeviceListStore lists, DeviceAssignments devices) {
         this.isDomain = farm.isDomain();
         this.quota = farm.quota();
@@ -28,7 +28,7 @@ final class MissionPlanner {
         this.devices = devices;
     }
 
-    /** The mission with the devices that are asked for; those of a template as it is now. */
+    /** Returns the mission with the requested devices; those of a template are copied. */
     Mission plan(Mission existing, String name, String domain, MissionPlan plan, long now) throws RejectedException {
         if (domain == null) {
             throw new RejectedException(ErrorCode.MISSING_MEMBER, "a new mission needs a member 'domain'");
@@ -42,7 +42,7 @@ final class MissionPlanner {
             throw new RejectedException(
                     ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + domain + "'; create it first");
         }
-        Mission mission = existing == null ? fresh(name, domain, now) : existing;
+        Mission mission = existing == null ? create(name, domain, now) : existing;
         if (plan instanceof MissionPlan.OfDevices of) {
             return listing(mission.from(null), of.devices());
         } else if (plan instanceof MissionPlan.FromTemplate from) {
@@ -52,13 +52,13 @@ final class MissionPlanner {
         return mission;
     }
 
-    private Mission fresh(String name, String domain, long now) throws RejectedException {
+    private Mission create(String name, String domain, long now) throws RejectedException {
         quota.require(Limits.MISSION_OVERHEAD_BYTES);
         quota.use(Limits.MISSION_OVERHEAD_BYTES);
         return Mission.of(name, domain, now);
     }
 
-    /** With another list; devices that are not on it any more are forgotten. */
+    /** Replaces the device list; records of devices that are no longer listed are deleted. */
     private Mission listing(Mission mission, MissionDevices list) throws RejectedException {
         List<DeviceState> before = devices.of(mission);
         Mission after = lists.replace(mission, list);

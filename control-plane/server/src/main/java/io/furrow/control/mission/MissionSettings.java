@@ -5,13 +5,13 @@ import java.time.Duration;
 import io.furrow.model.event.FiwareScope;
 
 /**
- * What missions are run by.
+ * Settings of missions.
  *
- * @param timeout how long devices may take to come up before those that are missing are reported, or to go before the mission
- *     continues without them
+ * @param timeout how long devices may take to start before missing ones are reported, or to stop before the mission
+ *     proceeds without them
  * @param scope tenant and service path of the devices' entities
- * @param simulatedByDefault whether groups of devices that do not say so are simulated
- * @param devicesPerStep how many devices are written in one transaction
+ * @param simulatedByDefault whether groups of devices are simulated unless they specify it
+ * @param devicesPerStep maximum number of devices written in one transaction
  */
 public record MissionSettings(Duration timeout, FiwareScope scope, boolean simulatedByDefault, int devicesPerStep) {
     /** Default of {@code timeout}. */

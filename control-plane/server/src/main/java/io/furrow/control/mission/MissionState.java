@@ -2,25 +2,25 @@ package io.furrow.control.mission;
 
 import io.furrow.model.text.Coded;
 
-/** Where a mission is in its life. */
+/** State in the life cycle of a mission. */
 public enum MissionState implements Coded {
-    /** There is nothing to do yet: it waits for its start date, or to be started. */
+    /** It waits for its start date, or for a start command. */
     CREATED,
-    /** Its devices are requested and not all of them are up. */
+    /** Its devices are requested, but not all of them are up. */
     STARTING,
     RUNNING,
-    /** Its devices are no longer wanted and not all of them are gone. */
+    /** Its devices are no longer desired, but not all of them have stopped. */
     STOPPING,
     STOPPED,
     /** It could not start; the status has the reason. */
     FAILED;
 
-    /** Whether it has devices, or waits until they are gone. */
+    /** Whether it has devices or waits until they have stopped. */
     public boolean isActive() {
         return this == STARTING || this == RUNNING || this == STOPPING;
     }
 
-    /** Whether the one may follow the other. */
+    /** Whether the transition is allowed. */
     public boolean canBecome(MissionState next) {
         return switch (this) {
             case CREATED -> next == CREATED || next == STARTING || next == STOPPED || next == FAILED;

@@ -8,17 +8,17 @@ import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.text.Counts;
 
 /**
- * How far a mission is: remembered, and a record of {@code service.missions.status} under its name. The methods are the
- * mission's life; each gives the status after something happened.
+ * The actual state of a mission: stored, and a record of {@code service.missions.status} keyed by its name. The methods
+ * form the life cycle; each returns the status after an event.
  *
- * @param since when it came to that state, epoch ms
- * @param sequence of the mission that this is the status of
- * @param devices how many it has; after it was stopped, how many are simulated and have to go
- * @param confirmed how many of them are in the desired state: up while it starts or runs, gone after that
- * @param missing at most {@value #MAX_NAMED} of those that are not, once the time for it has passed
- * @param reason why it failed, or which of its devices are not up; null if there is nothing to say
- * @param due when it continues by itself, epoch ms; null if it waits for somebody else
- * @param ends when it is stopped by itself, epoch ms; null if it is not
+ * @param since when it entered that state, epoch ms
+ * @param sequence of the mission to which the status applies
+ * @param devices number of its devices; after a stop, the number of simulated devices that have to stop
+ * @param confirmed number of devices in the desired state: up while it starts or runs, stopped afterwards
+ * @param missing at most {@value #MAX_NAMED} of the others, once the timeout has passed
+ * @param reason why it failed, or which of its devices are not up; null if neither
+ * @param due when the next timed transition is due, epoch ms; null if there is none
+ * @param ends when it is stopped automatically, epoch ms; null if never
  */
 public record MissionStatus(
         String mission,
@@ -33,16 +33,15 @@ public record MissionStatus(
         Long due,
         Long ends)
         implements StateRecord {
-    /** More are counted, but not named. */
     static final int MAX_NAMED = 100;
 
     private static final int MAX_EXPLAINED = 3;
 
     /**
-     * A device that is not as wanted.
+     * A device that is not in the desired state.
      *
      * @param id of its entity
-     * @param reason a sentence; null if it is not known
+     * @param reason a sentence; null if unknown
      */
     public record Missing(String id, String reason) {}
 
@@ -61,14 +60,14 @@ public record MissionStatus(
                 null);
     }
 
-    /** Waits for its start date. */
+    /** The mission waits for its start date. */
     MissionStatus scheduled(Mission mission, long now) {
         return next(MissionState.CREATED, now, mission.sequence())
                 .progress(0, 0)
                 .until(mission.start(), null);
     }
 
-    /** Its devices were asked for. Without devices it runs at once. */
+    /** Its devices were requested. Without devices it runs immediately. */
     MissionStatus started(Mission mission, int desired, long timeout, long now) {
         Long end = mission.duration() == null ? null : Long.valueOf(now + mission.duration());
         MissionStatus starting = next(MissionState.STARTING, now, mission.sequence())
@@ -77,7 +76,7 @@ public record MissionStatus(
         return starting.advanced(now);
     }
 
-    /** Its devices are asked to go, so many of them simulated. Without simulated ones it has stopped at once. */
+    /** Its devices are requested to stop. Without simulated ones it is stopped immediately. */
     MissionStatus stopped(Mission mission, int simulated, long timeout, long now) {
         MissionState next = state == MissionState.CREATED ? MissionState.STOPPED : MissionState.STOPPING;
         boolean stops = next == MissionState.STOPPING;
@@ -87,14 +86,14 @@ public record MissionStatus(
                 .advanced(now);
     }
 
-    /** It could not start; its devices, if any were asked for, are no longer wanted. */
+    /** It could not start; its devices, if any were requested, are no longer desired. */
     MissionStatus failed(Mission undesired, String why, long now) {
         MissionStatus failed = next(MissionState.FAILED, now, undesired.sequence());
         return new MissionStatus(
                 mission, domain, failed.state, now, failed.sequence, devices, 0, List.of(), why, null, null);
     }
 
-    /** One of its devices came to the desired state, or is in it no longer. */
+    /** One of its devices entered or left the desired state. */
     MissionStatus reported(Missing device, boolean asDesired, long now) {
         boolean late = state == MissionState.RUNNING || !missing.isEmpty();
         List<Missing> named = new ArrayList<>(missing);
@@ -105,30 +104,30 @@ public record MissionStatus(
         MissionStatus after = progress(devices, confirmed + (asDesired ? 1 : -1));
         return state == MissionState.STARTING && late && asDesired
                 ? after.without(named, now)
-                : after.naming(named).advanced(now);
+                : after.withMissing(named).advanced(now);
     }
 
-    /** One of its devices is still not in the desired state, for another reason than before. */
+    /** The reason why one of its devices is not in the desired state changed. */
     MissionStatus explained(Missing device) {
-        return naming(missing.stream()
+        return withMissing(missing.stream()
                 .map(existing -> existing.id().equals(device.id()) ? device : existing)
                 .toList());
     }
 
     /**
-     * The time for coming up or going has passed. It continues without those that are named, but waits on for the first of its
-     * devices: nothing is taken from devices that are late.
+     * The timeout for starting or stopping has passed. It proceeds without the late devices, except that a start waits
+     * until at least one device is up. Late devices may still come up.
      */
     MissionStatus without(List<Missing> late, long now) {
         boolean starts = state == MissionState.STARTING;
         if (starts && confirmed == 0 && devices > 0) {
-            return until(ends, ends).naming(late);
+            return until(ends, ends).withMissing(late);
         }
         MissionStatus next = next(starts ? MissionState.RUNNING : MissionState.STOPPED, now, sequence);
-        return next.until(starts ? ends : null, starts ? ends : null).naming(late);
+        return next.until(starts ? ends : null, starts ? ends : null).withMissing(late);
     }
 
-    /** All of its devices were asked: from now on they have the time for coming up or going. */
+    /** All of its devices were written: the timeout for starting or stopping begins. */
     MissionStatus written(long timeout, long now) {
         boolean waits = state == MissionState.STARTING || state == MissionState.STOPPING;
         return waits ? until(earlier(now + timeout, ends), ends) : this;
@@ -138,7 +137,7 @@ public record MissionStatus(
         return due != null && due <= now;
     }
 
-    /** On to the next state where all devices are as wanted. */
+    /** Proceeds to the next state if all devices are in the desired state. */
     private MissionStatus advanced(long now) {
         if (confirmed < devices || state != MissionState.STARTING && state != MissionState.STOPPING) {
             return this;
@@ -164,7 +163,7 @@ public record MissionStatus(
                 mission, domain, state, since, sequence, devices, confirmed, missing, reason, newDue, newEnds);
     }
 
-    private MissionStatus naming(List<Missing> named) {
+    private MissionStatus withMissing(List<Missing> named) {
         boolean up = state == MissionState.STARTING || state == MissionState.RUNNING;
         String why = named.isEmpty() || !up ? null : why(named);
         return new MissionStatus(

@@ -4,15 +4,15 @@ import io.furrow.control.manager.Table;
 import io.furrow.model.control.MissionTemplate;
 
 /**
- * All that the manager of missions remembers.
+ * The stores of the mission manager.
  *
  * @param missions by name
- * @param statuses by the same names
+ * @param statuses by name of the mission
  * @param lists records of {@code service.missions.devices} by their keys
- * @param pending by the names of missions
+ * @param pending by name of the mission
  * @param devices by the key of {@code service.devices}
  * @param templates by {@code <name>@<version>}
- * @param versions by the name of the template
+ * @param versions by name of the template
  */
 record MissionTables(
         Table<Mission> missions,

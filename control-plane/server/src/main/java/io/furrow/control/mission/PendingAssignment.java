@@ -1,17 +1,17 @@
 package io.furrow.control.mission;
 
 /**
- * That devices of a mission are still to be written: a mission of many is written in several transactions.
+ * Devices of a mission that are not written yet: those of a large mission are written in several transactions.
  *
- * @param next index among the planned devices of the one that is written next
- * @param time from or until which the devices are requested, epoch ms
+ * @param next index of the next device among the planned ones
+ * @param time start or end of the request for the devices, epoch ms
  */
 record PendingAssignment(String mission, Kind kind, int next, long time) {
-    /** What is written. */
+    /** Kind of the written state. */
     enum Kind {
-        /** That they shall run. */
+        /** The devices are desired to run. */
         START,
-        /** That they shall run no more. */
+        /** The devices are no longer desired to run. */
         STOP
     }
 

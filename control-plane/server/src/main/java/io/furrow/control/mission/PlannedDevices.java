@@ -15,9 +15,9 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * The devices of a mission one by one. The n-th of a type is {@code urn:ngsi-ld:<type>:<mission>-<n>} unless its group has an
- * id: the same plan always gives the same devices. Their id at the IoT Agent is that of the entity, but {@code +}, which no MQTT
- * topic takes, is {@code %2B}.
+ * Expands the groups of a mission to single devices, deterministically. The n-th device of a type is
+ * {@code urn:ngsi-ld:<type>:<mission>-<n>} unless its group has an id. The id at the IoT Agent is that of the entity,
+ * with {@code +}, which MQTT topics do not allow, replaced by {@code %2B}.
  */
 final class PlannedDevices {
     private final Mission mission;
@@ -35,7 +35,7 @@ final class PlannedDevices {
         this.from = from;
     }
 
-    /** All of them, wanted from a time on, with the sequence 0. */
+    /** Returns all devices, desired from a time on, with sequence 0. */
     static List<DesiredDevice> of(Mission mission, List<ListedGroup> groups, MissionSettings options, long from) {
         PlannedDevices planned = new PlannedDevices(mission, options, from);
         List<List<String>> ids =
@@ -84,7 +84,7 @@ final class PlannedDevices {
                     carrier,
                     group.settings().has("at"));
             String device = group.type() != null ? ids.get(i).replace("+", "%2B") : null;
-            ObjectNode none = NgsiJson.object();
+            ObjectNode noSettings = NgsiJson.object();
             devices.add(new DesiredDevice(
                     version,
                     group.type(),
@@ -92,7 +92,7 @@ final class PlannedDevices {
                     true,
                     group.period(),
                     isSimulated(group),
-                    none,
+                    noSettings,
                     ref == null ? null : ref.ofMember(i),
                     0));
         }

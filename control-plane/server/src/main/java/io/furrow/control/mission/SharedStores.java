@@ -6,10 +6,10 @@ import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.Sequence;
 
 /**
- * What missions share with domains.
+ * Stores and limits that missions share with domains.
  *
  * @param isDomain whether there is a domain of a name
- * @param sequence of all that is requested
- * @param quota room for all definitions
+ * @param sequence of the desired state
+ * @param quota for the size of all definitions
  */
 record SharedStores(Predicate<String> isDomain, Sequence sequence, Quota quota) {}

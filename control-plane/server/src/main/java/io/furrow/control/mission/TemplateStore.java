@@ -15,11 +15,11 @@ import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.Topics;
 
 /**
- * The templates, version by version. A version never changes, and its number is never given again.
+ * Stores the versions of templates. A version never changes, and its number is never reused.
  *
  * @param templates by {@link MissionTemplate#key()}
  * @param versions by name
- * @param quota room for all definitions
+ * @param quota for the size of all definitions
  */
 record TemplateStore(
         Table<MissionTemplate> templates, Table<Versions> versions, Quota quota, EventPublisher publisher) {
@@ -27,14 +27,14 @@ record TemplateStore(
     static final String DEMO = "thesis-demo";
 
     /**
-     * What there is of a template.
+     * The versions of a template.
      *
-     * @param last the number given last
-     * @param kept those that were not deleted, ascending
+     * @param last the last assigned number
+     * @param kept numbers of the versions that were not deleted, ascending
      */
     record Versions(int last, List<Integer> kept) {}
 
-    /** Puts {@link #DEMO} there where it never was. */
+    /** Installs {@link #DEMO} unless it ever was. */
     void installBuiltIn() {
         if (versions.get(DEMO) == null) {
             try {
@@ -55,15 +55,15 @@ record TemplateStore(
         }
     }
 
-    /** Keeps it as the next version, which it answers. */
+    /** Stores the template as its next version and returns that. */
     MissionTemplate save(MissionTemplate template) throws RejectedException {
         Versions before = existing(template.name());
         MissionTemplate saved = template.as(before.last() + 1);
-        List<Integer> kept = new ArrayList<>(before.kept());
-        kept.add(saved.version());
+        List<Integer> retained = new ArrayList<>(before.kept());
+        retained.add(saved.version());
         byte[] value = saved.toBytes();
         quota.replace(null, value);
-        versions.put(saved.name(), new Versions(saved.version(), kept));
+        versions.put(saved.name(), new Versions(saved.version(), retained));
         templates.put(saved.key(), saved);
         publisher.put(Topics.TEMPLATES, saved.key(), value);
         return saved;
@@ -71,30 +71,30 @@ record TemplateStore(
 
     /** @param version 0 for the newest */
     MissionTemplate find(String name, int version) throws RejectedException {
-        List<Integer> kept = existing(name).kept();
-        int desired = version == 0 && !kept.isEmpty() ? kept.get(kept.size() - 1) : version;
-        if (!kept.contains(desired)) {
+        List<Integer> retained = existing(name).kept();
+        int desired = version == 0 && !retained.isEmpty() ? retained.get(retained.size() - 1) : version;
+        if (!retained.contains(desired)) {
             throw unknown(name, version);
         }
         return templates.get(name + "@" + desired);
     }
 
-    /** Missions made from it keep their devices. @param version 0 for all */
+    /** Deletes versions; missions that were created from them keep their devices. @param version 0 for all */
     void delete(String name, int version) throws RejectedException {
         Versions before = existing(name);
         if (version == 0 ? before.kept().isEmpty() : !before.kept().contains(version)) {
             throw unknown(name, version);
         }
-        List<Integer> kept = new ArrayList<>(before.kept());
+        List<Integer> retained = new ArrayList<>(before.kept());
         for (int each : before.kept()) {
             if (version == 0 || version == each) {
-                kept.remove((Integer) each);
+                retained.remove((Integer) each);
                 quota.use(-templates.get(name + "@" + each).toBytes().length);
                 templates.put(name + "@" + each, null);
                 publisher.put(Topics.TEMPLATES, name + "@" + each, null);
             }
         }
-        versions.put(name, new Versions(before.last(), kept));
+        versions.put(name, new Versions(before.last(), retained));
     }
 
     private Versions existing(String name) {

@@ -1,2 +1,2 @@
-/** Missions, their templates and the devices that they want. */
+/** Manages missions, their templates and their desired devices. */
 package io.furrow.control.mission;

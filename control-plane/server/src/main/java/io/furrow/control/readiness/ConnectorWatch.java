@@ -29,14 +29,14 @@ import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
- * Asks Kafka Connect every ten seconds for its connectors and their tasks. Connect does not restart a task that failed: each is reported
- * on {@code service.faults} once a minute, until it runs again.
+ * Polls the connectors and tasks of Kafka Connect every ten seconds. Connect does not restart failed tasks, therefore
+ * each is reported on {@code service.faults} once a minute until it runs again.
  */
 public final class ConnectorWatch implements AutoCloseable {
     private static final Duration INTERVAL = Duration.ofSeconds(10);
     private static final Duration TIMEOUT = Duration.ofSeconds(10);
     private static final Duration REPORT_INTERVAL = Duration.ofMinutes(1);
-    private static final int MAX_CAUSE = 300;
+    private static final int MAX_CAUSE_LENGTH = 300;
     private static final String FAILED = "FAILED";
     private static final String RUNNING = "RUNNING";
 
@@ -61,7 +61,7 @@ public final class ConnectorWatch implements AutoCloseable {
     }
 
     /**
-     * Begins to ask.
+     * Starts polling.
      *
      * @param connect base of its REST API
      * @param client settings of Kafka clients
@@ -86,7 +86,7 @@ public final class ConnectorWatch implements AutoCloseable {
                             .timeout(TIMEOUT)
                             .build(),
                     HttpResponse.BodyHandlers.ofByteArray());
-            if (answer.statusCode() != 200) { // 409 while its workers agree who does what
+            if (answer.statusCode() != 200) { // 409 while its workers rebalance
                 throw new IOException("it answers %d".formatted(answer.statusCode()));
             }
             take(NgsiJson.read(answer.body()));
@@ -117,12 +117,12 @@ public final class ConnectorWatch implements AutoCloseable {
         connectors = List.copyOf(parts.values());
     }
 
-    /** Adds what does not run. */
+    /** Adds the state of a connector or task that is not running, and its failure. */
     private static void describe(String subject, JsonNode part, List<String> states, List<String> failures) {
         String state = part.path("state").asText();
         if (state.equals(FAILED)) {
             String cause = FailureText.ofTrace(part.path("trace").asText());
-            String begin = cause.length() <= MAX_CAUSE ? cause : cause.substring(0, MAX_CAUSE) + " …";
+            String begin = cause.length() <= MAX_CAUSE_LENGTH ? cause : cause.substring(0, MAX_CAUSE_LENGTH) + " …";
             failures.add(subject + "failed: " + begin);
         }
         if (!state.equals(RUNNING)) {
@@ -154,7 +154,7 @@ public final class ConnectorWatch implements AutoCloseable {
         }
     }
 
-    /** Of Connect, and of each of its connectors. */
+    /** Returns the status of Connect and of each connector. */
     public List<ComponentStatus> statuses() {
         Instant last = lastAnswer;
         boolean up = last != null && last.plus(INTERVAL.multipliedBy(3)).isAfter(clock.instant());

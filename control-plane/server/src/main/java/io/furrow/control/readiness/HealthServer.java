@@ -28,9 +28,9 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
 /**
- * {@code GET /health}, {@code /ready} and {@code /metrics} on a port and threads of their own, so that nothing else can keep a probe
- * waiting: 200, or 503 where it is not alive, or not ready. Probes may ask by any host name; the metrics are read by a name of this
- * server.
+ * Serves {@code GET /health}, {@code /ready} and {@code /metrics} on a separate port and threads, so that other
+ * requests do not delay probes: 200, or 503 if not alive or not ready. Probes may use any host name; requests for
+ * metrics must use a name of this server.
  */
 public final class HealthServer implements AutoCloseable {
     private static final int THREADS = 6;
@@ -39,7 +39,7 @@ public final class HealthServer implements AutoCloseable {
     private final Server server;
     private final ServerConnector connector;
 
-    /** What is asked for. @param metrics page in the text format of Prometheus */
+    /** The content of the pages. @param metrics in the text format of Prometheus */
     public record Pages(Readiness readiness, Supplier<byte[]> metrics) {}
 
     private HealthServer(String host, int port, AllowedNames allowed, Pages pages) {
@@ -57,15 +57,15 @@ public final class HealthServer implements AutoCloseable {
         AccessRule rule =
                 AccessRule.allowing(allowed, OptionNames.FLAGS).servedAs(host).withProbes("/health", "/ready");
         server.setHandler(new AccessHandler(
-                rule, refused -> NgsiJson.write(error(refused.error(), refused.reason())), new Answering(pages)));
+                rule, rejection -> NgsiJson.write(error(rejection.error(), rejection.reason())), new Answering(pages)));
     }
 
     /**
-     * Listens from now on.
+     * Starts listening.
      *
      * @param host address to listen on
      * @param port 0 for a free one
-     * @param allowed hosts and origins beside its own
+     * @param allowed hosts and origins besides its own
      * @throws IOException if the port is taken
      */
     public static HealthServer start(String host, int port, AllowedNames allowed, Pages pages) throws IOException {
@@ -82,7 +82,7 @@ public final class HealthServer implements AutoCloseable {
         return health;
     }
 
-    /** Where it listens. */
+    /** Returns the address on which it listens. */
     public URI uri() {
         return URI.create("http://" + connector.getHost() + ":" + connector.getLocalPort());
     }

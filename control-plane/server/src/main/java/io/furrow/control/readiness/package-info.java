@@ -1,2 +1,2 @@
-/** Whether the control plane is alive and ready: its parts, and what they need, each with the age of its last success. */
+/** Reports whether the control plane is alive and ready: its parts and dependencies, each with the age of its last success. */
 package io.furrow.control.readiness;

@@ -11,12 +11,12 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /**
- * The topics of missions and domains that were deleted, by {@code service.missions} and {@code service.domains}. A mission whose record
- * is compacted away has none: which domain it was in is not known, and a topic of its name in another is that of devices.
+ * Tracks the topics of deleted missions and domains, from {@code service.missions} and {@code service.domains}. A
+ * mission whose record was compacted away before it was read has none, because its domain is unknown.
  */
 final class DeletedNames {
     private final Map<String, String> topics = new HashMap<>();
-    /** When its mission or domain was deleted, epoch ms. */
+    /** Time of deletion by topic, epoch ms. */
     private final Map<String, Long> deleted = new HashMap<>();
 
     void take(ConsumerRecord<String, byte[]> record) {
@@ -39,7 +39,7 @@ final class DeletedNames {
         }
     }
 
-    /** Null if the record cannot be read. */
+    /** Returns the topic of a mission; null if the record cannot be read. */
     private static String ofMission(ConsumerRecord<String, byte[]> record) {
         try {
             String domain = NgsiJson.read(record.value()).path("domain").asText();
@@ -49,15 +49,15 @@ final class DeletedNames {
         }
     }
 
-    /** @param moment epoch ms by which they were deleted */
-    List<String> by(long moment) {
+    /** Returns the topics whose owners were deleted by a time. @param time epoch ms */
+    List<String> deletedBy(long time) {
         return deleted.entrySet().stream()
-                .filter(each -> each.getValue() <= moment)
+                .filter(each -> each.getValue() <= time)
                 .map(Map.Entry::getKey)
                 .toList();
     }
 
-    /** Its topic is gone. */
+    /** Called when the topic was deleted. */
     void forget(String topic) {
         deleted.remove(topic);
     }

@@ -13,18 +13,18 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /**
- * What is left of replays that are over, by {@code service.replays} and {@code service.replays.status}. A replay whose record of {@code
- * service.replays} is compacted away is taken to have had the topic that is called after it.
+ * Tracks the topics of finished replays, from {@code service.replays} and {@code service.replays.status}. If the record
+ * of a replay on {@code service.replays} was compacted away, its topic is assumed to have the default name.
  */
 final class FinishedReplays {
     private final Map<String, DesiredReplay> desired = new HashMap<>();
-    /** Of each replay whose status is there. */
+    /** Topic of each replay that has a status. */
     private final Map<String, String> topics = new HashMap<>();
-    /** When each that is over for good was so, epoch ms. */
-    private final Map<String, Long> over = new HashMap<>();
+    /** When each replay was finally over, epoch ms. */
+    private final Map<String, Long> finished = new HashMap<>();
 
     /** @param topic on which it was played */
-    record Remains(String replay, String topic) {}
+    record Replay(String replay, String topic) {}
 
     void take(ConsumerRecord<String, byte[]> record) {
         if (record.key() == null) {
@@ -37,7 +37,7 @@ final class FinishedReplays {
                 takeStatus(record);
             }
         } catch (UnreadableException e) {
-            over.remove(record.key()); // what cannot be read is not deleted
+            finished.remove(record.key()); // the topic of an unreadable record is not deleted
         }
     }
 
@@ -52,35 +52,35 @@ final class FinishedReplays {
     }
 
     private void takeStatus(ConsumerRecord<String, byte[]> record) throws UnreadableException {
-        over.remove(record.key());
+        finished.remove(record.key());
         if (record.value() == null) {
             topics.remove(record.key());
             return;
         }
         ReplayStatus status = ReplayStatus.read(record.value());
         if (status.state().isOver() && status.settled()) {
-            over.put(record.key(), record.timestamp());
+            finished.put(record.key(), record.timestamp());
         }
     }
 
-    /** Those that were over by a moment, and that nobody wants. @param moment epoch ms */
-    List<Remains> overBy(long moment) {
-        return over.entrySet().stream()
-                .filter(each -> each.getValue() <= moment && !desired.containsKey(each.getKey()))
-                .map(each -> new Remains(each.getKey(), topicOf(each.getKey())))
+    /** Returns the replays that were over by a time and are not desired. @param time epoch ms */
+    List<Replay> finishedBy(long time) {
+        return finished.entrySet().stream()
+                .filter(each -> each.getValue() <= time && !desired.containsKey(each.getKey()))
+                .map(each -> new Replay(each.getKey(), topicOf(each.getKey())))
                 .filter(each -> !isUsed(each.topic()))
-                .filter(each -> over.entrySet().stream()
-                        .noneMatch(other -> other.getValue() > moment
+                .filter(each -> finished.entrySet().stream()
+                        .noneMatch(other -> other.getValue() > time
                                 && topicOf(other.getKey()).equals(each.topic())))
                 .toList();
     }
 
-    /** Whether a replay that is wanted plays on the topic, or from it. */
+    /** Whether a desired replay plays to the topic or from it. */
     boolean isUsed(String topic) {
         return desired.values().stream().anyMatch(replay -> uses(replay, topic));
     }
 
-    /** Plays on it, or from it or from what was found in it. */
+    /** Whether the replay plays to the topic, from it, or from its results. */
     private static boolean uses(DesiredReplay replay, String topic) {
         ReplayPlan.Source source = replay.plan().source();
         String played = source == null || source.topic() == null ? "" : source.topic();

@@ -12,36 +12,36 @@ import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.TopicName;
 
 /**
- * The missions that are stored, as {@code service.recordings} lists them.
+ * Looks up recorded missions listed on {@code service.recordings}.
  *
- * @param checked whether that list is kept; else any mission may be stored
- * @param find by mission; null if none is listed
+ * @param checked whether that list is maintained; else any mission may be recorded
+ * @param find returns a recording by mission; null if none is listed
  */
 record RecordedMissions(boolean checked, Function<String, RecordedMission> find) {
-    /** @throws RejectedException where one of the missions is not stored, as far as that is known */
+    /** @throws RejectedException if one of the missions is known not to be recorded */
     void require(List<String> missions) throws RejectedException {
         List<String> unknown =
                 missions.stream().filter(each -> lookup(each) == null).toList();
         if (checked && !unknown.isEmpty()) {
             throw new RejectedException(
                     ErrorCode.UNKNOWN_MISSION,
-                    "nothing is stored of mission '%s'; './furrow replay missions' and GET /api/recordings list what is"
+                    "mission '%s' is not recorded; './furrow replay missions' and GET /api/recordings list the recorded ones"
                             .formatted(String.join("', '", unknown)));
         }
     }
 
-    /** Listed by what stands for it in topics, which of nearly every mission is its name. */
+    /** Looks up a mission by its name, else by its name in topics, which rarely differs. */
     private RecordedMission lookup(String mission) {
         RecordedMission listed = find.apply(mission);
         return listed == null ? find.apply(TopicName.of(mission)) : listed;
     }
 
     /**
-     * Refuses a time that a replay does not play: outside of its recording, as far as that is known, or of what is requested of it. A mission
-     * that runs is longer than the list of recordings says; until the replay reports how long, any later time is in it.
+     * Rejects a time outside of the known recording or the requested range of a replay. A running mission may be longer
+     * than listed; until the replay reports the last event, any later time is accepted.
      *
      * @param time of an event, epoch ms
-     * @param reported null if nothing was reported of the replay
+     * @param reported null if the replay has not reported yet
      */
     void requireWithin(long time, DesiredReplay replay, ReportedReplay reported) throws RejectedException {
         RecordedMission listed = replay.plan().source() == null ? lookup(replay.mission()) : null;
@@ -70,18 +70,18 @@ record RecordedMissions(boolean checked, Function<String, RecordedMission> find)
     }
 
     /**
-     * From the first event of the missions to after their last.
+     * Returns the time from the first event of the missions to after their last.
      *
-     * @return null if nothing is known of one of them
+     * @return null if one of them is not listed
      */
     Span span(List<String> missions) {
-        List<RecordedMission> lookup =
+        List<RecordedMission> listed =
                 missions.stream().map(this::lookup).filter(each -> each != null).toList();
-        if (lookup.size() < missions.size()) {
+        if (listed.size() < missions.size()) {
             return null;
         }
-        long first = lookup.stream().mapToLong(RecordedMission::first).min().orElseThrow();
-        long last = lookup.stream().mapToLong(RecordedMission::last).max().orElseThrow();
+        long first = listed.stream().mapToLong(RecordedMission::first).min().orElseThrow();
+        long last = listed.stream().mapToLong(RecordedMission::last).max().orElseThrow();
         return new Span(first, last + 1);
     }
 

@@ -12,26 +12,26 @@ import io.furrow.model.control.RecordedMission;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * What {@code service.recordings} lists, and what of it is not so any more. A mission is looked at when it is new, again at each poll as long
- * as it has no event, and then at most every {@link #SPAN_INTERVAL}, whichever instance did it last.
+ * Computes the changes of {@code service.recordings}. A new mission is read at each poll until it has an event, and
+ * then at most every {@link #SPAN_INTERVAL} by any instance.
  */
 final class RecordingList {
     static final Duration SPAN_INTERVAL = Duration.ofSeconds(30);
 
     private final Map<String, RecordedMission> listed = new HashMap<>();
-    /** When each mission was looked at last, epoch ms. */
+    /** When each mission was last read, epoch ms. */
     private final Map<String, Long> polled = new HashMap<>();
 
-    /** The missions that are stored. */
+    /** The recorded missions. */
     interface Store {
-        /** Names as commands take them. */
+        /** Returns the names that commands accept. */
         List<String> names() throws IOException;
 
-        /** Empty if it has no event. */
+        /** Returns a recording; empty if it has no event. */
         Optional<RecordedMission> find(String name) throws IOException;
     }
 
-    /** A record of the topic. @param value null if the mission is gone */
+    /** Processes a record of the topic. @param value null if the mission was deleted */
     void take(String mission, byte[] value, long timestamp) {
         listed.remove(mission);
         if (value == null) {
@@ -47,10 +47,10 @@ final class RecordingList {
     }
 
     /**
-     * What has to be written.
+     * Returns the records to write.
      *
      * @param now epoch ms
-     * @return by mission; empty if it is gone
+     * @return recordings by mission; empty for a deleted mission
      */
     Map<String, Optional<RecordedMission>> changes(Store store, long now) throws IOException {
         List<String> names = store.names();

@@ -22,8 +22,8 @@ import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
- * Lists the missions that are stored in MongoDB on {@code service.recordings}. Several instances may do so: each writes only what the
- * topic does not say. While MongoDB is unavailable the last list stays.
+ * Publishes the missions recorded in MongoDB on {@code service.recordings}. Several instances may run: each writes only
+ * differences to the topic. While MongoDB is unavailable, the last list stays.
  */
 public final class RecordingWatch implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(RecordingWatch.class);
@@ -42,10 +42,10 @@ public final class RecordingWatch implements AutoCloseable {
     }
 
     /**
-     * Does not wait for MongoDB. The topic is there already.
+     * Starts without waiting for MongoDB. The topic must exist already.
      *
      * @param settings with a MongoDB
-     * @throws IOException if its URI is none
+     * @throws IOException if its URI is invalid
      */
     public static RecordingWatch start(Properties client, ReplaySettings settings, Clock clock) throws IOException {
         try {
@@ -68,7 +68,7 @@ public final class RecordingWatch implements AutoCloseable {
                 Producer<String, byte[]> producer = KafkaClients.producer(client)) {
             boolean unavailable = false;
             while (!running.isClosing()) {
-                // before the names are asked for, which are newer then
+                // read before the names are queried, so that these are newer
                 topic.readToEnd(record -> list.take(record.key(), record.value(), record.timestamp()));
                 size = list.size();
                 try {
@@ -97,7 +97,7 @@ public final class RecordingWatch implements AutoCloseable {
         producer.flush();
     }
 
-    /** By the names that commands and topics have: those of collections. */
+    /** Identifies missions by the names used in commands and topics: those of collections. */
     private record Catalogued(MissionCatalog catalog) implements RecordingList.Store {
         @Override
         public List<String> names() throws IOException {
@@ -108,11 +108,11 @@ public final class RecordingWatch implements AutoCloseable {
         public Optional<RecordedMission> find(String name) throws IOException {
             return catalog.find(name)
                     .flatMap(stored -> stored.span())
-                    .map(recordingExtent -> new RecordedMission(name, recordingExtent.first(), recordingExtent.last()));
+                    .map(span -> new RecordedMission(name, span.first(), span.last()));
         }
     }
 
-    /** For a health page. */
+    /** Returns the status for a health page. */
     public ComponentStatus status() {
         return worker.status();
     }

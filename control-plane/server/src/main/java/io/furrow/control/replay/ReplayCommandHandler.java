@@ -25,11 +25,11 @@ import io.furrow.model.text.Counts;
 import io.furrow.model.topic.Topics;
 
 /**
- * Grants or refuses what is asked of replays, and says on {@code service.replays} what is requested of them. The executor says on
- * {@code service.replays.status} what came of it.
+ * Executes or rejects commands on replays, and publishes their desired state on {@code service.replays}. The player
+ * reports their actual state on {@code service.replays.status}.
  */
 final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
-    /** Of a request, epoch ms; a recording may hold events of other times. */
+    /** Latest time that a request may contain, epoch ms; recordings may contain later ones. */
     private static final long LAST_TIME = Instant.parse("9999-12-31T23:59:59Z").toEpochMilli();
 
     private static final Duration MAX_AHEAD = Duration.ofDays(30);
@@ -66,9 +66,9 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     }
 
     /**
-     * What is remembered of replays.
+     * The stores of the replay manager.
      *
-     * @param counters of the sequence, and of the room that is used
+     * @param counters of the sequence and of the used quota
      */
     record ReplayStores(Table<DesiredReplay> replays, Table<ReportedReplay> reports, Table<Long> counters) {}
 
@@ -94,10 +94,10 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         requireRoom(start.missions().size());
     }
 
-    /** Each replay that is not over takes a topic, and of its job heap and connections. */
-    private void requireRoom(int further) throws RejectedException {
+    /** Limits the number of replays that are not over, because each uses a topic, and heap and connections of its job. */
+    private void requireRoom(int additional) throws RejectedException {
         int playing = replays.where(each -> !reports.state(each).isOver()).size();
-        if (playing + further > settings.max()) {
+        if (playing + additional > settings.max()) {
             throw new RejectedException(
                     ErrorCode.QUOTA_EXCEEDED,
                     "%s not over, of at most %d (--max-replays); stop one that is not needed any more"
@@ -138,7 +138,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
                 .within(start.range(), number);
     }
 
-    /** All of a group play the same stretch of event time: what was asked for, else all that is stored of any of them. */
+    /** Returns the plan of all members: they play the same range of event time, by default the union of their recordings. */
     private ReplayPlan groupPlan(ReplayCommand.Start start) throws RejectedException {
         ReplayPlan plan = start.plan();
         RecordedMissions.Span all = recordings.span(start.missions());
@@ -207,7 +207,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
                 .with("replays", members.stream().map(DesiredReplay::replay).toList());
     }
 
-    /** What became of it: a replay that is over is neither running nor paused until it shall play again. */
+    /** Returns the result code: a finished replay is neither running nor paused until it is requested to play again. */
     private static String code(DesiredReplay existing, ReplayStatus.State state, DesiredReplay next) {
         if (next.desired() == ReplayStatus.State.STOPPED) {
             return "deleted";
@@ -222,7 +222,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
                 ErrorCode.UNKNOWN_REPLAY, "there is no %s, or it is over".formatted(steering.target()));
     }
 
-    /** @param state in which it is */
+    /** @param state its current state */
     private DesiredReplay next(ReplayCommand.Steering steering, DesiredReplay existing, ReplayStatus.State state) {
         long number = sequence.next();
         if (steering instanceof ReplayCommand.Seek seek) {
@@ -242,7 +242,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         };
     }
 
-    /** Forgets a replay that was stopped or has failed for good, unless something was asked of it since; one that ended rests. */
+    /** Removes a replay that was stopped or has finally failed, unless it got a newer command; one that ended is retained for a while. */
     void reported(String replay, ReplayStatus report, long now) {
         if (!replays.contains(replay)) {
             return;
@@ -256,17 +256,17 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         }
     }
 
-    /** Forgets replays that have rested at their ends for long enough; those of a group together. */
+    /** Removes replays that ended longer ago than the retention; members of a group together. */
     @Override
     public void passTime(long now) {
-        List<DesiredReplay> rested = reports
+        List<DesiredReplay> expired = reports
                 .endedBy(now - settings.endedRetention().toMillis())
                 .stream()
                 .map(replays::get)
                 .filter(each -> reports.state(each).isOver())
                 .toList();
-        for (DesiredReplay each : rested) {
-            if (each.group() == null || rested.containsAll(members(each.group()))) {
+        for (DesiredReplay each : expired) {
+            if (each.group() == null || expired.containsAll(members(each.group()))) {
                 remove(each);
             }
         }
@@ -285,8 +285,8 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         if (before == null) {
             quota.replace(null, value);
         } else {
-            quota.use(
-                    value.length - before.toBytes().length); // whoever steers a replay is not refused for want of room
+            quota.use(value.length
+                    - before.toBytes().length); // commands to existing replays are not limited by the quota
         }
         replays.put(replay.replay(), replay);
         publisher.put(Topics.REPLAYS, replay.replay(), value);

@@ -17,15 +17,15 @@ import io.furrow.model.control.ReplayCommand.Speed;
 import io.furrow.model.control.ReplayCommand.Step;
 import io.furrow.model.control.ReplayStatus;
 
-/** Replays that follow one clock: what a command makes of all of them. Times are epoch ms. */
+/** Applies commands to replays that follow a common clock. Times are epoch ms. */
 final class ReplayGroup {
-    /** Until a clock begins to run, so that all who play have heard of it. */
+    /** Delay before a clock starts, so that all players have received it. */
     static final long START_DELAY = 2000;
 
     private static final long DELAY = 1000;
 
     private final List<DesiredReplay> members;
-    /** Any of them: what is asked of a group is the same for all. */
+    /** Any member: the desired state is the same for all. */
     private final DesiredReplay one;
 
     /** @param members at least one */
@@ -34,7 +34,7 @@ final class ReplayGroup {
         this.one = members.get(0);
     }
 
-    /** Those of a new group, whose plans are of the same time, from the beginning of what is played. */
+    /** Returns the members of a new group, which starts at the beginning of their common range. */
     static List<DesiredReplay> started(List<DesiredReplay> members, String group, long now) {
         DesiredReplay one = members.get(0);
         Long startAt = one.plan().startAt();
@@ -43,7 +43,7 @@ final class ReplayGroup {
         return members.stream().map(each -> each.following(group, clock)).toList();
     }
 
-    /** @throws RejectedException where that cannot be asked of a group, or not in its state */
+    /** @throws RejectedException if a group does not support the command with these arguments */
     void check(ReplayCommand.Steering steering) throws RejectedException {
         if (steering instanceof Step) {
             throw new RejectedException(
@@ -59,17 +59,17 @@ final class ReplayGroup {
     }
 
     /**
-     * Refuses a range without a time that is played.
+     * Rejects a range that does not overlap the played range.
      *
      * @param replay of a group
-     * @param range null for all
+     * @param range null for the whole range
      */
     static void checkRange(DesiredReplay replay, Range range) throws RejectedException {
         long from = replay.plan().from();
         long to = replay.plan().to();
         if (range != null && (range.from() >= to || range.to() <= from)) {
-            throw wrong("'from' and 'to' must have something in common with what the group plays, from %s to %s"
-                    .formatted(time(from), time(to)));
+            throw wrong(
+                    "'from' and 'to' must overlap what the group plays, from %s to %s".formatted(time(from), time(to)));
         }
     }
 
@@ -85,12 +85,12 @@ final class ReplayGroup {
         return new RejectedException(ErrorCode.WRONG_MEMBER, reason);
     }
 
-    /** What is requested of all of them after a command that was checked. @param sequence of it */
+    /** Returns the desired state of all members after a valid command. @param sequence of the command */
     List<DesiredReplay> steered(ReplayCommand.Steering steering, long now, long sequence) {
         if (steering instanceof Seek seek) {
             return jumped(seek.to().toEpochMilli(), now, sequence);
         } else if (steering instanceof Speed speed) {
-            return all(each -> each.at(speed.speed(), sequence), going(now));
+            return all(each -> each.at(speed.speed(), sequence), continued(now));
         } else if (steering instanceof Loop loop) {
             return looped(loop.range(), now, sequence);
         }
@@ -109,21 +109,21 @@ final class ReplayGroup {
         return all(each -> each.seeking(to, sequence), new Clock(soon(now), to));
     }
 
-    /** Continues where it is, or from the beginning of the range where that is outside of it. */
+    /** Continues at the current position, or at the beginning of the range if the position is outside of it. */
     private List<DesiredReplay> looped(Range range, long now, long sequence) {
-        List<DesiredReplay> within = all(each -> each.within(range, sequence), going(now));
+        List<DesiredReplay> within = all(each -> each.within(range, sequence), continued(now));
         ReplayGroup next = new ReplayGroup(within);
         return range == null || next.isWithin(one.position(now))
                 ? within
                 : next.jumped(next.one.from(next.one.plan().from()), now, sequence);
     }
 
-    /** The clock that shows the same now and continues from there; one that does not run yet begins when it would. */
-    private Clock going(long now) {
+    /** Returns a clock that continues from the current position; one that has not started yet keeps its start. */
+    private Clock continued(long now) {
         return new Clock(Math.max(now, one.clock().at()), one.position(now));
     }
 
-    /** In a moment, but not before the group shall begin. */
+    /** Returns a time shortly after now, but not before the start of the group. */
     private long soon(long now) {
         Long startAt = one.plan().startAt();
         return Math.max(now + DELAY, startAt == null ? 0 : startAt);

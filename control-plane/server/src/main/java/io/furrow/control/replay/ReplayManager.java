@@ -18,7 +18,10 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/** Answers {@code service.replaymanager}, keeps {@code service.replays}, reads {@code service.replays.status} and {@code service.recordings}. */
+/**
+ * Processes requests on {@code service.replaymanager}, maintains {@code service.replays}, and reads
+ * {@code service.replays.status} and {@code service.recordings}.
+ */
 public final class ReplayManager {
     private static final String REPLAYS = "replays";
     private static final String REPORTS = "replay-reports";
@@ -46,7 +49,7 @@ public final class ReplayManager {
                 stores);
     }
 
-    /** Null of what is not a record of a mission. */
+    /** Returns null if the record cannot be read. */
     private static RecordedMission listed(byte[] value) {
         try {
             return RecordedMission.read(value);

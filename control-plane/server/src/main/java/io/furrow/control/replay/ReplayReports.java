@@ -10,9 +10,9 @@ import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.ReplayStatus.State;
 
-/** The actual state of desired replays, as reported, and what of a command fits it. */
+/** Stores the reported state of replays and checks which commands it allows. */
 record ReplayReports(Table<ReportedReplay> reports) {
-    /** Stores what is different from the report before. @param now epoch ms */
+    /** Stores a report if it differs from the previous one. @param now epoch ms */
     void take(String replay, ReplayStatus report, long now) {
         ReportedReplay before = reports.get(replay);
         ReportedReplay next = ReportedReplay.of(replay, report, before, now);
@@ -25,12 +25,12 @@ record ReplayReports(Table<ReportedReplay> reports) {
         reports.put(replay, null);
     }
 
-    /** Null if nothing was reported. */
+    /** Returns the last report; null if there is none. */
     ReportedReplay get(DesiredReplay replay) {
         return reports.get(replay.replay());
     }
 
-    /** What was reported, where nothing more comes of what is desired; else what is desired. */
+    /** Returns the reported state if the replay is over, else the desired state. */
     State state(DesiredReplay replay) {
         ReportedReplay report = get(replay);
         return report != null && report.isOver(replay.sequence()) && replay.desired() != State.STOPPED
@@ -38,31 +38,31 @@ record ReplayReports(Table<ReportedReplay> reports) {
                 : replay.desired();
     }
 
-    /** Of a group that is over when all of its members are. */
+    /** Returns the state of a group, which is over when all of its members are. */
     State state(List<DesiredReplay> members) {
         DesiredReplay one = members.get(0);
         return members.stream().allMatch(each -> state(each).isOver()) ? state(one) : one.desired();
     }
 
-    /** Names of those that had come to their ends by a moment. @param moment epoch ms */
-    List<String> endedBy(long moment) {
-        return reports.where(each -> each.ended() != null && each.ended() <= moment).stream()
+    /** Returns the names of replays that had ended by a time. @param time epoch ms */
+    List<String> endedBy(long time) {
+        return reports.where(each -> each.ended() != null && each.ended() <= time).stream()
                 .map(ReportedReplay::replay)
                 .toList();
     }
 
-    /** @throws RejectedException where a command cannot change what is in this state */
+    /** @throws RejectedException if the command is not allowed in this state */
     static void check(ReplayCommand.Steering steering, State state) throws RejectedException {
         boolean pauses = isSimple(steering, ReplayCommand.Verb.PAUSE);
         boolean resumes = isSimple(steering, ReplayCommand.Verb.RESUME);
-        boolean fits = switch (state) {
+        boolean isAllowed = switch (state) {
             case RUNNING -> !resumes && !(steering instanceof ReplayCommand.Step);
             case PAUSED -> !pauses;
             case ENDED -> !pauses && !resumes && !(steering instanceof ReplayCommand.Step step && step.count() > 0);
             case FAILED -> !pauses && !resumes && !(steering instanceof ReplayCommand.Step);
             case STOPPED -> false;
         };
-        if (!fits) {
+        if (!isAllowed) {
             throw new RejectedException(
                     ErrorCode.WRONG_STATE,
                     "%s is %s, which '%s' cannot change%s"

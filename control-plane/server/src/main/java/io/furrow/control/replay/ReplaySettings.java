@@ -4,20 +4,21 @@ import java.time.Duration;
 import java.util.Objects;
 
 /**
- * What replays are managed with.
+ * Settings of replays.
  *
- * @param mongo connection string of the MongoDB that keeps the missions; null if it is not known, and with it which missions are stored
+ * @param mongo connection string of the MongoDB that stores the missions; null if unknown, so that recorded missions
+ *     are unknown too
  * @param database of the missions
- * @param pollInterval between two looks at the names of the stored missions
- * @param grace how long topics of a replay are kept after it was over
- * @param endedRetention how long a replay that came to its end can be played again
- * @param max replays that are not over, at one time
+ * @param pollInterval between queries for the names of recorded missions
+ * @param grace retention of a replay's topics after it was over
+ * @param endedRetention how long a replay that ended can be played again
+ * @param max maximum number of replays that are not over
  */
 public record ReplaySettings(
         String mongo, String database, Duration pollInterval, Duration grace, Duration endedRetention, int max) {
     private static final int MAX = 256;
 
-    /** No MongoDB; topics and replays that ended are kept for an hour; 256 replays. */
+    /** No MongoDB; topics and replays are retained for an hour after their end; at most 256 replays. */
     public static final ReplaySettings DEFAULT = new ReplaySettings(
             null, "persistence", Duration.ofSeconds(2), Duration.ofHours(1), Duration.ofHours(1), MAX);
 
@@ -53,12 +54,12 @@ public record ReplaySettings(
         return new ReplaySettings(mongo, database, pollInterval, grace, endedRetention, replays);
     }
 
-    /** Whether it is known which missions are stored. */
+    /** Whether recorded missions are known. */
     public boolean hasRecordings() {
         return mongo != null;
     }
 
-    /** Holds no password. */
+    /** Returns a description without the password. */
     @Override
     public String toString() {
         return "%d replays of %s, polled every %s, topics kept for %s, ended replays for %s"

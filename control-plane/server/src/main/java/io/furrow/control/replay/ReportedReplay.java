@@ -3,16 +3,16 @@ package io.furrow.control.replay;
 import io.furrow.model.control.ReplayStatus;
 
 /**
- * What was reported last of a replay, without what changes as long as it runs.
+ * The last report of a replay, without the members that change while it runs.
  *
- * @param sequence of the desired replay that was applied last
- * @param first event time of the recording's first event, epoch ms; null if it was not reported yet
- * @param last event time of the last event that is known of the recording, epoch ms; null if none is
- * @param ended when it was reported for good that it had come to its end, epoch ms; null if it was not
+ * @param sequence of the desired state that was applied last
+ * @param first event time of the recording's first event, epoch ms; null if not reported yet
+ * @param last event time of the recording's last known event, epoch ms; null if unknown
+ * @param ended when its final end was reported, epoch ms; null if it was not
  */
 record ReportedReplay(String replay, long sequence, ReplayStatus.State state, Long first, Long last, Long ended) {
 
-    /** @param before null if nothing was reported before @param now epoch ms */
+    /** @param before null if there is no previous report @param now epoch ms */
     static ReportedReplay of(String replay, ReplayStatus report, ReportedReplay before, long now) {
         ReplayStatus.Progress progress = report.progress();
         boolean spans = progress != null && progress.to() > 0;
@@ -29,7 +29,7 @@ record ReportedReplay(String replay, long sequence, ReplayStatus.State state, Lo
                 !atEnd ? null : again ? before.ended : Long.valueOf(now));
     }
 
-    /** Whether nothing more will come of what is desired by now. @param desired its sequence */
+    /** Whether the desired state was applied and the replay is over. @param desired sequence of the desired state */
     boolean isOver(long desired) {
         return state.isOver() && sequence >= desired;
     }

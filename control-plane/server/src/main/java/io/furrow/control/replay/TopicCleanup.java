@@ -34,28 +34,32 @@ import static java.util.stream.Collectors.toMap;
 import static java.util.stream.Collectors.toSet;
 
 /**
- * Deletes the topic of a replay, and those of what was found in it, a grace period after the replay was over, then its status; and the
- * topic of a mission or domain, with its dead letters, a day after it was deleted, where nothing of the last day is in them, nothing was
- * written lately and no replay reads it. A topic that cannot be deleted is tried again later and keeps no other. Several instances may do so.
+ * Deletes obsolete topics. The topic of a replay and those of its results are deleted a grace period after the replay
+ * was over, and its status after them. The topic of a mission or domain and its dead letters are deleted a day after
+ * the mission or domain, unless they contain events of the last day, were written to recently, or are read by a replay.
+ * A failed deletion is retried later and does not block others. Several instances may run.
  */
 public final class TopicCleanup implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(TopicCleanup.class);
     private static final Duration MAX_INTERVAL = Duration.ofSeconds(10);
     private static final Duration MIN_INTERVAL = Duration.ofMillis(100);
-    /** Consumers may have a night, and devices that were away what they kept. */
+    /** Time for consumers to catch up over night, and for offline devices to send their buffered reports. */
     private static final Duration GRACE_OF_MISSIONS = Duration.ofDays(1);
-    /** A job asks after minutes of quiet whether a topic is there still, before it writes what a device had kept for long. */
+    /**
+     * Minimum time without writes: a job checks after some minutes of quiet whether a topic still exists before it
+     * writes a late report.
+     */
     private static final long QUIET_MILLIS = Duration.ofMinutes(15).toMillis();
-    /** One that a broker does not answer for takes a minute. */
+    /** Retry interval; a deletion without a response of the broker blocks for a minute. */
     private static final Duration RETRY = Duration.ofMinutes(10);
 
     private final Properties client;
     private final Duration grace;
     private final Clock clock;
     private final SupervisedWorker worker;
-    /** What the topics that are due held when that last changed. */
+    /** Content of the due topics at its last change. */
     private final Map<String, Content> contents = new HashMap<>();
-    /** When those that could not be deleted are tried again, epoch ms. */
+    /** Time of the next attempt by topic, epoch ms. */
     private final Map<String, Long> retries = new HashMap<>();
 
     private volatile long deleted;
@@ -67,7 +71,7 @@ public final class TopicCleanup implements AutoCloseable {
         this.worker = new SupervisedWorker("topic-cleanup", clock);
     }
 
-    /** The topics of the control plane are there already. */
+    /** Starts the cleanup; the topics of the control plane must exist already. */
     public static TopicCleanup start(Properties client, ReplaySettings settings, Clock clock) {
         TopicCleanup cleanup = new TopicCleanup(client, settings.grace(), clock);
         cleanup.worker.start(cleanup::run, () -> cleanup.deleted + " topics of replays, missions and domains deleted");
@@ -75,13 +79,13 @@ public final class TopicCleanup implements AutoCloseable {
     }
 
     private void run(SupervisedWorker running) throws InterruptedException {
-        FinishedReplays remains = new FinishedReplays();
+        FinishedReplays finished = new FinishedReplays();
         DeletedNames names = new DeletedNames();
-        RecordAction<String, RuntimeException> taking = record -> {
+        RecordAction<String, RuntimeException> updating = record -> {
             if (record.topic().equals(Topics.MISSIONS) || record.topic().equals(Topics.DOMAINS)) {
                 names.take(record);
             } else {
-                remains.take(record);
+                finished.take(record);
             }
         };
         try (Admin admin = Admin.create(client);
@@ -89,17 +93,18 @@ public final class TopicCleanup implements AutoCloseable {
                         client, Topics.REPLAYS, Topics.REPLAYS_STATUS, Topics.MISSIONS, Topics.DOMAINS);
                 Producer<String, byte[]> producer = KafkaClients.producer(client)) {
             while (!running.isClosing()) {
-                topics.readToEnd(taking);
-                for (FinishedReplays.Remains due : remains.overBy(clock.millis() - grace.toMillis())) {
+                topics.readToEnd(updating);
+                for (FinishedReplays.Replay due : finished.finishedBy(clock.millis() - grace.toMillis())) {
                     attempt(due.topic(), () -> {
-                        topics.readToEnd(taking); // it may be wanted again since
-                        if (remains.overBy(clock.millis() - grace.toMillis()).contains(due)) {
+                        topics.readToEnd(updating); // it may have been requested again
+                        if (finished.finishedBy(clock.millis() - grace.toMillis())
+                                .contains(due)) {
                             remove(due, admin, producer);
                         }
                     });
                 }
-                removeMissions(names, remains, admin, () -> topics.readToEnd(taking));
-                retries.keySet().retainAll(due(names, remains));
+                removeMissions(names, finished, admin, () -> topics.readToEnd(updating));
+                retries.keySet().retainAll(due(names, finished));
                 if (retries.isEmpty()) {
                     running.succeeded();
                 }
@@ -110,15 +115,14 @@ public final class TopicCleanup implements AutoCloseable {
         }
     }
 
-    private Set<String> due(DeletedNames names, FinishedReplays remains) {
+    private Set<String> due(DeletedNames names, FinishedReplays finished) {
         return Stream.concat(
-                        names.by(clock.millis() - GRACE_OF_MISSIONS.toMillis()).stream(),
-                        remains.overBy(clock.millis() - grace.toMillis()).stream()
-                                .map(FinishedReplays.Remains::topic))
+                        names.deletedBy(clock.millis() - GRACE_OF_MISSIONS.toMillis()).stream(),
+                        finished.finishedBy(clock.millis() - grace.toMillis()).stream()
+                                .map(FinishedReplays.Replay::topic))
                 .collect(toSet());
     }
 
-    /** A deletion. */
     private interface Removal {
         void run() throws ExecutionException, InterruptedException;
     }
@@ -148,41 +152,41 @@ public final class TopicCleanup implements AutoCloseable {
         return minimum.compareTo(MAX_INTERVAL) > 0 ? MAX_INTERVAL : minimum;
     }
 
-    /** The status last, so that what was not deleted is tried again. */
-    private void remove(FinishedReplays.Remains remains, Admin admin, Producer<String, byte[]> producer)
+    /** Deletes the status last, so that failed deletions are retried. */
+    private void remove(FinishedReplays.Replay finished, Admin admin, Producer<String, byte[]> producer)
             throws ExecutionException, InterruptedException {
-        if (Topics.isReplay(remains.topic())) {
+        if (Topics.isReplay(finished.topic())) {
             Set<String> names = admin.listTopics().names().get();
             List<String> all = names.stream()
-                    .filter(name -> name.equals(remains.topic()) || name.startsWith(remains.topic() + "."))
+                    .filter(name -> name.equals(finished.topic()) || name.startsWith(finished.topic() + "."))
                     .sorted()
                     .toList();
             delete(all, admin);
-            LOG.info("replay {} was over for {}; deleted {}", remains.replay(), grace, all);
+            LOG.info("replay {} was over for {}; deleted {}", finished.replay(), grace, all);
         }
-        producer.send(new ProducerRecord<>(Topics.REPLAYS_STATUS, remains.replay(), null));
+        producer.send(new ProducerRecord<>(Topics.REPLAYS_STATUS, finished.replay(), null));
         producer.flush();
     }
 
-    /** @param refresh reads what was asked for since */
+    /** @param refresh reads newer requests */
     private void removeMissions(DeletedNames names, FinishedReplays replays, Admin admin, Runnable refresh)
             throws ExecutionException, InterruptedException {
-        long moment = clock.millis() - GRACE_OF_MISSIONS.toMillis();
-        List<String> due = names.by(moment);
-        Set<String> there =
+        long time = clock.millis() - GRACE_OF_MISSIONS.toMillis();
+        List<String> due = names.deletedBy(time);
+        Set<String> existing =
                 due.isEmpty() ? Set.of() : admin.listTopics().names().get();
         for (String topic : due) {
             attempt(topic, () -> {
                 boolean quiet = true;
-                for (String each : withDeadLetters(topic, there)) {
-                    quiet &= isQuiet(each, moment, admin); // of each, so that their times run together
+                for (String each : withDeadLetters(topic, existing)) {
+                    quiet &= isQuiet(each, time, admin); // called for each, so that their quiet times run in parallel
                 }
                 if (!quiet) {
                     return;
                 }
                 refresh.run();
-                if (!replays.isUsed(topic) && names.by(moment).contains(topic)) { // else it is wanted again
-                    removeMission(topic, there, admin);
+                if (!replays.isUsed(topic) && names.deletedBy(time).contains(topic)) { // else it is desired again
+                    removeMission(topic, existing, admin);
                     names.forget(topic);
                     contents.remove(topic);
                     contents.remove(Topics.dead(topic));
@@ -191,13 +195,13 @@ public final class TopicCleanup implements AutoCloseable {
         }
     }
 
-    private static List<String> withDeadLetters(String topic, Set<String> there) {
-        return Stream.of(topic, Topics.dead(topic)).filter(there::contains).toList();
+    private static List<String> withDeadLetters(String topic, Set<String> existing) {
+        return Stream.of(topic, Topics.dead(topic)).filter(existing::contains).toList();
     }
 
-    private void removeMission(String topic, Set<String> there, Admin admin)
+    private void removeMission(String topic, Set<String> existing, Admin admin)
             throws ExecutionException, InterruptedException {
-        List<String> all = withDeadLetters(topic, there);
+        List<String> all = withDeadLetters(topic, existing);
         if (!all.isEmpty()) {
             delete(all, admin);
             LOG.info("the owner of {} was deleted more than {} ago; deleted {}", topic, GRACE_OF_MISSIONS, all);
@@ -205,15 +209,15 @@ public final class TopicCleanup implements AutoCloseable {
     }
 
     /**
-     * A topic at a moment.
+     * The content of a topic.
      *
-     * @param records ever written
+     * @param records number of records ever written
      * @param newest event time, epoch ms; negative if it is empty
-     * @param since when it was seen so first, epoch ms
+     * @param since when this content was first observed, epoch ms
      */
     private record Content(long records, long newest, long since) {}
 
-    private boolean isQuiet(String topic, long moment, Admin admin) throws ExecutionException, InterruptedException {
+    private boolean isQuiet(String topic, long time, Admin admin) throws ExecutionException, InterruptedException {
         List<TopicPartition> partitions =
                 admin.describeTopics(List.of(topic)).allTopicNames().get().get(topic).partitions().stream()
                         .map(each -> new TopicPartition(topic, each.partition()))
@@ -230,7 +234,7 @@ public final class TopicCleanup implements AutoCloseable {
                 (same, before) -> before != null && before.records() == records
                         ? before
                         : new Content(records, newest, clock.millis()));
-        return now.newest() <= moment && clock.millis() - now.since() >= QUIET_MILLIS;
+        return now.newest() <= time && clock.millis() - now.since() >= QUIET_MILLIS;
     }
 
     private static Stream<ListOffsetsResultInfo> offsets(List<TopicPartition> partitions, OffsetSpec which, Admin admin)
@@ -255,13 +259,13 @@ public final class TopicCleanup implements AutoCloseable {
         try {
             deletion.get();
         } catch (ExecutionException e) {
-            if (!(e.getCause() instanceof UnknownTopicOrPartitionException)) { // another instance was faster
+            if (!(e.getCause() instanceof UnknownTopicOrPartitionException)) { // else another instance deleted it
                 throw e;
             }
         }
     }
 
-    /** For a health page. */
+    /** Returns the status for a health page. */
     public ComponentStatus status() {
         return worker.status();
     }

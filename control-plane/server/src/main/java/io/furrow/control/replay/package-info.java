@@ -1,2 +1,2 @@
-/** Replays: asked for, answered, forwarded to whoever plays them back. */
+/** Manages replays: commands, their desired state for the players, and the cleanup of their topics. */
 package io.furrow.control.replay;

@@ -36,8 +36,8 @@ import io.furrow.model.topic.Topics;
 @Consumes(MediaType.APPLICATION_JSON)
 @Produces(MediaType.APPLICATION_JSON)
 public final class AlarmsResource {
-    private static final int LISTED = 1000;
-    private static final int MAX_LISTED = 10_000;
+    private static final int DEFAULT_LIMIT = 1000;
+    private static final int MAX_LIMIT = 10_000;
     private static final Comparator<ObjectNode> MOST_SEVERE_FIRST = Comparator.<ObjectNode>comparingInt(
                     AlarmsResource::severity)
             .thenComparing(alarm -> alarm.path("raised").asLong(), Comparator.reverseOrder());
@@ -51,10 +51,10 @@ public final class AlarmsResource {
     }
 
     /**
-     * The most severe, of these the newest first.
+     * Lists alarms, the most severe first, the newest of these first.
      *
      * @param states at most one; none for all
-     * @param limits at most one, 1 to {@value #MAX_LISTED}
+     * @param limits at most one, 1 to {@value #MAX_LIMIT}
      */
     @GET
     public Response list(@QueryParam("state") List<String> states, @QueryParam("limit") List<String> limits) {
@@ -77,23 +77,23 @@ public final class AlarmsResource {
     }
 
     private static int limit(List<String> requested) {
-        String limit = requested.isEmpty() ? Integer.toString(LISTED) : requested.get(0);
-        if (requested.size() > 1 || !limit.matches("[1-9][0-9]{0,4}") || Integer.parseInt(limit) > MAX_LISTED) {
+        String limit = requested.isEmpty() ? Integer.toString(DEFAULT_LIMIT) : requested.get(0);
+        if (requested.size() > 1 || !limit.matches("[1-9][0-9]{0,4}") || Integer.parseInt(limit) > MAX_LIMIT) {
             throw new ProblemException(
                     ErrorCode.WRONG_MEMBER,
-                    "'limit' must be a whole number from 1 to %d, and given once".formatted(MAX_LISTED));
+                    "'limit' must be a whole number from 1 to %d, and given once".formatted(MAX_LIMIT));
         }
         return Integer.parseInt(limit);
     }
 
-    /** Of a severity that this version does not know, last. */
+    /** Returns the rank of a severity; unknown ones are last. */
     private static int severity(JsonNode alarm) {
         return Coded.find(Severity.values(), alarm.path("severity").asText())
                 .map(Severity::ordinal)
                 .orElse(Severity.values().length);
     }
 
-    /** @param command {@code for}, a duration, belongs to {@code mute} */
+    /** Changes an alarm. @param command {@code mute} needs a duration {@code for} */
     @POST
     @Path("{alarm}/{command: acknowledge|close|mute|unmute}")
     public CompletionStage<Response> command(
@@ -105,7 +105,7 @@ public final class AlarmsResource {
         return manager.command(request, command, JsonBodyReader.read(body).put("alarm", alarm));
     }
 
-    /** Alarms by {@code kind} and {@code subject}, those to come too. */
+    /** Mutes alarms by {@code kind} and {@code subject}, including future ones. */
     @POST
     @Path("{command: mute|unmute}")
     public CompletionStage<Response> commandKind(

@@ -24,7 +24,7 @@ import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** {@code /api/audit}: the newest out of memory, older ones out of Kafka. */
+/** {@code /api/audit}: reads the newest entries from memory, older ones from Kafka. */
 @Path("/api/audit")
 @Produces(MediaType.APPLICATION_JSON)
 public final class AuditResource {
@@ -38,15 +38,16 @@ public final class AuditResource {
     }
 
     /**
-     * The newest first. Where there may be older ones, {@code Link} with {@code rel="next"} leads to them.
+     * Lists entries, the newest first. If there may be older ones, a {@code Link} with {@code rel="next"} refers to
+     * them.
      *
      * @param limit 1 to {@value StateView#AUDITED}
-     * @param before only what has a lower position; null for the newest
-     * @param device only commands about it; null for all
-     * @param mission only commands about it; null for all
+     * @param before exclusive upper bound of positions; null for the newest
+     * @param device selects commands about it; null for all
+     * @param mission selects commands about it; null for all
      */
     @GET
-    public Response newest(
+    public Response list(
             @Context UriInfo uri,
             @QueryParam("limit") @DefaultValue("100") String limit,
             @QueryParam("before") String before,
@@ -73,13 +74,13 @@ public final class AuditResource {
     }
 
     private AuditHistory.Page page(long before, int limit, Predicate<AuditedEntry> desired) {
-        StateView.AuditPage held = view.audited(before);
-        if (held.entries().isEmpty() && !held.isWhole()) {
+        StateView.AuditPage cached = view.audited(before);
+        if (cached.entries().isEmpty() && !cached.isWhole()) {
             return history.read(before, limit, desired);
         }
         List<AuditedEntry> found = new ArrayList<>();
         long next = -1;
-        for (AuditedEntry entry : held.entries()) {
+        for (AuditedEntry entry : cached.entries()) {
             if (found.size() == limit) {
                 return new AuditHistory.Page(found, next);
             }
@@ -88,10 +89,10 @@ public final class AuditResource {
                 found.add(entry);
             }
         }
-        return new AuditHistory.Page(found, held.isWhole() ? -1 : next);
+        return new AuditHistory.Page(found, cached.isWhole() ? -1 : next);
     }
 
-    /** Without a host: a proxy may stand in front. */
+    /** Returns a link without a host, because of proxies. */
     private static Link next(UriInfo uri, long before) {
         String query = uri.getRequestUriBuilder()
                 .replaceQueryParam("before", before)

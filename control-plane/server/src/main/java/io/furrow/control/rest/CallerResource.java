@@ -18,7 +18,7 @@ import io.furrow.model.ngsi.NgsiJson;
 @Path("/api/me")
 @Produces(MediaType.APPLICATION_JSON)
 public final class CallerResource {
-    /** Who asks, as it stands on the audit topic, and what they may do. Where no tokens are asked for everybody is an admin. */
+    /** Returns the caller's name, as used on the audit topic, and role. Without tokens every caller is an admin. */
     @GET
     public Response me(@Context ContainerRequestContext request) {
         Role role = request.getProperty(TokenFilter.TOKEN) instanceof ApiToken token ? token.role() : Role.ADMIN;

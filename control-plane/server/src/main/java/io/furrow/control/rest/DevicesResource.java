@@ -44,12 +44,12 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
-/** {@code /api/devices}: what is requested of them, what they are, how they are, and commands to them. */
+/** {@code /api/devices}: desired state, status and health of devices, and commands to them. */
 @Path("/api/devices")
 @Consumes(MediaType.APPLICATION_JSON)
 @Produces(MediaType.APPLICATION_JSON)
 public final class DevicesResource {
-    /** For who asks for it; who takes anything gets JSON. */
+    /** Lower quality than JSON, which is the default if the client accepts anything. */
     static final String CSV = CredentialCsv.TYPE + ";qs=0.5";
 
     private static final String DEVICE = "device";
@@ -64,10 +64,10 @@ public final class DevicesResource {
     private final Dependencies dependencies;
 
     /**
-     * What devices are reached by.
+     * Access to devices.
      *
-     * @param commands null if none go to devices
-     * @param credentials null if none are given out
+     * @param commands null if commands are not supported
+     * @param credentials null if credentials are not available
      */
     record Dependencies(FiwareScope scope, DeviceCommands commands, DeviceCredentials credentials) {}
 
@@ -101,33 +101,33 @@ public final class DevicesResource {
     @RolesAllowed(Role.ADMINS)
     @Path("{device}/credentials")
     public Response credentials(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
-        DesiredDevice device = audited(request, name);
+        DesiredDevice device = withCredentials(request, name);
         return secret(dependencies.credentials().of(device));
     }
 
-    /** The same as a file for spreadsheets. */
+    /** Returns the credentials as a file for spreadsheets. */
     @GET
     @RolesAllowed(Role.ADMINS)
     @Path("{device}/credentials")
     @Produces(CSV)
     public Response credentialsAsCsv(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
-        DesiredDevice device = audited(request, name);
+        DesiredDevice device = withCredentials(request, name);
         return csv(List.of(dependencies.credentials().of(device)));
     }
 
-    /** The credentials as a QR code, for what has a camera. */
+    /** Returns the credentials as a QR code, for devices with a camera. */
     @GET
     @RolesAllowed(Role.ADMINS)
     @Path("{device}/credentials/qr")
     @Produces("image/svg+xml")
     public Response qr(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
-        DesiredDevice device = audited(request, name);
+        DesiredDevice device = withCredentials(request, name);
         return Response.ok(dependencies.credentials().qr(device))
                 .header("Cache-Control", "no-store")
                 .build();
     }
 
-    /** Gives the device a new password, and refuses the old one from then on. */
+    /** Gives the device a new password and revokes the old one. */
     @POST
     @RolesAllowed(Role.ADMINS)
     @Path("{device}/credentials")
@@ -159,12 +159,12 @@ public final class DevicesResource {
         return NgsiJson.object().put(DEVICE, name.id());
     }
 
-    /** A device that has credentials, which can be shown here. */
+    /** Returns a device whose credentials this control plane can show. */
     private DesiredDevice provisioned(DeviceName name) {
         find(name);
         String key = keyOf(name);
         DesiredDevice device = devices.find(key)
-                .filter(found -> DeviceCredentials.has(found)
+                .filter(found -> DeviceCredentials.areIssuedFor(found)
                         && key.equals(dependencies.scope().identity(name.id())))
                 .orElse(null);
         if (device == null) {
@@ -177,8 +177,8 @@ public final class DevicesResource {
         return device;
     }
 
-    /** As {@link #provisioned}, and that its credentials are shown is audited. */
-    private DesiredDevice audited(ContainerRequestContext request, DeviceName name) {
+    /** As {@link #provisioned}, and audits the access to its credentials. */
+    private DesiredDevice withCredentials(ContainerRequestContext request, DeviceName name) {
         DesiredDevice device = provisioned(name);
         audit(RequestContext.user(request), "credentials", about(name), null);
         return device;
@@ -191,13 +191,13 @@ public final class DevicesResource {
                 "this control plane does not know the secret of the farm; start it with --farm-secret");
     }
 
-    /** Answers once the context broker has taken it, which does not say that the device obeyed. */
+    /** Sends a command. Answers once the context broker has accepted it, which does not mean that the device has executed it. */
     @POST
     @Path("{device}/commands")
     public CompletionStage<Response> command(
             @Context ContainerRequestContext request, @BeanParam DeviceName name, InputStream body) throws IOException {
         ObjectNode members = JsonBodyReader.read(body);
-        // A robot that is on no mission can be stopped too. An operator may put any entity on one.
+        // With a type the device need not be on a mission, so that any robot can be stopped.
         ObjectNode device = members.hasNonNull("type") ? existing(name).orElse(members) : find(name);
         String command = members.path("command").asText();
         JsonNode value = members.has("value") ? members.get("value") : NO_VALUE;
@@ -209,7 +209,7 @@ public final class DevicesResource {
             about.put("service", scope.service()).put("servicePath", scope.servicePath());
         }
         if (members.has("value")) {
-            about.set("value", audited(value));
+            about.set("value", abbreviated(value));
         }
         if (dependencies.commands() == null) {
             throw new ProblemException(
@@ -220,30 +220,30 @@ public final class DevicesResource {
                 .commands()
                 .in(scope)
                 .send(new DeviceCommands.Order(name.id(), type, command, value))
-                .handle((sent, failure) -> answer(failure, new Commanded(user, name.id(), command, about)));
+                .handle((sent, failure) -> answer(failure, new SentCommand(user, name.id(), command, about)));
     }
 
-    private record Commanded(String user, String device, String command, ObjectNode about) {}
+    private record SentCommand(String user, String device, String command, ObjectNode about) {}
 
-    private Response answer(Throwable failure, Commanded commanded) {
+    private Response answer(Throwable failure, SentCommand sentCommand) {
         if (failure == null) {
-            audit(commanded.user(), commanded.command(), commanded.about(), null);
+            audit(sentCommand.user(), sentCommand.command(), sentCommand.about(), null);
             ObjectNode answer = CommandResult.of("sent").json();
             return JsonResponses.json(
-                            202, answer.put(DEVICE, commanded.device()).put("command", commanded.command()))
+                            202, answer.put(DEVICE, sentCommand.device()).put("command", sentCommand.command()))
                     .build();
         }
         Throwable cause = failure instanceof CompletionException ? failure.getCause() : failure;
-        audit(commanded.user(), commanded.command(), commanded.about(), cause.getMessage());
+        audit(sentCommand.user(), sentCommand.command(), sentCommand.about(), cause.getMessage());
         if (cause instanceof RejectedExecutionException) {
             throw ProblemException.overloaded();
         }
-        int status = cause instanceof RejectedCommandException refused ? refused.status() : 502;
+        int status = cause instanceof RejectedCommandException rejected ? rejected.status() : 502;
         throw new ProblemException(status, "context-broker", cause.getMessage());
     }
 
-    /** A value of any kind, shortened. */
-    private static JsonNode audited(JsonNode value) {
+    /** Returns the value for the audit: long or structured values as shortened text. */
+    private static JsonNode abbreviated(JsonNode value) {
         String text = value.isTextual() ? value.textValue() : value.toString();
         boolean isWhole = text.length() <= MAX_AUDITED_LENGTH && value.isValueNode() && !value.isNull();
         return isWhole ? value : TextNode.valueOf(text.substring(0, Math.min(text.length(), MAX_AUDITED_LENGTH)));
@@ -297,14 +297,14 @@ public final class DevicesResource {
             boolean isUp = !desired.path("simulated").asBoolean()
                     && "running".equals(desired.path("wanted").textValue())
                     && health.path("heard").asLong() >= desired.path("from").asLong();
-            if (isUp) { // no host says so of a real device
+            if (isUp) { // a real device has no host that confirms it
                 desired.putObject("status").put("state", "running").set("sequence", desired.path("sequence"));
             }
         });
         return desired;
     }
 
-    /** The device with the settings of its group, which may be large: lists of devices leave them out. */
+    /** Adds the settings of its group, which lists of devices omit because of their size. */
     private ObjectNode withSettings(String key, ObjectNode device) {
         devices.find(key)
                 .filter(found -> !found.settings().isEmpty())

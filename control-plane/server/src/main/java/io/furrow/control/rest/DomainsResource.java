@@ -71,7 +71,7 @@ public final class DomainsResource {
         return manager.command(request, "change", JsonBodyReader.read(body).put(DOMAIN, domain));
     }
 
-    /** @param force whether missions that run in it are stopped */
+    /** @param force whether to stop missions that run in it */
     @RolesAllowed(Role.ADMINS)
     @DELETE
     @Path("{domain}")

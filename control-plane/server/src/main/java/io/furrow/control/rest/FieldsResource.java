@@ -53,27 +53,27 @@ import io.furrow.model.topic.TopicName;
 import io.furrow.model.topic.Topics;
 
 /**
- * {@code /api/fields}: the fields as they are now, and those of a file, as {@code ./furrow fields import} takes them, valid from now; one
- * field is renamed, ended or deleted.
+ * {@code /api/fields}: lists the current fields, imports fields of a file like {@code ./furrow fields import}, valid
+ * from now, and renames, ends or deletes a field.
  */
 @jakarta.ws.rs.Path("/api/fields")
 @Consumes({"application/geo+json", MediaType.APPLICATION_JSON, "application/geopackage+sqlite3"})
 @Produces(MediaType.APPLICATION_JSON)
 public final class FieldsResource {
-    static final int LARGEST = 16 << 20;
+    static final int MAX_BYTES = 16 << 20;
 
     private static final String FIELD = "field";
     private static final String NAME = "name";
     private static final String END = "validTo";
-    private static final int READERS = 4;
+    private static final int MAX_READERS = 4;
 
     private final FieldsTopic topic;
     private final CommandClient managers;
     private final FieldReader reader;
-    /** Files are read whole, and what is changed is read before: one at a time. */
-    private final Semaphore free = new Semaphore(1);
-    /** Each reads the whole topic. */
-    private final Semaphore readers = new Semaphore(READERS);
+    /** Permits one change at a time, because files are read into memory and changes depend on the current fields. */
+    private final Semaphore changePermit = new Semaphore(1);
+    /** Limits concurrent reads, because each reads the whole topic. */
+    private final Semaphore readers = new Semaphore(MAX_READERS);
 
     FieldsResource(Properties client, CommandClient managers, FieldReader reader) {
         this.topic = new FieldsTopic(client);
@@ -82,9 +82,9 @@ public final class FieldsResource {
     }
 
     /**
-     * The fields that there are now, as a FeatureCollection; each has {@code validFrom} among its properties.
+     * Lists the current fields as a FeatureCollection with {@code validFrom} among the properties.
      *
-     * @param domain only those that belong to it; null for all
+     * @param domain selects fields that belong to it; null for all
      */
     @GET
     public Response list(@QueryParam("domain") String domain) {
@@ -107,9 +107,10 @@ public final class FieldsResource {
     }
 
     /**
-     * What cannot be mended is refused by feature, the rest is written; a field that is as it was is not written again.
+     * Imports the fields of a file. Features that cannot be repaired are rejected one by one; unchanged fields are not
+     * written again.
      *
-     * @param domain of all of them; null for what each feature says. Further parameters are the options of the same names of
+     * @param domain of all fields; null to use that of each feature. Further parameters are the options of
      *     {@code ./furrow fields import}: {@code crs}, {@code layer}, {@code id-property}, {@code name-property}
      */
     @POST
@@ -119,7 +120,7 @@ public final class FieldsResource {
                 domain != null && !TopicName.isLegal(domain),
                 ErrorCode.WRONG_MEMBER,
                 "'domain' must be 1 to 64 of A-Z a-z 0-9 _ -");
-        if (!free.tryAcquire()) {
+        if (!changePermit.tryAcquire()) {
             throw ProblemException.overloaded();
         }
         RequestContext caller = RequestContext.of(request);
@@ -129,7 +130,7 @@ public final class FieldsResource {
         }
         try {
             FieldFile file = read(
-                    JsonBodyReader.bytes(body, LARGEST),
+                    JsonBodyReader.bytes(body, MAX_BYTES),
                     domain,
                     request.getUriInfo().getQueryParameters());
             ObjectNode answer = answer(file, write(file));
@@ -140,11 +141,11 @@ public final class FieldsResource {
             audit(caller, "import-fields", about, null, problem);
             throw problem;
         } finally {
-            free.release();
+            changePermit.release();
         }
     }
 
-    /** Renames a field or ends it: the body has either {@code name} or {@code validTo}, a time. */
+    /** Renames or ends a field: the body contains either {@code name} or {@code validTo}, a time. */
     @PATCH
     @jakarta.ws.rs.Path("{field}")
     @Consumes(MediaType.APPLICATION_JSON)
@@ -175,7 +176,7 @@ public final class FieldsResource {
         });
     }
 
-    /** Takes back all versions of a field, as if it had never been. */
+    /** Deletes all versions of a field, as if it had never existed. */
     @RolesAllowed(Role.ADMINS)
     @DELETE
     @jakarta.ws.rs.Path("{field}")
@@ -195,9 +196,9 @@ public final class FieldsResource {
         CommandResult apply() throws RejectedException, IOException;
     }
 
-    /** @param about what the edit adds to is audited and answered */
+    /** @param about members for audit and answer, to which the edit may add */
     private Response edit(RequestContext caller, String command, ObjectNode about, Edit edit) {
-        if (!free.tryAcquire()) {
+        if (!changePermit.tryAcquire()) {
             throw ProblemException.overloaded();
         }
         ProblemException problem;
@@ -211,13 +212,13 @@ public final class FieldsResource {
         } catch (IOException e) {
             problem = unavailable(e);
         } finally {
-            free.release();
+            changePermit.release();
         }
         audit(caller, command, about, null, problem);
         throw problem;
     }
 
-    /** Says what is unavailable, and what to do. */
+    /** Reports what is unavailable and what to do. */
     private static ProblemException unavailable(IOException cause) {
         return new ProblemException(503, "kafka-away", cause.getMessage());
     }
@@ -245,7 +246,7 @@ public final class FieldsResource {
         }
     }
 
-    /** A reason of the import: what are options there are parameters here. */
+    /** Replaces option names in a reason of the import by parameter names. */
     private static String withParameters(String reason) {
         return reason.replaceAll("--([a-z-]+)", "'$1'");
     }
@@ -281,9 +282,9 @@ public final class FieldsResource {
                     .put("change", each.kind().name().toLowerCase(Locale.ROOT));
             file.fields().get(field).notes().forEach(json.putArray("mended")::add);
         }
-        ArrayNode refused = answer.putArray("refused");
+        ArrayNode rejected = answer.putArray("refused");
         for (RejectedFeature each : file.refused()) {
-            refused.addObject()
+            rejected.addObject()
                     .put("feature", each.number())
                     .put("id", each.id())
                     .put("reason", withParameters(each.reason()));

@@ -15,7 +15,7 @@ import io.furrow.http.prometheus.MetricsPage;
 import io.furrow.kafka.Readiness;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** What reports the API itself, without a token: its description, whether it is ready, its numbers. */
+/** Serves the description, health, readiness and metrics of the API, without a token. */
 @Path("/")
 public final class HealthResource {
     private final Readiness readiness;
@@ -37,7 +37,7 @@ public final class HealthResource {
         return Response.ok(description).build();
     }
 
-    /** 200 unless a part has ended that only a restart brings back; the same as on the port for probes. */
+    /** 200 unless a part has ended that only a restart recovers; the same as on the port for probes. */
     @GET
     @Path("health")
     @Produces(MediaType.APPLICATION_JSON)
@@ -45,7 +45,7 @@ public final class HealthResource {
         return page(readiness.isAlive(), readiness.health());
     }
 
-    /** 200 where requests are answered, else 503; the same as on the port for probes. */
+    /** 200 if requests are answered, else 503; the same as on the port for probes. */
     @GET
     @Path("ready")
     @Produces(MediaType.APPLICATION_JSON)
@@ -53,10 +53,10 @@ public final class HealthResource {
         return page(readiness.isReady(), readiness.readiness());
     }
 
-    private static Response page(boolean good, ObjectNode page) {
+    private static Response page(boolean ok, ObjectNode page) {
         Response.ResponseBuilder answer =
-                JsonResponses.json(good ? 200 : 503, page).header("Cache-Control", "no-store");
-        return (good ? answer : answer.header("Retry-After", 1)).build();
+                JsonResponses.json(ok ? 200 : 503, page).header("Cache-Control", "no-store");
+        return (ok ? answer : answer.header("Retry-After", 1)).build();
     }
 
     @GET

@@ -25,9 +25,9 @@ import io.furrow.model.control.Limits;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Bodies of requests: one JSON object, as strictly read as everything else. */
+/** Reads the bodies of requests: one JSON object. */
 final class JsonBodyReader {
-    /** Who sends more sees his connection end. */
+    /** A connection that sends more is closed. */
     private static final long MAX_READ = 64L * 1024 * 1024;
 
     private static final Duration TIMEOUT = Duration.ofSeconds(10);
@@ -35,7 +35,7 @@ final class JsonBodyReader {
 
     private JsonBodyReader() {}
 
-    /** An empty body is an empty object. @throws ProblemException where it is not an object, or too large */
+    /** Returns an empty object for an empty body. @throws ProblemException if it is not an object or too large */
     static ObjectNode read(InputStream body) throws IOException {
         byte[] bytes = bytes(body, Limits.REQUEST_BYTES);
         if (bytes.length == 0) {
@@ -52,7 +52,7 @@ final class JsonBodyReader {
         throw new ProblemException(ErrorCode.NOT_A_REQUEST, "the body is not a JSON object");
     }
 
-    /** At most so many. What is too large is read too, or many a client would see no answer. */
+    /** Reads at most {@code max} bytes. A larger body is read too but discarded, else many clients would not see the answer. */
     static byte[] bytes(InputStream body, int max) throws IOException {
         ByteArrayOutputStream buffered = new ByteArrayOutputStream();
         if (read(body, max, buffered) > max) {
@@ -61,7 +61,7 @@ final class JsonBodyReader {
         return buffered.toByteArray();
     }
 
-    /** In time, because whoever sends slowly occupies a thread. */
+    /** Limits the time, because a slow client occupies a thread. */
     private static long read(InputStream body, int max, ByteArrayOutputStream buffered) throws IOException {
         long end = System.nanoTime() + TIMEOUT.toNanos();
         byte[] buffer = new byte[BUFFER_BYTES];
@@ -73,17 +73,17 @@ final class JsonBodyReader {
             }
             if (System.nanoTime() - end > 0) {
                 throw new ProblemException(
-                        408, "request-timeout", "the body did not come within %d s".formatted(TIMEOUT.toSeconds()));
+                        408, "request-timeout", "the body was not received within %d s".formatted(TIMEOUT.toSeconds()));
             }
         }
         return total;
     }
 
     /**
-     * Reads what was left of a body before the answer is written. Otherwise Jetty ends the connection while the client still sends, or sends
-     * its next request, and the client sees no answer. A resource that takes no body may answer on a thread that must not wait: its body is
-     * read before. Whoever is refused for who he is may occupy no thread: what has come is read, then his connection ends, and the answer
-     * says so.
+     * Reads the rest of a body before the answer is written. Otherwise Jetty would close the connection while the
+     * client still sends, and the client would not see the answer. A resource without a body may answer on a thread
+     * that must not block, therefore its body is read before. Unauthorized clients must not occupy a thread: only
+     * available bytes are read, and the answer announces that the connection is closed.
      */
     static final class Drain implements ContainerRequestFilter, ContainerResponseFilter {
         private static final Logger LOG = LoggerFactory.getLogger(Drain.class);
@@ -95,7 +95,7 @@ final class JsonBodyReader {
 
         @Override
         public void filter(ContainerRequestContext request) {
-            Method method = resource.getResourceMethod(); // null of what Jersey answers by itself
+            Method method = resource.getResourceMethod(); // null for requests that Jersey answers itself
             boolean takesBody =
                     method != null && Stream.of(method.getParameterTypes()).anyMatch(InputStream.class::equals);
             if (!takesBody) {
@@ -118,7 +118,7 @@ final class JsonBodyReader {
 
         private static void drain(ContainerRequestContext request) {
             if (CONTINUE.equalsIgnoreCase(request.getHeaderString("Expect"))) {
-                return; // the client sends none before it is asked to
+                return; // the client does not send the body before the server requests it
             }
             try {
                 read(request.getEntityStream(), 0, new ByteArrayOutputStream(0));

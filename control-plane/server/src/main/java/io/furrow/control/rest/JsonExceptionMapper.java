@@ -11,7 +11,7 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.control.rest.access.ProblemException;
 
-/** Every error as JSON with {@code error} and {@code reason}. */
+/** Maps every exception to JSON with {@code error} and {@code reason}. */
 public final class JsonExceptionMapper implements ExceptionMapper<Throwable> {
     private static final Logger LOG = LoggerFactory.getLogger(JsonExceptionMapper.class);
 
@@ -22,11 +22,11 @@ public final class JsonExceptionMapper implements ExceptionMapper<Throwable> {
         if (cause instanceof ProblemException problem) {
             return problem.response();
         }
-        if (cause instanceof WebApplicationException refused) {
-            Response.StatusType status = refused.getResponse().getStatusInfo();
+        if (cause instanceof WebApplicationException rejected) {
+            Response.StatusType status = rejected.getResponse().getStatusInfo();
             String code = status.getReasonPhrase().toLowerCase(Locale.ROOT).replace(' ', '-');
             Response answer = new ProblemException(status.getStatusCode(), code, sentence(status)).response();
-            String allowed = refused.getResponse().getHeaderString("Allow");
+            String allowed = rejected.getResponse().getHeaderString("Allow");
             return allowed == null
                     ? answer
                     : Response.fromResponse(answer).header("Allow", allowed).build();

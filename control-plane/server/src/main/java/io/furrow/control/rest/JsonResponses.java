@@ -13,7 +13,7 @@ import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** Answers in JSON. */
+/** Creates responses in JSON. */
 final class JsonResponses {
     private JsonResponses() {}
 
@@ -31,14 +31,19 @@ final class JsonResponses {
         return Response.status(status).type(MediaType.APPLICATION_JSON_TYPE).entity(NgsiJson.write(json));
     }
 
-    /** What a manager answered. */
+    /** Returns the answer of a manager. */
     static Response of(CommandResult answer) {
         return answer.error()
                 .map(error -> ProblemException.response(error, answer.json()))
                 .orElseGet(() -> json(200, answer.json()).build());
     }
 
-    /** What a manager answered, and where that is now. @param path before the name @param member with the name */
+    /**
+     * Returns the answer of a manager with the location of the created resource.
+     *
+     * @param path of the collection
+     * @param member with the name
+     */
     static Response created(CommandResult answer, String path, String member) {
         if (answer.error().isPresent()) {
             return of(answer);

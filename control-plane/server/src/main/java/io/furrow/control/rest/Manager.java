@@ -10,14 +10,14 @@ import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.model.control.CommandResult;
 
-/** A manager that requests are handed on to. */
+/** Sends requests to a manager. */
 record Manager(CommandClient client, String topic) {
-    /** @param members of the request but its type, command, id and user */
+    /** @param members of the request, except type, command, id and user */
     CompletionStage<CommandResult> request(ContainerRequestContext request, String command, ObjectNode members) {
         return client.request(new CommandClient.CommandRequest(topic, command, members), RequestContext.of(request));
     }
 
-    /** Answers as the manager does. */
+    /** Sends a request and returns the manager's answer as response. */
     CompletionStage<Response> command(ContainerRequestContext request, String command, ObjectNode members) {
         return request(request, command, members).thenApply(JsonResponses::of);
     }

@@ -37,7 +37,7 @@ import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** {@code /api/missions/{mission}/markers}: moments of a mission with a note, kept with what is stored of it. */
+/** {@code /api/missions/{mission}/markers}: notes at moments of a recorded mission, stored with its recording. */
 @Path("/api/missions/{mission}/markers")
 @Consumes(MediaType.APPLICATION_JSON)
 @Produces(MediaType.APPLICATION_JSON)
@@ -55,14 +55,14 @@ public final class MarkersResource {
         this.managers = managers;
     }
 
-    /** In the order of their times. */
+    /** Lists markers in the order of their times. */
     @GET
     public CompletionStage<Response> list(@PathParam(MISSION) String mission) {
         return store.request(markers -> markers.list(mission))
                 .thenApply(all -> JsonResponses.ok(all.stream().map(Marker::toJson)));
     }
 
-    /** The same {@link RequestContext#KEY} is the same marker. */
+    /** Adds a marker; a repeated {@link RequestContext#KEY} yields the same marker. */
     @POST
     public CompletionStage<Response> add(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission, InputStream body)
@@ -85,7 +85,7 @@ public final class MarkersResource {
         });
     }
 
-    /** A repeated request finds the marker of the first. */
+    /** Returns the existing marker for a repeated request. */
     private static Marker added(Markers markers, Marker marker) throws RejectedMarkerException, RecordingException {
         for (Marker each : markers.list(marker.mission(), marker.time(), marker.time() + 1)) {
             if (each.id().equals(marker.id()) && each.note().equals(marker.note())) {
@@ -121,7 +121,7 @@ public final class MarkersResource {
 
     private record Change(RequestContext caller, String command, String mission, String marker) {}
 
-    /** Puts it on the audit topic; throws the failure. @param failure null if there is none */
+    /** Audits a change and throws its failure. @param failure null if there is none */
     private void audit(Change change, String result, Throwable failure) {
         Throwable cause =
                 failure instanceof CompletionException && failure.getCause() != null ? failure.getCause() : failure;

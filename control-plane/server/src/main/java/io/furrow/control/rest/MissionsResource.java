@@ -47,7 +47,7 @@ public final class MissionsResource {
     private final Manager manager;
     private final DeviceCredentials credentials;
 
-    /** @param credentials null if none are given out */
+    /** @param credentials null if credentials are not available */
     MissionsResource(StateView view, CommandClient managers, DeviceCredentials credentials) {
         this.view = view;
         this.managers = managers;
@@ -55,7 +55,7 @@ public final class MissionsResource {
         this.credentials = credentials;
     }
 
-    /** Without their devices. @param domain null for all */
+    /** Lists missions without their devices. @param domain null for all */
     @GET
     public Response list(@QueryParam("domain") String domain) {
         return JsonResponses.ok(view.all(Topics.MISSIONS)
@@ -79,7 +79,7 @@ public final class MissionsResource {
                         ErrorCode.UNKNOWN_MISSION, "there is no mission '%s'".formatted(mission))))));
     }
 
-    /** The credentials of all its real devices, while it is started. */
+    /** Returns the credentials of all real devices of a started mission. */
     @GET
     @RolesAllowed(Role.ADMINS)
     @Path("{mission}/credentials")
@@ -87,7 +87,7 @@ public final class MissionsResource {
         return DevicesResource.secret(credentialsOf(request, mission));
     }
 
-    /** The same as a file for spreadsheets. */
+    /** Returns the credentials as a file for spreadsheets. */
     @GET
     @RolesAllowed(Role.ADMINS)
     @Path("{mission}/credentials")
@@ -102,7 +102,7 @@ public final class MissionsResource {
         ArrayNode all = NgsiJson.array();
         new DeviceView(view)
                 .of(mission).stream()
-                        .filter(device -> DeviceCredentials.has(device) && !device.simulated())
+                        .filter(device -> DeviceCredentials.areIssuedFor(device) && !device.simulated())
                         .forEach(device -> all.add(credentials.of(device)));
         managers.audit(AuditEntry.ofDevice(
                 System.currentTimeMillis(), RequestContext.user(request), "credentials", named(mission), null));
@@ -125,7 +125,7 @@ public final class MissionsResource {
         return manager.command(request, "delete", named(mission));
     }
 
-    /** Makes it if there is none. */
+    /** Starts a mission, and creates it if it does not exist. */
     @POST
     @Path("{mission}/start")
     public CompletionStage<Response> start(
@@ -141,14 +141,14 @@ public final class MissionsResource {
         return manager.command(request, "stop", named(mission));
     }
 
-    /** The mission as it is requested, and how far it is. */
+    /** Adds the status of a mission. */
     private ObjectNode withStatus(ObjectNode desired) {
         view.find(Topics.MISSIONS_STATUS, desired.path(MISSION).asText())
                 .ifPresent(status -> desired.set("status", status));
         return desired;
     }
 
-    /** The mission with its device list, part by part. */
+    /** Adds the device list of a mission. */
     private ObjectNode withDevices(ObjectNode mission) {
         if (!mission.has(DEVICES)) {
             ArrayNode devices = mission.putArray(DEVICES);

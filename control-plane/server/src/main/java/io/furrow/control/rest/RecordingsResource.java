@@ -23,7 +23,7 @@ import io.furrow.model.control.ErrorCode;
 import io.furrow.model.topic.TopicName;
 import io.furrow.model.topic.Topics;
 
-/** {@code /api/recordings}: the missions that are stored, and how their events lie in time. */
+/** {@code /api/recordings}: recorded missions and the distribution of their events over time. */
 @Path("/api/recordings")
 @Produces(MediaType.APPLICATION_JSON)
 public final class RecordingsResource {
@@ -34,13 +34,13 @@ public final class RecordingsResource {
 
     private final StateView view;
     private final EventTiles events;
-    private final Executor answering;
+    private final Executor executor;
 
-    /** @param events null if there is no MongoDB @param answering answers are made by it */
-    RecordingsResource(StateView view, EventTiles events, Executor answering) {
+    /** @param events null if there is no MongoDB @param executor creates the answers */
+    RecordingsResource(StateView view, EventTiles events, Executor executor) {
         this.view = view;
         this.events = events;
-        this.answering = answering;
+        this.executor = executor;
     }
 
     @GET
@@ -49,10 +49,10 @@ public final class RecordingsResource {
     }
 
     /**
-     * How many events a mission has, bucket by bucket; of all of it unless said.
+     * Returns the number of events of a mission per bucket, by default over the whole mission.
      *
-     * @param froms at most one, ISO 8601 or epoch ms; as {@code tos}, which is exclusive
-     * @param buckets at most one, how many at most
+     * @param froms at most one, ISO 8601 or epoch ms; {@code tos} likewise, exclusive
+     * @param buckets at most one: the maximum number of buckets
      */
     @GET
     @Path("{mission}/timeline")
@@ -75,7 +75,7 @@ public final class RecordingsResource {
                             .formatted(Instant.ofEpochMilli(extent.first()), Instant.ofEpochMilli(extent.last())));
         }
         return MissionTimeline.of(mission, extent, from, to, number(buckets))
-                .count(events, answering)
+                .count(events, executor)
                 .thenApply(JsonResponses::ok);
     }
 
@@ -87,32 +87,32 @@ public final class RecordingsResource {
                 recording.path("first").asLong(), recording.path("last").asLong());
     }
 
-    private static int number(List<String> given) {
+    private static int number(List<String> values) {
         try {
-            int number = given.isEmpty() ? BUCKETS : Integer.parseInt(given.get(0));
-            if (given.size() < 2 && number >= 1 && number <= MissionTimeline.MAX_BUCKETS) {
+            int number = values.isEmpty() ? BUCKETS : Integer.parseInt(values.get(0));
+            if (values.size() < 2 && number >= 1 && number <= MissionTimeline.MAX_BUCKETS) {
                 return number;
             }
         } catch (NumberFormatException e) {
-            // as of a number that is too large
+            // rejected below
         }
         throw new ProblemException(
                 ErrorCode.WRONG_MEMBER, "'buckets' must be a number from 1 to " + MissionTimeline.MAX_BUCKETS);
     }
 
-    private static long time(String name, List<String> given, long otherwise) {
-        if (given.isEmpty()) {
-            return otherwise;
+    private static long time(String name, List<String> values, long defaultTime) {
+        if (values.isEmpty()) {
+            return defaultTime;
         }
         try {
-            String text = given.get(0);
+            String text = values.get(0);
             Instant time =
                     text.matches("-?\\d{1,15}") ? Instant.ofEpochMilli(Long.parseLong(text)) : Instant.parse(text);
             if (!time.isBefore(FIRST_TIME) && !time.isAfter(LAST_TIME)) {
                 return time.toEpochMilli();
             }
         } catch (DateTimeException e) {
-            // as of a time that is too early or too late
+            // rejected below
         }
         throw new ProblemException(
                 ErrorCode.WRONG_MEMBER,

@@ -12,7 +12,7 @@ import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.rest.view.ReplayFeeds;
 
-/** {@code /api/replays/events}: replays as server-sent events. */
+/** {@code /api/replays/events}: changes of replays as server-sent events. */
 @Path("/api/replays")
 @Produces({MediaType.SERVER_SENT_EVENTS, MediaType.APPLICATION_JSON})
 public final class ReplayFeedResource {
@@ -22,28 +22,28 @@ public final class ReplayFeedResource {
         this.feeds = feeds;
     }
 
-    /** Whether one may follow all; a stream without a body would never be left. */
+    /** Tells whether the caller may follow all replays, without opening a stream. */
     @HEAD
     @Path("events")
     public Response probeAll() {
         return Response.ok().type(MediaType.SERVER_SENT_EVENTS).build();
     }
 
-    /** Whether one may follow one. */
+    /** Tells whether the caller may follow a replay. */
     @HEAD
     @Path("{replay}/events")
     public Response probeOne() {
         return probeAll();
     }
 
-    /** Of all replays. */
+    /** Streams the changes of all replays. */
     @GET
     @Path("events")
     public void all(@Suspended AsyncResponse response) {
         feeds.open(null, response);
     }
 
-    /** Of one, until it is over. */
+    /** Streams the changes of a replay until it is over. */
     @GET
     @Path("{replay}/events")
     public void one(@PathParam("replay") String replay, @Suspended AsyncResponse response) {

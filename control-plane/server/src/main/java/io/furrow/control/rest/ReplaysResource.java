@@ -22,7 +22,7 @@ import io.furrow.control.rest.view.ReplayStatusView;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
-/** {@code /api/replays}, and {@code /api/replays/groups} of those that follow one clock. */
+/** {@code /api/replays}, and {@code /api/replays/groups} for replays that follow a common clock. */
 @Path("/api/replays")
 @Consumes(MediaType.APPLICATION_JSON)
 @Produces(MediaType.APPLICATION_JSON)
@@ -66,8 +66,8 @@ public final class ReplaysResource {
     }
 
     /**
-     * @param command {@code to} belongs to {@code seek}, {@code speed} to {@code speed}, {@code count} to {@code step}, {@code from} and
-     *     {@code to} to {@code loop}
+     * @param command {@code seek} has the member {@code to}, {@code speed} {@code speed}, {@code step} {@code count},
+     *     {@code loop} {@code from} and {@code to}
      */
     @POST
     @Path("{replay}" + COMMANDS)
@@ -93,7 +93,7 @@ public final class ReplaysResource {
         return manager.command(request, "stop", none().put(GROUP, group));
     }
 
-    /** @param command as of a single replay, but no {@code step} */
+    /** @param command as for a single replay, except {@code step} */
     @POST
     @Path("groups/{group}" + COMMANDS)
     public CompletionStage<Response> steerGroup(

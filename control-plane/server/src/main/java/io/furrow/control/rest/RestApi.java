@@ -53,13 +53,13 @@ import io.furrow.model.field.FieldReader;
 import io.furrow.model.text.FailureText;
 
 /**
- * The REST API of the control plane. It shares nothing with the managers but their topics, so any number of instances, beside
- * the managers or away from them, answer alike.
+ * Runs the REST API of the control plane. It communicates with the managers only through topics, so that any number of
+ * instances can run, in the same process or elsewhere.
  */
 public final class RestApi implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(RestApi.class);
     private static final int THREADS = 32;
-    private static final long STOPPING_MS = 2000;
+    private static final long STOP_TIMEOUT_MS = 2000;
 
     private final QueuedThreadPool threads = new QueuedThreadPool(THREADS, 2);
     private final StateView view = new StateView();
@@ -76,27 +76,27 @@ public final class RestApi implements AutoCloseable {
 
     private RestApi(ControlSettings control, RestSettings rest, Readiness readiness) {
         metrics = new RestMetrics(view, answers, readiness);
-        // A manager may remember an id by a twelfth longer than was asked for.
+        // A manager may retain an id longer by a twelfth, see RequestLog.
         reader = new StateViewUpdater(
-                control.client(), control.remembered().multipliedBy(13).dividedBy(12), view, answers);
+                control.client(), control.requestRetention().multipliedBy(13).dividedBy(12), view, answers);
         managers = new CommandClient(control.client(), answers, view, rest.timeout(), threads);
         markers = new MarkerStore(control.replays(), threads);
         events = EventTiles.of(control.replays());
         view.listen(feeds);
     }
 
-    /** Starts an API that reads no field files. @throws IOException as the other start */
+    /** Starts an API that cannot import field files. @throws IOException as the other start */
     public static RestApi start(ControlSettings control, RestSettings rest, Readiness readiness) throws IOException {
         return start(control, rest, readiness, FieldReader.NONE);
     }
 
     /**
-     * Prepares the topics and listens; until they are read, requests are answered with 503.
+     * Prepares the topics and starts listening; until the topics are read, requests are answered with 503.
      *
-     * @param readiness of this process, to which the API adds itself
-     * @param fields reads the files that are sent to it
-     * @throws IOException if the topics cannot be prepared, the farm has another secret, tokens or certificate cannot be
-     *     read, or the port is taken
+     * @param readiness of this process, to which the API is added
+     * @param fields reads imported files
+     * @throws IOException if the topics cannot be prepared, the farm has another secret, tokens or certificate cannot
+     *     be read, or the port is in use
      */
     public static RestApi start(ControlSettings control, RestSettings rest, Readiness readiness, FieldReader fields)
             throws IOException {
@@ -118,8 +118,8 @@ public final class RestApi implements AutoCloseable {
     }
 
     /**
-     * Prepares the topics, and refuses an address or a secret that {@link #start} would refuse: before managers join the others, whose
-     * work would stop for a moment each time such a process is started.
+     * Prepares the topics and checks address and secret like {@link #start}. Called before managers join their group,
+     * so that a process with wrong settings does not trigger a rebalance.
      *
      * @throws IOException as {@link #start}
      */
@@ -170,7 +170,7 @@ public final class RestApi implements AutoCloseable {
         return config;
     }
 
-    /** Jersey warns of resources that are registered as instances, though it takes them. */
+    /** Binds resources as instances, because Jersey warns if instances are registered directly. */
     private static final class Instances extends AbstractBinder {
         private final List<Object> instances;
 
@@ -193,22 +193,22 @@ public final class RestApi implements AutoCloseable {
         connector.setHost(rest.host());
         connector.setPort(rest.port());
         server.addConnector(connector);
-        server.setStopTimeout(STOPPING_MS);
+        server.setStopTimeout(STOP_TIMEOUT_MS);
         threads.setName("control-plane-rest");
         ServletHolder servlet = new ServletHolder(new ServletContainer(resources));
         servlet.setAsyncSupported(true);
         ServletContextHandler context = new ServletContextHandler("/");
         context.addServlet(servlet, "/*");
-        context.setErrorHandler(RestApi::refuse);
-        server.setErrorHandler(RestApi::refuse);
+        context.setErrorHandler(RestApi::reject);
+        server.setErrorHandler(RestApi::reject);
         AccessRule rule = AccessRule.allowing(rest.allowed(), OptionNames.FLAGS)
                 .servedAs(rest.host())
                 .withProbes("/health", "/ready");
-        // Tokens are no exemption: a page may know one that its reader typed.
+        // Applies to requests with tokens too, because a page may have one that its user entered.
         server.setHandler(new AccessHandler(
                 rule,
-                refused ->
-                        CommandResult.ofError(refused.error(), refused.reason()).toBytes(),
+                rejection -> CommandResult.ofError(rejection.error(), rejection.reason())
+                        .toBytes(),
                 context));
         try {
             server.start();
@@ -219,12 +219,12 @@ public final class RestApi implements AutoCloseable {
                     e);
         }
         if (tls != null) {
-            tls.follow(server);
+            tls.watch(server);
         }
     }
 
-    /** What comes no further than to the HTTP server, as a path that has two readings. */
-    private static boolean refuse(Request request, Response response, Callback callback) {
+    /** Answers requests that the HTTP server itself rejects, such as ambiguous paths. */
+    private static boolean reject(Request request, Response response, Callback callback) {
         String reason = HttpStatus.getMessage(response.getStatus());
         CommandResult refusal = CommandResult.ofError(
                 reason.toLowerCase(Locale.ROOT).replace(' ', '-'), "the HTTP server refuses the request: " + reason);
@@ -233,19 +233,19 @@ public final class RestApi implements AutoCloseable {
         return true;
     }
 
-    /** Where it listens. */
+    /** Returns the address on which it listens. */
     public URI uri() {
         ServerConnector connector = (ServerConnector) server.getConnectors()[0];
         String scheme = connector.getConnectionFactory(SslConnectionFactory.class) == null ? "http" : "https";
         return URI.create(scheme + "://" + connector.getHost() + ":" + connector.getLocalPort());
     }
 
-    /** For a port of its own: the metrics in the text format of Prometheus. */
+    /** Returns the metrics in the text format of Prometheus, for the port of probes. */
     public byte[] metrics() {
         return metrics.page();
     }
 
-    /** Whether what there is can be read. */
+    /** Whether the topics were read. */
     public boolean isReady() {
         return view.isComplete();
     }

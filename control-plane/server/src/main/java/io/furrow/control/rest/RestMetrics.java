@@ -24,11 +24,11 @@ import io.furrow.kafka.ComponentStatus;
 import io.furrow.kafka.Readiness;
 import io.furrow.model.topic.Topics;
 
-/** Counts requests, and writes that and what the view holds in the text format of Prometheus. */
+/** Counts requests, and writes the counts and the content of the view in the text format of Prometheus. */
 @PreMatching
 final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilter {
     private static final Set<String> METHODS = Set.of("GET", "HEAD", "OPTIONS", "POST", "PATCH", "PUT", "DELETE");
-    private static final String BEGUN = "furrow.begun";
+    private static final String STARTED = "furrow.begun";
     private static final String STATE = "state";
 
     private final StateView view;
@@ -48,7 +48,7 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
 
     @Override
     public void filter(ContainerRequestContext request) {
-        request.setProperty(BEGUN, System.nanoTime());
+        request.setProperty(STARTED, System.nanoTime());
     }
 
     @Override
@@ -57,12 +57,12 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
         Route route = new Route(method, path(request), response.getStatus());
         Count count = counts.computeIfAbsent(route, any -> new Count(new LongAdder(), new LongAdder()));
         count.requests().increment();
-        if (request.getProperty(BEGUN) instanceof Long begun) {
-            count.nanos().add(System.nanoTime() - begun);
+        if (request.getProperty(STARTED) instanceof Long started) {
+            count.nanos().add(System.nanoTime() - started);
         }
     }
 
-    /** As it is declared, so that names do not become labels. */
+    /** Returns the declared path, so that names do not become labels. */
     private static String path(ContainerRequestContext request) {
         StringBuilder path = new StringBuilder();
         if (request.getUriInfo() instanceof ExtendedUriInfo matched) {
@@ -77,12 +77,12 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
         MetricsPage page = new MetricsPage("furrow_control_");
         page.gauge(
                 "part_up",
-                "1 where a part of this instance, or something that it speaks with, works.",
+                "1 if a part of this instance or a dependency works.",
                 readiness.statuses().stream()
                         .map(part -> new Point(part.state() == ComponentStatus.State.UP ? 1 : 0, "part", part.name())));
         page.counter(
                 "answers",
-                "Answers of the managers, to whomever, that were read since this instance was ready.",
+                "Answers of the managers to any client, read since this instance was ready.",
                 answers.counts().entrySet().stream()
                         .map(count -> new Point(
                                 count.getValue().sum(),
@@ -92,12 +92,12 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
                                 count.getKey().status())));
         page.counter("requests", "Requests to the REST API that were answered.", counted(Count::requests, 1));
         page.counter(
-                "request_seconds", "Seconds between requests and their answers, added up.", counted(Count::nanos, 1e9));
-        page.gauge("awaited", "Requests whose answer a manager owes.", answers.awaited());
-        page.gauge("view_complete", "1 where the topics were read to their ends.", view.isComplete() ? 1 : 0);
+                "request_seconds", "Total seconds between requests and their answers.", counted(Count::nanos, 1e9));
+        page.gauge("awaited", "Requests that wait for the answer of a manager.", answers.pending());
+        page.gauge("view_complete", "1 if the topics were read to their ends.", view.isComplete() ? 1 : 0);
         if (view.isComplete()) {
             page.gauge("missions", "Missions by state.", byState(Topics.MISSIONS_STATUS));
-            page.gauge("devices", "Devices by what their hosts say.", byState(Topics.DEVICES_STATUS));
+            page.gauge("devices", "Devices by the state that their hosts report.", byState(Topics.DEVICES_STATUS));
             page.gauge("alarms", "Alarms by state.", byState(Topics.ALARMS));
         }
         return page.write();

@@ -13,20 +13,20 @@ import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.file.AccessToken;
 
 /**
- * What the REST API is started with.
+ * Settings of the REST API.
  *
- * @param host address to listen on; another than a loopback address needs {@code tokens}, and {@code certificate} or {@code
- *     insecure}
+ * @param host address to listen on; other than loopback addresses require {@code tokens}, and {@code certificate} or
+ *     {@code insecure}
  * @param port 0 for a free one
- * @param timeout how long a request to a manager waits for its answer before the client is asked to repeat
- * @param tokens file of lines {@code <name> <token> <role>}; null if no token is asked for
+ * @param timeout how long a request waits for a manager's answer before the client is asked to repeat it
+ * @param tokens file of lines {@code <name> <token> <role>}; null if no token is required
  * @param certificate of TLS; null for plain HTTP
- * @param insecure whether other addresses may be reached over plain HTTP, because a proxy in front ends TLS
- * @param contextBroker through which commands go to devices; null if none do
- * @param token of requests to it
- * @param secret of which the devices' credentials are made; null if they are not given out
- * @param mqtt the MQTT broker as devices reach it, {@code mqtt://} or {@code mqtts://}; null if it is not known
- * @param allowed hosts and origins beside loopback and {@code host}, whether tokens are asked for or not
+ * @param insecure whether other addresses may be served over plain HTTP, because a proxy terminates TLS
+ * @param contextBroker receives commands to devices; null if commands are not supported
+ * @param token of requests to the context broker
+ * @param secret from which the devices' credentials are derived; null if they are not available
+ * @param mqtt address of the MQTT broker for devices, {@code mqtt://} or {@code mqtts://}; null if unknown
+ * @param allowed hosts and origins besides loopback and {@code host}, with or without tokens
  */
 public record RestSettings(
         String host,
@@ -48,7 +48,7 @@ public record RestSettings(
         Objects.requireNonNull(allowed);
     }
 
-    /** On 127.0.0.1, over plain HTTP, without tokens, commands to devices and credentials. */
+    /** Returns settings for 127.0.0.1 over plain HTTP, without tokens, commands to devices and credentials. */
     public static RestSettings on(int port) {
         return new RestSettings(
                 "127.0.0.1", port, TIMEOUT, null, null, false, null, AccessToken.NONE, null, null, AllowedNames.NONE);
@@ -104,7 +104,7 @@ public record RestSettings(
                 host, port, timeout, tokens, certificate, insecure, contextBroker, token, secret, mqtt, names);
     }
 
-    /** @throws IOException where it would listen with less than its address needs; the message says what to do */
+    /** @throws IOException if the address requires tokens or TLS that are not configured; the message says what to do */
     public void check() throws IOException {
         if (InetAddress.getByName(host).isLoopbackAddress()) {
             return;

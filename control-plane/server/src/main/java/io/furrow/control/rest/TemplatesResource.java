@@ -30,7 +30,7 @@ import io.furrow.model.control.Role;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
-/** {@code /api/templates}; what it gives of one can be given to it again. */
+/** {@code /api/templates}; a returned template can be saved again. */
 @Path("/api/templates")
 @Consumes(MediaType.APPLICATION_JSON)
 @Produces(MediaType.APPLICATION_JSON)
@@ -47,13 +47,13 @@ public final class TemplatesResource {
         this.manager = new Manager(managers, Topics.MISSION_MANAGER);
     }
 
-    /** All versions. */
+    /** Lists all versions. */
     @GET
     public Response list() {
         return JsonResponses.ok(view.all(Topics.TEMPLATES));
     }
 
-    /** Keeps the next version. */
+    /** Saves a template as its next version. */
     @POST
     public CompletionStage<Response> save(@Context ContainerRequestContext request, InputStream body)
             throws IOException {

@@ -1,2 +1,2 @@
-/** The REST API: commands become requests to the managers, reads come from a view of their topics. */
+/** Serves the REST API: commands become requests to the managers, reads come from a view of their topics. */
 package io.furrow.control.rest;

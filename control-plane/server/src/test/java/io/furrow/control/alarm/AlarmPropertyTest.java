@@ -24,14 +24,14 @@ import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Random causes, ends, commands and passing time; after each step the alarms are sound. */
+/** Applies random causes, ends, commands and passing time; after each step the alarms are consistent. */
 @Tag("full")
 class AlarmPropertyTest {
     private static final int FARMS = 20;
     private static final int STEPS = 200;
 
     @Test
-    void isSoundWhateverHappensAndIsRequested(TestInfo test, TestReporter reporter) {
+    void staysConsistentUnderRandomEvents(TestInfo test, TestReporter reporter) {
         long seed = System.nanoTime();
         reporter.publishEntry(test.getDisplayName(), "seed " + seed);
         int refused = 0;
@@ -163,7 +163,7 @@ class AlarmPropertyTest {
             return "s" + random.nextInt(2 * AlarmLimit.MAX_ALARMS);
         }
 
-        /** No alarm goes back, and none vanishes within a day. */
+        /** Alarms only proceed in their life cycle, and none is removed within a day. */
         private void checkLives() {
             before.forEach((id, state) -> {
                 AlarmState after = alarms.get(id).state();
@@ -188,7 +188,7 @@ class AlarmPropertyTest {
             assertThat(current.all()).as(label).hasSameSizeAs(keys);
         }
 
-        /** It shows each alarm as it is, but for how often it was seen since its last change. */
+        /** The topic contains each alarm, except observations since its last change. */
         private void checkTopic() {
             Map<String, byte[]> shown = publisher.compacted(Topics.ALARMS);
             assertThat(shown).as(label).hasSameSizeAs(alarms.all());
@@ -207,7 +207,7 @@ class AlarmPropertyTest {
             });
         }
 
-        /** A cause that lasts has an alarm or is counted, unless somebody closed its alarm; and the counts are right. */
+        /** An active cause has an alarm or is counted, unless a user closed its alarm; and the counts are correct. */
         private void checkLimits() {
             Map<String, Integer> open = new HashMap<>();
             Map<String, Integer> counts = new HashMap<>();

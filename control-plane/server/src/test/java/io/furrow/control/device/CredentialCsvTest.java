@@ -16,7 +16,7 @@ class CredentialCsvTest {
              "example": "mosquitto_pub -m '{\\"t\\":21}'"}""";
 
     @Test
-    void writesWhatASpreadsheetReads() throws Exception {
+    void writesCsvForSpreadsheets() throws Exception {
         assertThat(CredentialCsv.of(List.of(NgsiJson.mapper().readTree(DEVICE))))
                 .isEqualTo(
                         "device,deviceId,host,port,tls,user,password,apiKey,measures,commands,results,attributes,example\r\n"

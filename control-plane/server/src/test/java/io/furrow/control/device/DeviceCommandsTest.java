@@ -47,7 +47,7 @@ class DeviceCommandsTest {
     @ParameterizedTest
     @ValueSource(
             strings = {"3", "2.50", "840380235174088834", "true", "false", "null", "\"007\"", "{\"l\":[1,2.5]}", "[]"})
-    void sendsAValueAsWhatItIs(String value) throws Exception {
+    void preservesTheTypeOfAValue(String value) throws Exception {
         JsonNode json = NgsiJson.read(value.getBytes(UTF_8));
 
         commands()
@@ -60,7 +60,7 @@ class DeviceCommandsTest {
                 .endsWith("{\"on\":{\"type\":\"command\",\"value\":" + value + "}}");
     }
 
-    /** Asking again helps where the context broker, or a proxy in front of it, is not there. */
+    /** A retry helps only if the context broker, or a proxy in front of it, is unavailable. */
     @ParameterizedTest
     @CsvSource(
             quoteCharacter = '`',
@@ -73,7 +73,7 @@ class DeviceCommandsTest {
                 "404,<html>nginx</html>,",
                 "503,{\"error\":\"busy\"},"
             })
-    void distinguishesARefusalFromAnOutage(int answered, String body, Integer refused) {
+    void distinguishesRejectionsFromOutages(int answered, String body, Integer refused) {
         status = answered;
         answer = body == null ? "" : body;
 
@@ -85,7 +85,7 @@ class DeviceCommandsTest {
     }
 
     @Test
-    void recognizesARobotByItsAttributeCmdAndThatNothingIsAnsweredYet() throws Exception {
+    void sendsACommandToARobotInItsAttributeCmd() throws Exception {
         commands().send("urn:ngsi-ld:Robot:m-1", "Robot", "Stop", "");
 
         commands().send("urn:ngsi-ld:Robot:m-1", "ROBOT", "Stop", "");
@@ -107,7 +107,7 @@ class DeviceCommandsTest {
     }
 
     @Test
-    void reportsWhatTheContextBrokerRefused() {
+    void reportsARejection() {
         status = 422;
         answer = "{\"error\":\"Unprocessable\",\"description\":\"do not exist: urn:x/Thermometer - [ blink ]\"}";
 
@@ -118,7 +118,7 @@ class DeviceCommandsTest {
     }
 
     @Test
-    void reportsThatADeviceTakesCommandsFromItsFirstMeasureOn() {
+    void explainsThatADeviceAcceptsCommandsAfterItsFirstReport() {
         status = 404;
         answer = "{\"error\":\"NotFound\",\"description\":\"The requested entity has not been found\"}";
 
@@ -128,7 +128,7 @@ class DeviceCommandsTest {
     }
 
     @Test
-    void reportsThatTheContextBrokerIsUnavailable() {
+    void reportsAnUnavailableContextBroker() {
         DeviceCommands commands = commands();
         broker.close();
 

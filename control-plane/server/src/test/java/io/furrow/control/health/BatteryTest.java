@@ -15,7 +15,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
-/** The page of the dashboard is held to the same table. */
+/** The dashboard's page is tested with the same table. */
 class BatteryTest {
     private static final Path TABLE = Path.of("../../kit/model/src/test/resources/io/furrow/model/ngsi/batteries.csv");
 

@@ -30,7 +30,7 @@ class DeviceHealthTrackerTest {
     private static final String KEY = "|/|" + ID;
     private static final String OVER = "its devices report again or were stopped";
     private static final long START = 1_700_000_000_000L;
-    /** Three periods, and the timeout with devices that come up. */
+    /** Three periods plus the timeout. */
     private static final long LONG_ENOUGH = 30_000 + DeviceHealthTracker.TIMEOUT.toMillis();
 
     private final MapTable<byte[]> desired = new MapTable<>(Function.identity(), Function.identity());
@@ -41,7 +41,7 @@ class DeviceHealthTrackerTest {
     private DeviceHealthTracker tracker = tracker();
 
     @Test
-    void raisesAnAlarmOfADeviceThatNeverReported() {
+    void raisesAnAlarmForADeviceThatNeverReported() {
         addDesired("m", START);
         tracker.passTime(START);
         assertThat(existing().silent()).isFalse();
@@ -54,7 +54,7 @@ class DeviceHealthTrackerTest {
                 .containsExactly("1 of 1 device of mission m is silent: " + ID);
     }
 
-    /** As it was first said: an alarm that counts would be delivered again and again. */
+    /** The count in the text is not updated, because the alarm would be delivered again and again. */
     @Test
     void reportsWhyADeviceIsSilent() {
         addDesired("m", START);
@@ -82,7 +82,7 @@ class DeviceHealthTrackerTest {
     }
 
     @Test
-    void endsTheAlarmAtTheFirstSignOfLife() {
+    void endsTheAlarmAtTheFirstHeartbeat() {
         addDesired("m", START);
         tracker.passTime(START);
         tracker.passTime(START + LONG_ENOUGH + 10_000);
@@ -96,7 +96,7 @@ class DeviceHealthTrackerTest {
     }
 
     @Test
-    void missesADeviceWhoseListenerDied() {
+    void detectsSilenceAfterTheDetectorDied() {
         addDesired("m", START);
         tracker.take(KEY, heartbeat(false, START), START);
         tracker.passTime(START + 10_000);
@@ -107,10 +107,10 @@ class DeviceHealthTrackerTest {
     }
 
     @Test
-    void holdsNothingAgainstADeviceThatWasNotListenedTo() {
+    void detectsNoSilenceForTheTimeOfAnOutage() {
         addDesired("m", START);
         tracker.take(KEY, heartbeat(false, START), START);
-        tracker = tracker(); // and the control plane was unavailable for a day
+        tracker = tracker(); // while the control plane was unavailable for a day
         long back = START + Duration.ofDays(1).toMillis();
         tracker.passTime(back);
         tracker.passTime(back + LONG_ENOUGH);
@@ -118,7 +118,7 @@ class DeviceHealthTrackerTest {
     }
 
     @Test
-    void passesOverSilenceThatAnotherListenerHasDisproved() {
+    void ignoresASilenceOlderThanAReport() {
         addDesired("m", START);
         tracker.take(KEY, heartbeat(false, START + 5), START + 5);
         tracker.take(KEY, heartbeat(true, START), START + 31_000);
@@ -130,7 +130,7 @@ class DeviceHealthTrackerTest {
     }
 
     @Test
-    void forgetsADeviceThatIsNotDesiredAnyMoreAndEndsItsAlarm() {
+    void removesADeviceThatIsNoLongerDesiredAndEndsItsAlarm() {
         addDesired("m", START);
         tracker.take(KEY, heartbeat(true, START), START);
         tracker.passTime(START);
@@ -144,7 +144,7 @@ class DeviceHealthTrackerTest {
     }
 
     @Test
-    void closesAlarmsOfSilenceThatNothingIsTheCauseOf() {
+    void closesAlarmsWithoutACause() {
         Cause single = new Cause(AlarmKind.SILENT_DEVICE, ID, "x", List.of(), null);
         alarms.raise(single, START);
         addDesired("m", START);
@@ -153,7 +153,7 @@ class DeviceHealthTrackerTest {
     }
 
     @Test
-    void writesNothingWhereNothingChanged() {
+    void writesNothingWithoutChanges() {
         addDesired("m", START);
         tracker.take(KEY, heartbeat(false, START), START);
         int written = publisher.all().size();

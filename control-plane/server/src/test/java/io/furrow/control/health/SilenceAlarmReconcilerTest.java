@@ -26,7 +26,7 @@ class SilenceAlarmReconcilerTest {
     private final AlarmCommandHandler alarms = AlarmHandlerFixture.writingTo(publisher);
 
     @Test
-    void reportsAfterARestartThatNothingArrivesUntilSomethingDoes() {
+    void retainsTheFarmAlarmAfterARestartUntilReportsArrive() {
         silent().reconcile(NOW - HOUR, NOW);
         assertThat(farm()).contains("nothing arrives");
 
@@ -43,7 +43,7 @@ class SilenceAlarmReconcilerTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"%s", "|/|%s", "|/|Thermometer|%s"})
-    void leavesOutADeviceThatIsMutedByItsIdOrIdentity(String form) throws Exception {
+    void ignoresADeviceThatIsMutedByIdOrIdentity(String form) throws Exception {
         for (int i = 0; i < 5; i++) {
             String muted = form.formatted("urn:t:" + i);
             alarms.answer(

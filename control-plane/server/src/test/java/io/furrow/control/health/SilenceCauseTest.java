@@ -18,7 +18,7 @@ class SilenceCauseTest {
     private static final UnreadablePayload UNREADABLE = new UnreadablePayload(4, START + 4000, "no JSON", "{");
 
     @Test
-    void reportsTheNewestOfWhatWasObserved() {
+    void returnsTheNewestObservation() {
         assertThat(text(null, REFUSED, null, null, null))
                 .isEqualTo("its user furrow.d.m.d.1.0 does not exist or no longer, and was refused 2 times, last at "
                         + AT + "2Z");
@@ -29,13 +29,13 @@ class SilenceCauseTest {
     }
 
     @Test
-    void leavesOutWhatIsOver() {
+    void ignoresObservationsBeforeTheLastReport() {
         assertThat(text(START + 2500, REFUSED, null, null, START)).startsWith("it connected at " + AT + "2Z");
         assertThat(text(START, REFUSED, FOREIGN, UNREADABLE, START + 5000)).isEmpty();
     }
 
     @Test
-    void reportsThatADeviceNeverConnectedOrSaysNothing() {
+    void reportsADeviceThatNeverConnectedOrSendsNothing() {
         assertThat(text(null, null, null, null, null))
                 .isEqualTo("it has not connected to the MQTT broker since " + AT + "0Z");
         assertThat(text(START + 1000, null, null, null, START))
@@ -43,19 +43,19 @@ class SilenceCauseTest {
     }
 
     @Test
-    void reportsNothingWhereNobodyObservesLogins() {
+    void reportsNothingIfLoginsAreNotObserved() {
         assertThat(SilenceCause.of(new DeviceConnection(null, null, null, null, null, true), null))
                 .isEmpty();
     }
 
     @Test
-    void reportsThatTheAgentLacksIt() {
+    void reportsAMissingRegistration() {
         assertThat(SilenceCause.of(new DeviceConnection(START, START, REFUSED, null, null, false), null))
                 .contains(new SilenceCause("not-registered", "the IoT Agent does not know it", 0));
     }
 
     @Test
-    void reportsOnceOfWhatHappenedOnce() {
+    void usesTheSingularForOneEvent() {
         RefusedLogin refused = new RefusedLogin(1, START + 2000, DeviceConnection.WRONG_PASSWORD, "u");
         assertThat(text(null, refused, null, null, null)).isEqualTo("its password was refused once, at " + AT + "2Z");
         assertThat(text(START, null, new ForeignTopic(1, START + 3000, "/k/e/attrs"), null, null))
@@ -65,7 +65,7 @@ class SilenceCauseTest {
     }
 
     @Test
-    void findsTheBestReasonOfADeviceThatHasNotReportedSinceItWasRequested() {
+    void findsTheBestReasonForADeviceThatHasNotReportedYet() {
         assertThat(unheard(null, null)).isEqualTo("it has not reported yet");
         assertThat(unheard(null, "not provisioned: why")).isEqualTo("not provisioned: why");
         assertThat(unheard(connection(null, false), "not provisioned: why")).isEqualTo("not provisioned: why");

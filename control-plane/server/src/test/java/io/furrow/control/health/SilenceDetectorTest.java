@@ -29,7 +29,7 @@ class SilenceDetectorTest {
     private long now = 1_700_000_000_000L;
 
     @Test
-    void reportsTheFirstReportThenEveryHalfMinute() {
+    void emitsTheFirstReportThenOneEveryHalfMinute() {
         addDesired(PERIOD);
         for (int i = 0; i <= 65; i++) {
             process(now);
@@ -38,9 +38,9 @@ class SilenceDetectorTest {
         assertThat(signs).hasSize(3).noneMatch(Heartbeat::silent);
     }
 
-    /** As one sends that had stored something: what it sent last may be all for hours, and has another time. */
+    /** A device may send stored reports in a burst, of which the last one is the only one for hours. */
     @Test
-    void reportsTheLastOfSomeReportsWithinHalfAMinute() {
+    void emitsTheLastReportWithinHalfAMinute() {
         addDesired(PERIOD.multipliedBy(90));
         process(5);
         process(6);
@@ -51,7 +51,7 @@ class SilenceDetectorTest {
     }
 
     @Test
-    void reportsOnceOfADeviceThatIsSilentForLongerThanItsPeriods() {
+    void emitsSilenceOnceAfterThePeriodsOfADevice() {
         addDesired(PERIOD);
         process(5);
         pass(30_000);
@@ -67,7 +67,7 @@ class SilenceDetectorTest {
     }
 
     @Test
-    void takesTheDefaultForADeviceWithoutAPeriod() {
+    void usesTheDefaultForADeviceWithoutAPeriod() {
         addDesired(null);
         process(5);
         pass(HealthOptions.DEFAULT.period().multipliedBy(3).toMillis());
@@ -77,7 +77,7 @@ class SilenceDetectorTest {
     }
 
     @Test
-    void goesByAPeriodThatWasChanged() {
+    void usesAChangedPeriod() {
         addDesired(PERIOD);
         process(5);
         addDesired(PERIOD.multipliedBy(10));
@@ -87,19 +87,19 @@ class SilenceDetectorTest {
     }
 
     @Test
-    void judgesNobodyRightAfterAPauseInWhichItDidNotListen() {
+    void detectsNoSilenceRightAfterAPause() {
         addDesired(PERIOD);
         process(5);
         pass(1000);
-        pass(60_000); // as a process that stood still finds itself, with reports still to be read
+        pass(60_000); // as after a suspension of the process, with unread reports
         process(6);
         pass(1000);
         assertThat(signs).hasSize(2).noneMatch(Heartbeat::silent);
     }
 
-    /** As the context broker tells an entity when somebody sends it a command. */
+    /** The notification of the context broker when a command is sent to a device. */
     @Test
-    void takesTheSameReportAgainForNoSignOfLife() {
+    void ignoresARepeatedReport() {
         addDesired(PERIOD);
         process(5);
         pass(29_000);
@@ -109,9 +109,9 @@ class SilenceDetectorTest {
         assertThat(signs.get(1).silent()).isTrue();
     }
 
-    /** A device without a clock, or a station that gives each of its reports the start of the hour. */
+    /** For instance a device without a clock, or a station that stamps all reports with the start of the hour. */
     @Test
-    void takesANewValueAtTheSameTimeForAReport() {
+    void acceptsANewValueWithTheSameTime() {
         addDesired(PERIOD);
         for (int i = 0; i < 20; i++) {
             process(5, "Time", 5, "Temperature", i);
@@ -122,9 +122,9 @@ class SilenceDetectorTest {
         assertThat(signs.get(signs.size() - 1).heard()).isGreaterThan(now - 60_000);
     }
 
-    /** Also where it has another time: a device without a clock is given that of the context broker. */
+    /** Also with another time: reports of a device without a clock have that of the context broker. */
     @Test
-    void takesWhatACommandChangesForNoReport() {
+    void ignoresChangesOfCommandAttributes() {
         addDesired(PERIOD);
         process(5, "Temperature", 8);
         pass(20_000);
@@ -138,7 +138,7 @@ class SilenceDetectorTest {
     }
 
     @Test
-    void letsADeviceBeSilentThatReportedItIsOff() {
+    void detectsNoSilenceOfADeviceThatIsOff() {
         addDesired(PERIOD);
         process(5, "Status", true);
         process(6, "Status", false);
@@ -153,7 +153,7 @@ class SilenceDetectorTest {
 
     /** The context broker notifies about these before the device has sent anything. */
     @Test
-    void takesWhatIsAssignedToADeviceForNoReport() {
+    void ignoresAssignedAttributes() {
         addDesired(PERIOD);
         process(5, "Mission", "m", "on_status", "PENDING", "Temperature", " ");
         assertThat(signs).isEmpty();
@@ -163,7 +163,7 @@ class SilenceDetectorTest {
     }
 
     @Test
-    void emitsTheNextReportAfterItsMissionWasStartedAgain() {
+    void emitsTheNextReportAfterARestartOfItsMission() {
         addDesired(PERIOD);
         process(5);
         addDesired(PERIOD, 9);
@@ -173,7 +173,7 @@ class SilenceDetectorTest {
     }
 
     @Test
-    void listensToNothingThatIsNotDesired() {
+    void ignoresDevicesThatAreNotDesired() {
         assertThat(listener.isMonitored(KEY)).isFalse();
         addDesired(PERIOD);
         pass(5000);
@@ -210,7 +210,7 @@ class SilenceDetectorTest {
         listener.process(KEY, entity(attributes).build(), reported, now);
     }
 
-    /** With these names and values by turns. */
+    /** Builds an entity from alternating names and values. */
     private static EntityBuilder entity(Object... attributes) {
         EntityBuilder entity = Entity.builder(ID, "T");
         for (int i = 0; i < attributes.length; i += 2) {

@@ -34,7 +34,7 @@ import io.furrow.unchecked.Unchecked;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Random silences, returns, closings, mutes, stops and restarts; whenever all has settled the alarms are those of the causes. */
+/** Applies random silences, recoveries, closings, mutes, stops and restarts; after each the alarms finally match the causes. */
 @Tag("full")
 class SilencePropertyTest {
     private static final int FARMS = 20;
@@ -42,7 +42,7 @@ class SilencePropertyTest {
     private static final Duration PERIOD = Duration.ofSeconds(10);
 
     @Test
-    void alarmsAreThoseOfTheDevicesThatAreSilent(TestInfo test, TestReporter reporter) {
+    void raisesAlarmsOnlyForSilentDevices(TestInfo test, TestReporter reporter) {
         long seed = System.nanoTime();
         reporter.publishEntry(test.getDisplayName(), "seed " + seed);
         Map<AlarmKind, Integer> raised = new TreeMap<>();
@@ -128,7 +128,7 @@ class SilencePropertyTest {
             }
         }
 
-        /** Five minutes: longer than any silence takes to be seen, and than the farm's takes to end. */
+        /** Five minutes: longer than the detection of any silence and the end of a farm alarm take. */
         private void settle() {
             for (int second = 0; second < 300; second += 5) {
                 now += 5000;

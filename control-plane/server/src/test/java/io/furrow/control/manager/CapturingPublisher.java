@@ -5,12 +5,11 @@ import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
 
-/** What was written: all of it, and what compaction leaves of it. */
+/** Captures written records: all of them, and the compacted state. */
 public final class CapturingPublisher implements EventPublisher {
     private final List<Written> all = new ArrayList<>();
     private final Map<String, Map<String, byte[]>> compacted = new TreeMap<>();
 
-    /** A record. */
     public record Written(String topic, String key, byte[] value) {}
 
     @Override

@@ -29,7 +29,7 @@ class DeduplicationProcessorTest {
     }
 
     @Test
-    void passesOverWhatItHasReadWhereKafkaHasForgottenTheOffsets() {
+    void skipsRecordsThatAreReadAgain() {
         read(0, 1000);
         read(1, 900);
         read(2, 1100);
@@ -43,7 +43,7 @@ class DeduplicationProcessorTest {
     }
 
     @Test
-    void takesWhatIsOnATopicThatWasMadeAnew() {
+    void acceptsRecordsOfARecreatedTopic() {
         read(5, 1000);
         read(0, 2000);
         read(1, 2000);
@@ -52,7 +52,7 @@ class DeduplicationProcessorTest {
 
     private void read(long offset, long timestamp) {
         Record<String, byte[]> request = new Record<>("", new byte[0], timestamp);
-        new RecordOrigin(Topics.DOMAIN_MANAGER, 0, offset).noteOn(request);
+        new RecordOrigin(Topics.DOMAIN_MANAGER, 0, offset).addTo(request);
         takeOnce.process(request);
     }
 

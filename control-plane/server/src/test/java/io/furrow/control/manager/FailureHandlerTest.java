@@ -29,7 +29,7 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
-/** A processor that fails where nobody expected it. */
+/** A processor that throws an unexpected exception. */
 class FailureHandlerTest {
     @AutoClose
     private TopologyTestDriver driver;
@@ -48,7 +48,7 @@ class FailureHandlerTest {
     }
 
     @Test
-    void setsAsideARecordThatFailsAndGoesOn() {
+    void writesADeadLetterForAFailingRecordAndContinues() {
         start(Topics.RAW, false);
         pipe(Topics.RAW, "{'fault':1}");
         pipe(Topics.RAW, "{'fine':1}");
@@ -76,7 +76,7 @@ class FailureHandlerTest {
 
     /** Then the record is read again. */
     @Test
-    void setsNothingAsideWhereKafkaFailed() {
+    void writesNoDeadLetterIfKafkaFailed() {
         start(Topics.RAW, false);
         assertThatThrownBy(() -> pipe(Topics.RAW, "{'away':1}")).hasRootCauseInstanceOf(TimeoutException.class);
         assertThat(read(Topics.dead(Topics.RAW))).isEmpty();

@@ -8,7 +8,7 @@ import java.util.function.Function;
 
 import io.furrow.model.ngsi.StateJson;
 
-/** Remembers in the form in which stores do, so that what a store could not give back is not given back here either. */
+/** A table in memory that serializes its values like stores do, so that values that are not restorable fail here too. */
 public final class MapTable<T> implements Table<T> {
     private final Map<String, byte[]> bytes = new TreeMap<>();
     private final Function<T, byte[]> writer;
@@ -51,7 +51,7 @@ public final class MapTable<T> implements Table<T> {
         return bytes.values().stream().map(reader).toList();
     }
 
-    /** Its whole content, to be compared. */
+    /** Returns the serialized content, for comparisons. */
     public String content() {
         StringBuilder content = new StringBuilder();
         bytes.forEach((key, value) ->

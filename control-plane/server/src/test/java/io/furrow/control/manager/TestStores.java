@@ -9,7 +9,7 @@ import org.apache.kafka.streams.processor.api.MockProcessorContext;
 import org.apache.kafka.streams.state.KeyValueIterator;
 import org.apache.kafka.streams.state.KeyValueStore;
 
-/** The stores of a processor without Kafka, written as managers write them: as a whole or not at all. */
+/** Provides the stores of a processor without Kafka, with the atomic writes of managers. */
 public final class TestStores {
     private final Map<String, KeyValueStore<String, byte[]>> stores = new LinkedHashMap<>();
     private final MockProcessorContext<String, OutputRecord> context = new MockProcessorContext<>();
@@ -26,17 +26,17 @@ public final class TestStores {
         }
     }
 
-    /** For handlers. */
+    /** Returns the unit of work for handlers. */
     public UnitOfWork unitOfWork() {
         return unitOfWork;
     }
 
-    /** What was written to topics. */
+    /** Returns the written records. */
     public CapturingPublisher publisher() {
         return publisher;
     }
 
-    /** Works at a time, epoch ms, as a manager does. */
+    /** Runs work atomically at a time, epoch ms. */
     public <T, E extends Exception> T call(long now, UnitOfWork.Work<T, E> work) throws E {
         context.setCurrentSystemTimeMs(now);
         T result = unitOfWork.call(work);
@@ -49,14 +49,14 @@ public final class TestStores {
         return result;
     }
 
-    /** What a store holds. */
+    /** Returns the content of a store. */
     public <T> List<T> all(Table<T> records) {
         List<T> all = new ArrayList<>();
         records.forEach(all::add);
         return all;
     }
 
-    /** All that all stores hold, to be compared. */
+    /** Returns the content of all stores, for comparisons. */
     public String content() {
         StringBuilder content = new StringBuilder();
         stores.forEach((name, store) -> {

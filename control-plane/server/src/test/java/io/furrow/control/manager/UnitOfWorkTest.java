@@ -17,7 +17,7 @@ class UnitOfWorkTest {
     private final Table<String> two = stores.unitOfWork().table("two", String.class);
 
     @Test
-    void appliesAllThatWorkWrote() {
+    void appliesAllWritesOfTheWork() {
         stores.call(0, () -> {
             one.put("a", "1");
             two.put("b", "2");
@@ -30,7 +30,7 @@ class UnitOfWorkTest {
     }
 
     @Test
-    void appliesNothingOfWorkThatFails() {
+    void discardsTheWritesOfFailedWork() {
         stores.call(0, () -> put("kept"));
         String before = stores.content();
 
@@ -49,7 +49,7 @@ class UnitOfWorkTest {
     }
 
     @Test
-    void showsWorkWhatItWroteItself() {
+    void readsItsOwnWrites() {
         stores.call(0, () -> put("b"));
         stores.call(0, () -> {
             one.put("a", "1");
@@ -66,7 +66,7 @@ class UnitOfWorkTest {
     }
 
     @Test
-    void writesNoRecordThatIsTooLarge() {
+    void rejectsOversizedRecords() {
         assertThatThrownBy(() -> stores.call(0, () -> {
                     put("small");
                     send("t", "a", Limits.RECORD_BYTES);

@@ -29,7 +29,7 @@ class CredentialsTest {
     }
 
     @Test
-    void requestsTheDeviceWithItsNextGenerationAndLeavesTheOthers() throws Exception {
+    void requestsTheNextGenerationOfOneDevice() throws Exception {
         DesiredDevice before = farm.device(DEVICE);
         DesiredDevice other = farm.device("urn:ngsi-ld:Thermometer:m-2");
 
@@ -49,7 +49,7 @@ class CredentialsTest {
     }
 
     @Test
-    void countsTheDeviceOnceThoughItComesUpAgain() throws Exception {
+    void countsARestartedDeviceOnce() throws Exception {
         rotate(DEVICE);
         assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
         assertThat(farm.status("m").confirmed()).isEqualTo(2);
@@ -63,7 +63,7 @@ class CredentialsTest {
     }
 
     @Test
-    void letsAnOldPasswordInNeverAgainAlsoWhenTheMissionIsStartedOrMadeAnew() throws Exception {
+    void neverAcceptsARevokedPasswordAgain() throws Exception {
         rotate(DEVICE);
         stop();
         start();
@@ -80,7 +80,7 @@ class CredentialsTest {
     }
 
     @Test
-    void readsTheStateOfAVersionThatRotatedNothing() {
+    void readsStateWithoutGenerations() {
         DeviceState state = StateJson.read(
                 "{\"wanted\":{\"mission\":\"m\"},\"confirmed\":true}".getBytes(UTF_8), DeviceState.class);
 
@@ -91,7 +91,7 @@ class CredentialsTest {
     }
 
     @Test
-    void rejectsADeviceThatIsNotThereOrReportsByItself() throws Exception {
+    void rejectsUnknownDevicesAndThoseWithTheirOwnLogin() throws Exception {
         farm.start("other", "north", DeviceGroup.entity("urn:robot"));
 
         refused("urn:nosuch", ErrorCode.UNKNOWN_DEVICE);

@@ -39,7 +39,7 @@ import static com.fasterxml.jackson.databind.node.JsonNodeFactory.instance;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
-/** Domains and missions with the stores of their managers, without Kafka. */
+/** Runs the handlers of domains and missions with their stores, without Kafka. */
 final class FarmFixture {
     static final long TIMEOUT = 60_000;
 
@@ -96,7 +96,7 @@ final class FarmFixture {
         request(new DomainCommand.Create(name, DomainDetails.NONE));
     }
 
-    /** A field as {@code service.fields} has it. */
+    /** Adds a field of {@code service.fields}. */
     void field(String id, long validFrom, String domain) {
         FieldVersion version = new FieldVersion(
                 id,
@@ -114,7 +114,7 @@ final class FarmFixture {
         return new MissionPlan.OfDevices(new MissionDevices(List.of(groups)));
     }
 
-    /** Devices that report by themselves. */
+    /** Real devices, listed by id. */
     static DeviceGroup real(String type, int count) {
         return new DeviceGroup(null, null, type, count, null, null, false, instance.objectNode());
     }
@@ -132,7 +132,7 @@ final class FarmFixture {
         return devices.get("farm|/|" + id).device();
     }
 
-    /** The settings of a device, as its host finds them. */
+    /** Returns the settings of a device as its host resolves them. */
     ObjectNode settings(String id) throws UnreadableException {
         MissionDeviceLists lists = new MissionDeviceLists();
         publisher.compacted(Topics.MISSION_DEVICES).forEach(lists::take);
@@ -145,7 +145,7 @@ final class FarmFixture {
         run(() -> missionHandler.reported(device.version().key(), status, now));
     }
 
-    /** A report of a device was received at a time. */
+    /** Receives a report of a device at a time. */
     void report(DesiredDevice device, long heard) {
         DeviceVersion version = device.version();
         DeviceHealth health = new DeviceHealth(
@@ -162,13 +162,13 @@ final class FarmFixture {
         run(() -> missionHandler.reported(version.key(), health, now));
     }
 
-    /** What is known of the connection of a device that has not logged in. @param refused null if no login was refused */
+    /** Reports the connection of a device that has not logged in. @param refused null if no login was refused */
     void connect(DesiredDevice device, RefusedLogin refused) {
         DeviceConnection connection = new DeviceConnection(now - TIMEOUT, null, refused, null, null, true);
         run(() -> missionHandler.reported(device.version().key(), connection, now));
     }
 
-    /** The host of simulated devices does what is requested, and real devices report. */
+    /** Confirms all desired states: hosts report simulated devices, and real devices report. */
     void hostAll() {
         for (DeviceState each : all(devices)) {
             DesiredDevice device = each.device();
@@ -185,14 +185,14 @@ final class FarmFixture {
         missionHandler.due(now).forEach(this::run);
     }
 
-    /** Writes the next devices of what is not written wholly. Answers whether there was any. */
+    /** Writes the next devices of pending assignments. Returns whether there were any. */
     boolean step() {
         List<Runnable> pending = missionHandler.pending(now);
         pending.forEach(this::run);
         return !pending.isEmpty();
     }
 
-    /** Everything that is remembered. */
+    /** Returns the content of all stores. */
     String content() {
         return stores.content();
     }
@@ -201,7 +201,7 @@ final class FarmFixture {
         return new String(StateJson.write(state));
     }
 
-    /** Expects that something is refused and changes nothing. */
+    /** Expects a rejection that changes nothing. */
     void refused(ErrorCode code, ThrowingCallable what) {
         String before = content();
         int written = publisher.all().size();

@@ -32,7 +32,7 @@ class MissionDevicesTest {
     }
 
     @Test
-    void reportsWhatIsCarriedByWhat() throws Exception {
+    void publishesCarriers() throws Exception {
         DeviceGroup robots = new DeviceGroup("robots", null, "Robot", 2, null, null, true, instance.objectNode());
         DeviceGroup cameras = new DeviceGroup(null, null, "Camera", 3, "robots", null, true, instance.objectNode());
         farm.start("m", "north", cameras, robots);
@@ -44,7 +44,7 @@ class MissionDevicesTest {
     }
 
     @Test
-    void reportsThatADeviceWithAGivenPlaceIsStationary() throws Exception {
+    void publishesADeviceWithAPlaceAsStationary() throws Exception {
         ObjectNode placed = instance.objectNode();
         placed.putObject("at").put("latitude", 40.3).put("longitude", -3.5);
         farm.start(
@@ -58,7 +58,7 @@ class MissionDevicesTest {
         assertThat(farm.device("urn:ngsi-ld:Robot:m-1").version().stationary()).isFalse();
     }
 
-    /** However many devices share an area, it is written once. */
+    /** Devices of a group share its settings. */
     @Test
     void writesTheSettingsOfAGroupOnce() throws Exception {
         ObjectNode area = instance.objectNode().put("area", "field-1");
@@ -108,7 +108,7 @@ class MissionDevicesTest {
     }
 
     @Test
-    void stopsAMissionOfWhichSomeDevicesWereNeverRequested() throws Exception {
+    void stopsAPartiallyWrittenMission() throws Exception {
         FarmFixture many = new FarmFixture(10);
         many.domain("north");
         many.start("m", "north", group("Camera", 25));
@@ -121,7 +121,7 @@ class MissionDevicesTest {
     }
 
     @Test
-    void givesNoDeviceAwayThatAMissionIsAboutToRequest() throws Exception {
+    void rejectsADeviceThatAnotherMissionIsAboutToRequest() throws Exception {
         FarmFixture many = new FarmFixture(1);
         many.domain("north");
         many.start("m", "north", group("Camera", 2), DeviceGroup.entity("urn:robot"));
@@ -131,7 +131,7 @@ class MissionDevicesTest {
     }
 
     @Test
-    void takesALongListInSeveralRequests() throws Exception {
+    void acceptsALongListInSeveralRequests() throws Exception {
         farm.request(new MissionCommand.Create("m", "north", new MissionPlan.Unspecified()));
         farm.request(add("robots", "Robot", 2));
         farm.request(new MissionCommand.AddDevices(
@@ -159,7 +159,7 @@ class MissionDevicesTest {
     }
 
     @Test
-    void takesNoMoreThanThereIsRoomFor() throws Exception {
+    void rejectsDevicesBeyondTheQuota() throws Exception {
         ObjectNode large = instance.objectNode();
         large.putObject("parameters").put("note", "x".repeat(500_000));
         MissionCommand more = new MissionCommand.AddDevices(

@@ -6,20 +6,15 @@ import java.time.Instant;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DeviceGroup;
-import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.MissionPlan;
-import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.field.FieldVersion;
-import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
 import static io.furrow.control.mission.FarmFixture.TIMEOUT;
@@ -30,12 +25,12 @@ class MissionLifeTest {
     private final FarmFixture farm = new FarmFixture();
 
     @BeforeEach
-    void makeADomain() throws Exception {
+    void createADomain() throws Exception {
         farm.domain("north");
     }
 
     @Test
-    void goesFromStartingToStoppedAsItsDevicesComeUpAndGo() throws Exception {
+    void runsFromStartingToStopped() throws Exception {
         assertThat(farm.start("m", "north", group("Thermometer", 2)).json().toString())
                 .isEqualTo("{\"type\":\"response\",\"status\":\"created\",\"mission\":\"m\",\"domain\":\"north\","
                         + "\"domain_topic\":\"data.north.realtime\",\"mission_topic\":\"data.north.realtime.m\"}");
@@ -54,9 +49,9 @@ class MissionLifeTest {
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPED);
     }
 
-    /** As the WeLASER dashboard asks: devices that are there report with the mission's name. */
+    /** As requested by the WeLASER dashboard: existing devices report with the name of the mission. */
     @Test
-    void runsAtOnceWithoutDevicesOfItsOwn() throws Exception {
+    void runsImmediatelyWithoutDevices() throws Exception {
         farm.request(new MissionCommand.Start("m", "north", new MissionPlan.Unspecified(), null, null));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
         farm.request(new MissionCommand.Stop("m"));
@@ -64,7 +59,7 @@ class MissionLifeTest {
     }
 
     @Test
-    void informsJobsToWhomADeviceBelongsFromItsStartToItsEnd() throws Exception {
+    void publishesTheMissionOfADeviceFromStartToEnd() throws Exception {
         long begin = farm.now;
         farm.start("m", "north", DeviceGroup.entity("urn:robot"));
         farm.pass(500);
@@ -83,7 +78,7 @@ class MissionLifeTest {
     }
 
     @Test
-    void namesDevicesThatDidNotComeUpInTime() throws Exception {
+    void namesDevicesThatDidNotStartInTime() throws Exception {
         farm.start("m", "north", group("Camera", 3));
         farm.report(farm.device("urn:ngsi-ld:Camera:m-1"), State.RUNNING);
         farm.report(farm.device("urn:ngsi-ld:Camera:m-2"), State.FAILED);
@@ -107,7 +102,7 @@ class MissionLifeTest {
     }
 
     @Test
-    void waitsForItsFirstDeviceAndTakesNothingFromAny() throws Exception {
+    void waitsForItsFirstDevice() throws Exception {
         farm.start("m", "north", FarmFixture.real("Thermometer", 2), group("Camera", 2));
         farm.report(farm.device("urn:ngsi-ld:Camera:m-2"), State.FAILED);
         farm.pass(TIMEOUT);
@@ -133,22 +128,22 @@ class MissionLifeTest {
     }
 
     @Test
-    void reportsTheBestReasonThatIsKnownOfADeviceThatItMisses() throws Exception {
+    void reportsTheBestReasonForAMissingDevice() throws Exception {
         farm.start("m", "north", FarmFixture.real("Thermometer", 1));
         DesiredDevice thermometer = farm.device("urn:ngsi-ld:Thermometer:m-1");
         farm.connect(thermometer, null);
         farm.pass(TIMEOUT);
         assertThat(reason()).startsWith("it has not connected to the MQTT broker since ");
 
-        farm.connect(thermometer, refused(1));
+        farm.connect(thermometer, refusedLogin(1));
         assertThat(reason()).startsWith("its password was refused once, at ");
         assertThat(farm.status("m").reason()).contains("urn:ngsi-ld:Thermometer:m-1 (" + reason() + ")");
         int written = farm.publisher.all().size();
         farm.now += 59_000;
-        farm.connect(thermometer, refused(7));
-        assertThat(farm.publisher.all()).as("it counts on").hasSize(written);
+        farm.connect(thermometer, refusedLogin(7));
+        assertThat(farm.publisher.all()).as("only the count changed").hasSize(written);
         farm.now += 1000;
-        farm.connect(thermometer, refused(8));
+        farm.connect(thermometer, refusedLogin(8));
         assertThat(reason()).startsWith("its password was refused 8 times, last at ");
 
         farm.report(thermometer, farm.now);
@@ -159,12 +154,12 @@ class MissionLifeTest {
         return farm.status("m").missing().get(0).reason();
     }
 
-    private RefusedLogin refused(long count) {
+    private RefusedLogin refusedLogin(long count) {
         return new RefusedLogin(count, farm.now, DeviceConnection.WRONG_PASSWORD, "furrow.d.m.x.1.0");
     }
 
     @Test
-    void countsARealDeviceAsUpByItsFirstReportSinceItWasRequested() throws Exception {
+    void countsARealDeviceAfterItsFirstReport() throws Exception {
         farm.start("m", "north", FarmFixture.real("Thermometer", 1), DeviceGroup.entity("urn:robot"));
         DesiredDevice thermometer = farm.device("urn:ngsi-ld:Thermometer:m-1");
         farm.report(thermometer, farm.now - 1);
@@ -186,7 +181,7 @@ class MissionLifeTest {
     }
 
     @Test
-    void stopsWithoutDevicesThatDoNotGo() throws Exception {
+    void stopsAfterTheTimeoutOfDevices() throws Exception {
         farm.start("m", "north", group("Camera", 1));
         farm.request(new MissionCommand.Stop("m"));
         farm.pass(TIMEOUT);
@@ -197,7 +192,7 @@ class MissionLifeTest {
     }
 
     @Test
-    void passesOverReportsOfAnEarlierSequence() throws Exception {
+    void ignoresReportsWithAnOldSequence() throws Exception {
         farm.start("m", "north", group("Camera", 1));
         DesiredDevice earlier = farm.device("urn:ngsi-ld:Camera:m-1");
         farm.hostAll();
@@ -225,7 +220,7 @@ class MissionLifeTest {
     }
 
     @Test
-    void doesNotStartWhereTheStartWasTakenBack() throws Exception {
+    void doesNotStartAfterACancelledStart() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
         farm.request(new MissionCommand.Start("m", "north", FarmFixture.devices(group("Camera", 1)), date, null));
         farm.request(new MissionCommand.Stop("m"));
@@ -236,10 +231,11 @@ class MissionLifeTest {
     }
 
     @Test
-    void failsAtItsDateWhereItsDomainIsGone() throws Exception {
+    void failsAtItsDateWithoutItsDomain() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
         farm.request(new MissionCommand.Start("m", "north", FarmFixture.devices(), date, null));
-        farm.run(() -> farm.domains.put("north", null)); // as before domains were deleted with their missions
+        farm.run(() ->
+                farm.domains.put("north", null)); // state of a version that did not delete missions with their domain
         farm.pass(10_000);
 
         assertThat(farm.status("m").state()).isEqualTo(MissionState.FAILED);
@@ -247,7 +243,7 @@ class MissionLifeTest {
     }
 
     @Test
-    void rejectsWhatCannotBe() throws Exception {
+    void rejectsInvalidCommands() throws Exception {
         farm.domain("south");
         farm.start("m", "north", group("Camera", 1), DeviceGroup.entity("urn:robot"));
 
@@ -274,85 +270,5 @@ class MissionLifeTest {
         farm.hostAll();
         farm.refused(ErrorCode.NAME_TAKEN, () -> farm.start("m", "south"));
         farm.start("other", "south", DeviceGroup.entity("urn:robot"));
-    }
-
-    @Test
-    void refusesToDeleteADomainInWhichMissionsRunUnlessForced() throws Exception {
-        farm.start("m", "north", group("Camera", 1));
-        farm.refused(ErrorCode.MISSIONS_RUNNING, () -> farm.request(new DomainCommand.Delete("north", false)));
-
-        farm.request(new DomainCommand.Delete("north", true));
-        assertThat(farm.publisher.compacted(Topics.DOMAINS)).isEmpty();
-        farm.refused(ErrorCode.UNKNOWN_DOMAIN, () -> farm.request(new DomainCommand.Delete("north", true)));
-    }
-
-    @Test
-    void deletesADomainWithItsMissionsAndEndsItsFields() throws Exception {
-        farm.domain("south");
-        farm.start("runs", "north", group("Camera", 1));
-        farm.request(new MissionCommand.Create("idle", "north", new MissionPlan.Unspecified()));
-        farm.start("theirs", "south", group("Camera", 1));
-        farm.field("a", 1, "north");
-        farm.field("b", 1, "south");
-        farm.field("planned", farm.now + 1, "north");
-
-        CommandResult answer = farm.request(new DomainCommand.Delete("north", true));
-
-        assertThat(new String(NgsiJson.write(answer.json())))
-                .isEqualTo("{\"type\":\"response\",\"status\":\"deleted\",\"domain\":\"north\",\"missionCount\":2,"
-                        + "\"missions\":[\"idle\",\"runs\"],\"stopped\":[\"runs\"],\"fieldCount\":2,"
-                        + "\"fields\":[\"a\",\"planned\"]}");
-        assertThat(farm.all(farm.missions)).extracting(Mission::mission).containsExactly("theirs");
-        assertThat(farm.all(farm.statuses)).extracting(MissionStatus::mission).containsExactly("theirs");
-        assertThat(farm.publisher.compacted(Topics.MISSIONS)).containsOnlyKeys("theirs");
-        assertThat(farm.publisher.compacted(Topics.MISSIONS_STATUS)).containsOnlyKeys("theirs");
-        assertThat(farm.publisher.compacted(Topics.DEVICES)).containsOnlyKeys("farm|/|urn:ngsi-ld:Camera:theirs-1");
-        assertThat(farm.publisher.compacted(Topics.FIELDS)).hasSize(1);
-        FieldVersion end = FieldVersion.read(
-                farm.publisher.compacted(Topics.FIELDS).values().iterator().next());
-        assertThat(end.key()).isEqualTo(new FieldVersion.Key("a", farm.now).toString());
-        assertThat(end.isEnd()).isTrue();
-        farm.domain("north");
-        farm.start("runs", "north", group("Camera", 1));
-    }
-
-    @Test
-    void makesTheMissionOfTheThesisFromItsTemplate() throws Exception {
-        farm.request(
-                new MissionCommand.Start("m", "north", new MissionPlan.FromTemplate("thesis-demo", 0), null, null));
-
-        assertThat(farm.missions.get("m").template()).isEqualTo("thesis-demo@1");
-        assertThat(farm.all(farm.devices).stream()
-                        .map(each -> each.device().version().id()))
-                .containsExactlyInAnyOrder("""
-                                urn:ngsi-ld:Camera:m-1 urn:ngsi-ld:Robot:m-1 urn:ngsi-ld:Thermometer:m-1
-                                urn:ngsi-ld:Thermometer:m-2 urn:ngsi-ld:Thermometer:m-3""".split("\\s+"));
-        assertThat(farm.settings("urn:ngsi-ld:Camera:m-1").path("path")).hasSize(4);
-    }
-
-    @Test
-    void retainsVersionsOfTemplatesAndTheDevicesOfMissionsMadeFromThem() throws Exception {
-        MissionTemplate one = TemplateStore.demo();
-        assertThat(farm.request(new MissionCommand.SaveTemplate(one))
-                        .json()
-                        .path("version")
-                        .asInt())
-                .isEqualTo(2);
-        farm.request(new MissionCommand.DeleteTemplate("thesis-demo", 2));
-        farm.request(new MissionCommand.Create("m", "north", new MissionPlan.FromTemplate("thesis-demo", 0)));
-        assertThat(farm.missions.get("m").template()).isEqualTo("thesis-demo@1");
-        assertThat(farm.request(new MissionCommand.SaveTemplate(one))
-                        .json()
-                        .path("version")
-                        .asInt())
-                .isEqualTo(3);
-
-        farm.request(new MissionCommand.DeleteTemplate("thesis-demo", 0));
-        farm.refused(
-                ErrorCode.UNKNOWN_TEMPLATE, () -> farm.request(new MissionCommand.DeleteTemplate("thesis-demo", 0)));
-        farm.run(farm.missionHandler.templates()::installBuiltIn);
-        assertThat(farm.publisher.compacted(Topics.TEMPLATES)).isEmpty();
-        farm.request(new MissionCommand.Start("m", null, new MissionPlan.Unspecified(), null, null));
-        assertThat(farm.status("m").devices()).isEqualTo(5);
     }
 }

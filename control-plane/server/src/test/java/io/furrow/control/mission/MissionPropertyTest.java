@@ -26,7 +26,7 @@ import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Random commands, reports of hosts and passing time; after each step the farm is sound. */
+/** Applies random commands, reports of hosts and passing time; after each step the farm is consistent. */
 class MissionPropertyTest {
     private static final int FARMS = 60;
     private static final int STEPS = 150;
@@ -34,7 +34,7 @@ class MissionPropertyTest {
     private static final List<String> DOMAINS = List.of("north", "south");
 
     @Test
-    void isSoundWhateverIsRequestedReportedAndWaitedFor() throws Exception {
+    void staysConsistentUnderRandomEvents() throws Exception {
         long seed = Long.getLong("furrow.mission.seed", System.nanoTime());
         int refused = 0;
         for (int i = 0; i < FARMS; i++) {
@@ -43,7 +43,7 @@ class MissionPropertyTest {
         assertThat(refused).isBetween(FARMS, FARMS * STEPS);
     }
 
-    /** One farm and what happens to it. */
+    /** A farm with random events. */
     private static final class Walk {
         private final FarmFixture farm;
         private final Random random;
@@ -152,7 +152,7 @@ class MissionPropertyTest {
             return statuses;
         }
 
-        /** Along the life only; a step may pass through several states. What is all as wanted has gone on. */
+        /** Missions follow the life cycle, possibly several states per step; one whose devices are all confirmed has proceeded. */
         private void checkStates(Map<String, MissionStatus> before) {
             for (MissionStatus status : farm.all(farm.statuses)) {
                 MissionStatus last = before.get(status.mission());
@@ -194,7 +194,7 @@ class MissionPropertyTest {
             return reached;
         }
 
-        /** A mission that starts or runs has just its devices, and every other none, once all are written. The counts are true. */
+        /** Once all devices are written, starting or running missions have exactly their devices, others none. The counts are correct. */
         private void checkDevices() {
             Map<String, Integer> running = new HashMap<>();
             Map<String, Integer> confirmed = new HashMap<>();
@@ -221,7 +221,7 @@ class MissionPropertyTest {
             }
         }
 
-        /** Who reads the topics knows what the managers know. */
+        /** The topics match the stores of the managers. */
         private void checkTopics() throws Exception {
             assertThat(texts(Topics.MISSIONS)).as(label).isEqualTo(states(farm.all(farm.missions), Mission::mission));
             assertThat(texts(Topics.MISSIONS_STATUS))
@@ -254,7 +254,7 @@ class MissionPropertyTest {
             return states;
         }
 
-        /** One that waits for its date starts in the first round, and may end in the second. */
+        /** A scheduled mission starts in the first round and may end in the second. */
         private void checkEverythingSettles() {
             for (int round = 0; round < 3; round++) {
                 farm.pass(300_000);

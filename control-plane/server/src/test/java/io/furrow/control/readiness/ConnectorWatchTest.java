@@ -48,7 +48,7 @@ class ConnectorWatchTest {
     }
 
     @Test
-    void showsConnectorsAndReportsATaskThatFailedOnceAMinute() throws Exception {
+    void showsConnectorsAndReportsAFailedTaskOnceAMinute() throws Exception {
         answer.set(connectors("RUNNING", ""));
         watch.poll();
         assertThat(watch.statuses()).extracting(ComponentStatus::name).containsExactly("connect", "connector sink");
@@ -81,7 +81,7 @@ class ConnectorWatchTest {
     }
 
     @Test
-    void reportsWhatIsPausedAndOfAConnectThatDoesNotAnswer() throws Exception {
+    void reportsPausedConnectorsAndAnUnavailableConnect() throws Exception {
         answer.set(connectors("PAUSED", ""));
         watch.poll();
         assertThat(watch.statuses().get(1).detail()).isEqualTo("task 0 is paused");
@@ -100,9 +100,9 @@ class ConnectorWatchTest {
                 .returns(ComponentStatus.State.DOWN, ComponentStatus::state);
     }
 
-    /** Everybody may read the page. */
+    /** The page is public. */
     @Test
-    void namesNoClassOnThePage() throws Exception {
+    void showsNoClassNames() throws Exception {
         Readiness readiness = new Readiness(Clock.systemUTC());
         URI nowhere = URI.create("http://127.0.0.1:1/");
         ConnectorWatch unavailable = new ConnectorWatch(nowhere, producer, Clock.systemUTC());

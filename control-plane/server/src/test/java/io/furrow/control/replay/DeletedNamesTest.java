@@ -16,38 +16,39 @@ class DeletedNamesTest {
     private final DeletedNames names = new DeletedNames();
 
     @Test
-    void haveTheTopicsOfDeletedMissionsAndDomains() {
+    void containsTopicsOfDeletedMissionsAndDomains() {
         take(Topics.DOMAINS, "north", "{}", 0);
         take(Topics.MISSIONS, "weeding", "{\"domain\":\"north\"}", 0);
         take(Topics.MISSIONS, "weeding", null, 100);
         take(Topics.DOMAINS, "north", null, 200);
 
-        assertThat(names.by(99)).isEmpty();
-        assertThat(names.by(100)).containsExactly("data.north.realtime.weeding");
-        assertThat(names.by(200)).containsExactlyInAnyOrder("data.north.realtime.weeding", "data.north.realtime");
+        assertThat(names.deletedBy(99)).isEmpty();
+        assertThat(names.deletedBy(100)).containsExactly("data.north.realtime.weeding");
+        assertThat(names.deletedBy(200))
+                .containsExactlyInAnyOrder("data.north.realtime.weeding", "data.north.realtime");
 
         names.forget("data.north.realtime");
-        assertThat(names.by(200)).containsExactly("data.north.realtime.weeding");
+        assertThat(names.deletedBy(200)).containsExactly("data.north.realtime.weeding");
     }
 
     @Test
-    void haveNoneOfAMissionThatWasMadeAnew() {
+    void excludesARecreatedMission() {
         take(Topics.MISSIONS, "weeding", "{\"domain\":\"north\"}", 0);
         take(Topics.MISSIONS, "weeding", null, 100);
         take(Topics.MISSIONS, "weeding", "{\"domain\":\"north\"}", 200);
 
-        assertThat(names.by(1_000)).isEmpty();
+        assertThat(names.deletedBy(1_000)).isEmpty();
     }
 
-    /** One of that name in another domain may be of devices that name it themselves. */
+    /** A topic with that name in another domain may belong to devices that report the mission themselves. */
     @Test
-    void haveNoTopicOfAMissionWhoseRecordIsCompactedAwayOrNotReadable() {
+    void excludesAMissionWithoutAReadableRecord() {
         take(Topics.DOMAINS, "north", "{}", 0);
         take(Topics.MISSIONS, "mowing", null, 100);
         take(Topics.MISSIONS, "sowing", "no JSON", 0);
         take(Topics.MISSIONS, "sowing", null, 200);
 
-        assertThat(names.by(1_000)).isEmpty();
+        assertThat(names.deletedBy(1_000)).isEmpty();
     }
 
     private void take(String topic, String key, String value, long timestamp) {

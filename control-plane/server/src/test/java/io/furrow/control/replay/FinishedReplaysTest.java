@@ -7,7 +7,7 @@ import org.apache.kafka.common.header.internals.RecordHeaders;
 import org.apache.kafka.common.record.TimestampType;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.replay.FinishedReplays.Remains;
+import io.furrow.control.replay.FinishedReplays.Replay;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.control.ReplayStatus;
@@ -19,10 +19,10 @@ class FinishedReplaysTest {
     private static final String NAME = "m.0a1b2c3d";
     private static final String TOPIC = "data.show.replay.0a1b2c3d";
 
-    private final FinishedReplays remains = new FinishedReplays();
+    private final FinishedReplays finished = new FinishedReplays();
 
     private void take(String topic, String key, byte[] value, long timestamp) {
-        remains.take(new ConsumerRecord<>(
+        finished.take(new ConsumerRecord<>(
                 topic,
                 0,
                 0,
@@ -49,43 +49,43 @@ class FinishedReplaysTest {
     }
 
     @Test
-    void areThoseOfAReplayThatIsOverForGoodAndNotDesired() {
+    void containsAReplayThatIsFinallyOverAndNotDesired() {
         desired("m", TOPIC);
         status(ReplayStatus.State.RUNNING, false, 50);
         status(ReplayStatus.State.ENDED, false, 60);
-        assertThat(remains.overBy(1000)).isEmpty();
+        assertThat(finished.finishedBy(1000)).isEmpty();
         status(ReplayStatus.State.ENDED, true, 100);
-        assertThat(remains.overBy(1000)).as("still wanted").isEmpty();
+        assertThat(finished.finishedBy(1000)).as("still wanted").isEmpty();
         take(Topics.REPLAYS, NAME, null, 110);
-        assertThat(remains.overBy(99)).as("within the grace period").isEmpty();
-        assertThat(remains.overBy(100)).containsExactly(new Remains(NAME, TOPIC));
+        assertThat(finished.finishedBy(99)).as("within the grace period").isEmpty();
+        assertThat(finished.finishedBy(100)).containsExactly(new Replay(NAME, TOPIC));
         take(Topics.REPLAYS_STATUS, NAME, null, 200);
-        assertThat(remains.overBy(1000)).isEmpty();
+        assertThat(finished.finishedBy(1000)).isEmpty();
     }
 
     @Test
-    void areNoneWhereTheReplayWasStartedAnew() {
+    void excludesARestartedReplay() {
         status(ReplayStatus.State.ENDED, true, 100);
         desired("m", TOPIC);
-        assertThat(remains.overBy(1000)).isEmpty();
+        assertThat(finished.finishedBy(1000)).isEmpty();
         take(Topics.REPLAYS, NAME, null, 0);
         status(ReplayStatus.State.RUNNING, false, 200);
-        assertThat(remains.overBy(1000)).isEmpty();
+        assertThat(finished.finishedBy(1000)).isEmpty();
     }
 
     @Test
-    void areNoneWhereAnotherReplayHasTheTopic() {
+    void excludesATopicOfAnotherReplay() {
         desired("m", TOPIC);
         take(Topics.REPLAYS, NAME, null, 0);
         status(ReplayStatus.State.STOPPED, true, 100);
         desired("n", TOPIC);
-        assertThat(remains.overBy(1000)).isEmpty();
+        assertThat(finished.finishedBy(1000)).isEmpty();
         take(Topics.REPLAYS, "n.0a1b2c3d", null, 0);
-        assertThat(remains.overBy(1000)).hasSize(1);
+        assertThat(finished.finishedBy(1000)).hasSize(1);
     }
 
     @Test
-    void areNoneWhileAnotherReplayOfTheTopicIsOverForLessLong() {
+    void waitsForTheLastReplayOfATopic() {
         desired("m", TOPIC);
         take(Topics.REPLAYS, NAME, null, 0);
         status(ReplayStatus.State.STOPPED, true, 100);
@@ -94,20 +94,20 @@ class FinishedReplaysTest {
         ReplayStatus later = new ReplayStatus(1, ReplayStatus.State.ENDED, null, true, null);
         take(Topics.REPLAYS_STATUS, "n.0a1b2c3d", later.toBytes(), 900);
 
-        assertThat(remains.overBy(500)).isEmpty();
-        assertThat(remains.overBy(900)).hasSize(2);
+        assertThat(finished.finishedBy(500)).isEmpty();
+        assertThat(finished.finishedBy(900)).hasSize(2);
     }
 
     @Test
-    void haveTheTopicThatIsCalledAfterTheReplayWhereNothingElseIsKnown() {
+    void assumesTheDefaultTopicWithoutARecord() {
         status(ReplayStatus.State.FAILED, true, 100);
-        assertThat(remains.overBy(100)).containsExactly(new Remains(NAME, "data.m.replay.0a1b2c3d"));
+        assertThat(finished.finishedBy(100)).containsExactly(new Replay(NAME, "data.m.replay.0a1b2c3d"));
     }
 
     @Test
-    void areNoneWhereTheStatusCannotBeRead() {
+    void excludesAReplayWithAnUnreadableStatus() {
         status(ReplayStatus.State.FAILED, true, 100);
         take(Topics.REPLAYS_STATUS, NAME, new byte[] {1}, 200);
-        assertThat(remains.overBy(1000)).isEmpty();
+        assertThat(finished.finishedBy(1000)).isEmpty();
     }
 }

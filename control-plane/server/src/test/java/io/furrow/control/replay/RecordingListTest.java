@@ -22,7 +22,7 @@ class RecordingListTest {
     private final List<String> polled = new ArrayList<>();
     private boolean unavailable;
 
-    /** What is written, which the topic then has. */
+    /** Applies the changes to the topic and returns them. */
     private Map<String, Optional<RecordedMission>> poll(long now) throws IOException {
         polled.clear();
         Map<String, Optional<RecordedMission>> changes = list.changes(
@@ -54,7 +54,7 @@ class RecordingListTest {
     }
 
     @Test
-    void listsAMissionAtFirstSightAndOnChangeHalfAMinuteLater() throws Exception {
+    void listsANewMissionImmediatelyAndChangesAfterHalfAMinute() throws Exception {
         RecordedMission short1 = store("m", 10, 20);
         assertThat(poll(NOW)).containsExactly(Map.entry("m", Optional.of(short1)));
         RecordedMission longer = store("m", 10, 30);
@@ -66,7 +66,7 @@ class RecordingListTest {
     }
 
     @Test
-    void pollsAMissionWithoutEventsUntilItHasSome() throws Exception {
+    void pollsAMissionUntilItHasEvents() throws Exception {
         stored.put("m", Optional.empty());
         assertThat(poll(NOW)).isEmpty();
         RecordedMission begun = store("m", 10, 10);
@@ -74,7 +74,7 @@ class RecordingListTest {
     }
 
     @Test
-    void removesWhatIsGoneAndListsItAnewWhenItIsThereAgain() throws Exception {
+    void removesADeletedMissionAndListsItAgainIfRecreated() throws Exception {
         RecordedMission first = store("m", 10, 20);
         poll(NOW);
         stored.clear();
@@ -85,7 +85,7 @@ class RecordingListTest {
     }
 
     @Test
-    void leavesWhatAnotherInstanceHasPolled() throws Exception {
+    void skipsMissionsThatAnotherInstanceHasPolled() throws Exception {
         list.take("m", store("m", 10, 20).toBytes(), NOW);
         store("m", 10, 30);
         assertThat(poll(NOW + 20_000)).isEmpty();
@@ -105,7 +105,7 @@ class RecordingListTest {
     }
 
     @Test
-    void writesAnewWhatCannotBeRead() throws Exception {
+    void replacesUnreadableRecords() throws Exception {
         list.take("m", new byte[] {1}, NOW);
         RecordedMission recorded = store("m", 10, 20);
         assertThat(poll(NOW)).containsExactly(Map.entry("m", Optional.of(recorded)));

@@ -21,9 +21,9 @@ import io.furrow.model.ngsi.NgsiJson;
 import static java.nio.charset.StandardCharsets.US_ASCII;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** Asks the API, and holds each answer against its description. */
+/** Sends requests to the API and validates each answer against its description. */
 public final class ApiClient {
-    /** What any client has asked for. */
+    /** Routes requested by any client. */
     static final Set<String> REQUESTED = ConcurrentHashMap.newKeySet();
 
     private final HttpClient http =
@@ -38,7 +38,7 @@ public final class ApiClient {
         this.token = token;
     }
 
-    /** @param header none, or its name and value */
+    /** @param header empty, or name and value */
     public HttpResponse<byte[]> send(String method, String path, String body, String... header) throws Exception {
         HttpRequest.Builder request = request(method, path, body);
         if (header.length > 0) {
@@ -100,7 +100,7 @@ public final class ApiClient {
         return answer;
     }
 
-    /** Of an answer without an end: what comes first. */
+    /** Reads the first bytes of an endless answer. */
     private static final class FirstBytes implements HttpResponse.BodySubscriber<byte[]> {
         private final CompletableFuture<byte[]> body = new CompletableFuture<>();
         private Flow.Subscription subscription;
@@ -139,12 +139,12 @@ public final class ApiClient {
         return NgsiJson.read(answer.body());
     }
 
-    /** Status and code of an error. */
+    /** Expects status and code of an error. */
     String error(HttpResponse<byte[]> answer) throws Exception {
         return answer.statusCode() + " " + json(answer).path("error").asText();
     }
 
-    /** The answer to a GET of a path or a host that no client would send so. */
+    /** Returns the answer to a GET with a raw path and host. */
     String raw(String path, String host) throws IOException {
         try (Socket socket = new Socket(base.getHost(), base.getPort())) {
             String request = "GET %s HTTP/1.1\r\nHost: %s\r\nConnection: close\r\n\r\n".formatted(path, host);

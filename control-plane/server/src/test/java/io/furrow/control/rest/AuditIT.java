@@ -28,11 +28,11 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** The audit back to its beginning: more entries than the API holds, and more than one request reads. */
+/** Pages through more audit entries than the API caches and than one request reads. */
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
 @Tag("full")
 class AuditIT {
-    private static final int ENTRIES = AuditHistory.READ + 3 * StateView.AUDITED;
+    private static final int ENTRIES = AuditHistory.MAX_READ + 3 * StateView.AUDITED;
     private static final Pattern NEXT = Pattern.compile("<(/[^>]+)>; ?rel=\"next\"");
 
     @AutoClose
@@ -50,7 +50,7 @@ class AuditIT {
         await().until(() -> running.get("/api/audit?limit=1").at("/0/time").asInt() == ENTRIES - 1);
     }
 
-    /** The first is about a mission of its own, and so is one of the last. */
+    /** The first entry and one of the last are about a separate mission. */
     private static byte[] entry(int i) {
         String mission = i == 0 || i == ENTRIES - 5 ? "rare" : "usual";
         return """
@@ -71,7 +71,7 @@ class AuditIT {
     }
 
     @Test
-    void leadsBackToTheOldestEntryWithoutAGapOrADuplicate() throws Exception {
+    void pagesBackToTheOldestEntryWithoutGapsOrDuplicates() throws Exception {
         List<Integer> times = new ArrayList<>();
         for (String path = "/api/audit?limit=700"; path != null; ) {
             Page page = page(path);
@@ -87,7 +87,7 @@ class AuditIT {
     }
 
     @Test
-    void findsWhatIsAboutAMissionHoweverFarBackAndReadsABoundedStretchAtOnce() throws Exception {
+    void findsOldEntriesOfAMissionInBoundedSteps() throws Exception {
         Page first = page("/api/audit?mission=rare&limit=10");
         assertThat(first.times()).containsExactly(ENTRIES - 5);
         assertThat(first.next()).contains("mission=rare").contains("limit=10");
@@ -102,7 +102,7 @@ class AuditIT {
     }
 
     @Test
-    void rejectsWhatIsNoPosition() throws Exception {
+    void rejectsAnInvalidPosition() throws Exception {
         for (String before : List.of("-1", "noon", "1.5", "9999999999999999999")) {
             running.refused("GET", "/api/audit?before=" + before, null, 400, "wrong-member");
         }

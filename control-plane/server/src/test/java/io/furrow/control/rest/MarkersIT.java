@@ -88,7 +88,7 @@ class MarkersIT {
     }
 
     @Test
-    void rejectsWhatIsNoMarker() throws Exception {
+    void rejectsInvalidMarkers() throws Exception {
         assertThat(olga.error(add("{\"note\":\"n\"}", "k-1"))).isEqualTo("400 missing-member");
         assertThat(olga.error(add("{\"time\":\"noon\",\"note\":\"n\"}", "k-2"))).isEqualTo("400 wrong-member");
         assertThat(olga.error(add("{\"time\":5}", "k-3"))).isEqualTo("400 missing-member");
@@ -99,7 +99,7 @@ class MarkersIT {
     }
 
     @Test
-    void reportsThatMongoDbIsUnavailable() throws Exception {
+    void reportsAnUnavailableMongoDb() throws Exception {
         mongo.close();
         HttpResponse<byte[]> unavailable = olga.send("GET", MARKERS, null);
         assertThat(olga.error(unavailable)).isEqualTo("503 mongodb-away");

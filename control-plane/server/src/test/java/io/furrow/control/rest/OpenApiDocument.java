@@ -16,7 +16,7 @@ import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** The description of the API, and whether an answer is as it says: no member more, none less, each of its type. */
+/** Validates answers against the description of the API: exactly its members, each of its type. */
 record OpenApiDocument(ObjectNode json) {
     private static final Set<String> METHODS = Set.of("get", "post", "patch", "put", "delete", "head");
 
@@ -39,7 +39,7 @@ record OpenApiDocument(ObjectNode json) {
         return operations;
     }
 
-    /** Fails where the answer to a request is not described, or not as it is described. Answers its operation. */
+    /** Fails unless the answer to a request matches its description. Returns its operation. */
     String check(String method, String path, int status, String type, byte[] body) throws Exception {
         String template = json.path("paths").properties().stream()
                 .map(Map.Entry::getKey)
@@ -72,7 +72,7 @@ record OpenApiDocument(ObjectNode json) {
         return node.has("$ref") ? json.at(node.path("$ref").asText().substring(1)) : node;
     }
 
-    /** Lets objects have no other members than those that are described. */
+    /** Forbids members that are not described. */
     private static void close(JsonNode schema) {
         if (schema instanceof ObjectNode object
                 && object.path("properties").isObject()

@@ -34,9 +34,9 @@ class OpenApiTest {
         assertThat(OpenApiDocument.read().operations()).isEqualTo(routes);
     }
 
-    /** By the schema of schemas, each on its own. */
+    /** Validates each schema against the meta-schema. */
     @Test
-    void hasSchemasThatAreSome() throws Exception {
+    void hasValidSchemas() throws Exception {
         var meta = JsonSchemaFactory.getInstance(SpecVersion.VersionFlag.V202012)
                 .getSchema(java.net.URI.create("https://json-schema.org/draft/2020-12/schema"));
         OpenApiDocument.read()
@@ -46,7 +46,7 @@ class OpenApiTest {
     }
 
     @Test
-    void namesEachOperationOnce() throws Exception {
+    void hasUniqueOperationIds() throws Exception {
         List<String> ids = OpenApiDocument.read().json().findValuesAsText("operationId");
 
         assertThat(ids)
@@ -54,9 +54,9 @@ class OpenApiTest {
                 .hasSameSizeAs(OpenApiDocument.read().operations());
     }
 
-    /** What reports nothing of the farm has no role. */
+    /** Public operations have no role. */
     @Test
-    void describesTheRoleThatTheCodeRequests() throws Exception {
+    void describesTheRequiredRoles() throws Exception {
         Map<String, String> roles = roles();
         OpenApiDocument document = OpenApiDocument.read();
         for (String operation : document.operations()) {
@@ -76,9 +76,9 @@ class OpenApiTest {
                 .containsEntry("DELETE /api/missions/{mission}", "operator");
     }
 
-    /** On the topic of a manager a command takes the role that it takes here; the topic of fields has none. */
+    /** Commands on topics of managers require the same role; the topic of fields has none. */
     @Test
-    void namesTheCommandsOfAllOperationsForAdmins() throws Exception {
+    void namesTheCommandsReservedForAdmins() throws Exception {
         Set<String> operations = new TreeSet<>();
         roles().forEach((operation, role) -> {
             if (role.equals(Role.ADMINS) && !operation.startsWith("GET")) {
@@ -117,7 +117,7 @@ class OpenApiTest {
         resource.getChildResources().forEach(child -> addRoles(child, path, roles));
     }
 
-    /** All classes of the package that have a path. */
+    /** Returns all classes of the package with a path. */
     private static List<Class<?>> resources() throws Exception {
         var folder = Path.of(RestApi.class.getResource("RestApi.class").toURI()).getParent();
         List<Class<?>> types = new ArrayList<>();

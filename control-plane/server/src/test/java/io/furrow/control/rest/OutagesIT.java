@@ -34,7 +34,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** What else is asked of the API, and its probes, while something that it speaks with is unavailable. */
+/** Sends requests and probes to the API while one of its dependencies is unavailable. */
 @Tag("full")
 class OutagesIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
@@ -82,7 +82,7 @@ class OutagesIT {
     }
 
     @Test
-    void answersWhileTheContextBrokerAnswersNobody() throws Exception {
+    void answersWhileTheContextBrokerHangs() throws Exception {
         post("/api/domains", "{\"domain\":\"north\"}").get();
         post("/api/missions/m/start", "{\"domain\":\"north\",\"devices\":[\"urn:own:1\"]}")
                 .get();
@@ -92,7 +92,7 @@ class OutagesIT {
         for (int i = 0; i < COMMANDS; i++) {
             commands.add(post("/api/devices/urn:own:1/commands", "{\"command\":\"on\",\"type\":\"Pump\"}"));
         }
-        // Those that have no room are answered at once, and so is everything else.
+        // Requests beyond the limit and all others are answered immediately.
         await().atMost(TIMEOUT)
                 .until(() -> commands.stream().filter(CompletableFuture::isDone).count() >= COMMANDS - 64);
         assertThat(status("health")).isEqualTo("up");
@@ -105,7 +105,7 @@ class OutagesIT {
     }
 
     @Test
-    void answersWhileKafkaIsUnavailableAndReportsSo() throws Exception {
+    void answersAndReportsWhileKafkaIsUnavailable() throws Exception {
         kafka.close();
         List<CompletableFuture<Integer>> stops = new ArrayList<>();
         for (int i = 0; i < COMMANDS; i++) {
@@ -126,7 +126,7 @@ class OutagesIT {
     }
 
     @Test
-    void showsThatTheContextBrokerIsUnavailable() throws Exception {
+    void showsAnUnavailableContextBroker() throws Exception {
         broker.refuse(500);
         await().atMost(TIMEOUT).until(() -> status("ready").equals("degraded"));
         assertThat(part("contextBroker").path("detail").asText()).contains("answers 500");

@@ -30,9 +30,9 @@ class RefusedRequestsIT {
         client = running.client();
     }
 
-    /** The answer of another request would say that something was done which was not. */
+    /** Returning the answer of another request would report a change that was not made. */
     @Test
-    void rejectsAKeyThatWasGivenToAnotherRequest() throws Exception {
+    void rejectsAReusedIdempotencyKey() throws Exception {
         client.send("POST", "/api/domains", "{\"domain\":\"keyed\"}");
         String start = "{\"domain\":\"keyed\"}";
         client.send("POST", "/api/missions/b/start", start);
@@ -57,7 +57,7 @@ class RefusedRequestsIT {
     }
 
     @Test
-    void rejectsWhatIsTooLargeAndGoesOn() throws Exception {
+    void rejectsAnOversizedRequestAndContinues() throws Exception {
         String area = "{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,0],[1,1],[0,0]]],\"note\":\"%s\"}";
         for (int bytes : new int[] {Limits.REQUEST_BYTES - 100, Limits.REQUEST_BYTES, 1_300_000}) {
             String body = "{\"domain\":\"large\",\"area\":%s}".formatted(area.formatted("x".repeat(bytes)));
@@ -71,7 +71,7 @@ class RefusedRequestsIT {
     }
 
     @Test
-    void rejectsAFilterOfAlarmsThatNoneCanPass() throws Exception {
+    void rejectsAnInvalidFilterOfAlarms() throws Exception {
         for (String query : """
                 state=opne state= state=open&state=open state=null&state=null limit=0 limit=1&limit=2 limit=x""".split("\\s+")) {
             assertThat(client.error("GET", "/api/alarms?" + query, null))

@@ -24,7 +24,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
-/** What the API does not let pass. */
+/** Sends requests that the API rejects. */
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
 @Tag("full")
 class RestApiAccessIT {
@@ -42,9 +42,9 @@ class RestApiAccessIT {
         client = running.client();
     }
 
-    /** Each would occupy a thread for as long as it likes. */
+    /** Slow bodies would occupy threads. */
     @Test
-    void waitsForNoBodyThatComesTooSlowly() throws Exception {
+    void rejectsASlowBody() throws Exception {
         URI uri = running.api().uri();
         try (Socket socket = new Socket(uri.getHost(), uri.getPort())) {
             String head =
@@ -57,16 +57,16 @@ class RestApiAccessIT {
                 try {
                     answer = new String(socket.getInputStream().readNBytes(12), US_ASCII);
                 } catch (SocketTimeoutException e) {
-                    // The next byte, then.
+                    // the next byte
                 }
             }
             assertThat(answer).isEqualTo("HTTP/1.1 408");
         }
     }
 
-    /** What is refused early is answered after its body: else the connection would end, and with it the next request. */
+    /** An early rejection is sent after the body was read, else the connection and the next request would fail. */
     @Test
-    void answersTheNextRequestOfAConnectionThoughABodyWasNotNeeded() throws Exception {
+    void answersTheNextRequestAfterAnUnusedBody() throws Exception {
         for (String refused :
                 List.of("POST /api/fields?domain=a.b", "POST /api/nosuch", "DELETE /api/domains/nosuch")) {
             URI uri = running.api().uri();
@@ -91,7 +91,7 @@ class RestApiAccessIT {
     }
 
     @Test
-    void reportsWhatIsWrongWithARequest() throws Exception {
+    void explainsRejections() throws Exception {
         running.refused("POST", "/api/domains", "{\"domain\":", 400, "not-json");
         running.refused("POST", "/api/domains", "[]", 400, "not-a-request");
         running.refused("POST", "/api/domains", "{\"domain\":\"\\ud800\"}", 400, "not-json");
@@ -118,7 +118,7 @@ class RestApiAccessIT {
     }
 
     @Test
-    void requestsATokenWhereItHasSome() throws Exception {
+    void requiresATokenIfConfigured() throws Exception {
         Path tokens = directory.resolve("tokens");
         Files.writeString(tokens, "# who may\nann a-token-of-sixteen-signs operator\n");
         RestSettings settings = RestSettings.on(0)

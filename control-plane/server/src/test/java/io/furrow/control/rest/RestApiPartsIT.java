@@ -30,7 +30,7 @@ import io.furrow.model.topic.Topics;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** The API while other parts come and go. */
+/** Uses the API while other parts start and stop. */
 @Tag("full")
 class RestApiPartsIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
@@ -61,7 +61,7 @@ class RestApiPartsIT {
     }
 
     @Test
-    void givesARequestThatIsRepeatedUntilItIsAnsweredOneEffect() throws Exception {
+    void executesARepeatedRequestOnce() throws Exception {
         assertThat(create("key-1").statusCode()).isEqualTo(503);
         assertThat(create("key-1").statusCode()).isEqualTo(503);
         try (ControlPlane plane = ControlPlane.start(settings())) {
@@ -80,7 +80,7 @@ class RestApiPartsIT {
     }
 
     @Test
-    void takesAnAlarmFromItsBeginningToItsEnd() throws Exception {
+    void handlesTheLifeCycleOfAnAlarm() throws Exception {
         try (FarmWatch watch =
                         FarmWatch.start(settings(), WatchOptions.DEFAULT.withCollisionHolds(Duration.ofSeconds(1)));
                 KafkaProducer<String, byte[]> producer =
@@ -117,7 +117,7 @@ class RestApiPartsIT {
         }
     }
 
-    /** Asked until there is an answer: the timeout is a second. */
+    /** Repeats a request until it is answered, because the timeout is a second. */
     private int answered(String path, String body) throws Exception {
         String key = java.util.UUID.randomUUID().toString();
         await().atMost(TIMEOUT)

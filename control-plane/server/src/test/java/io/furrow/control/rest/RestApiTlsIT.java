@@ -70,7 +70,7 @@ class RestApiTlsIT {
     }
 
     @Test
-    void answersOverTlsAndNotWithoutIt() throws Exception {
+    void answersOnlyOverTls() throws Exception {
         start(CertificateFiles.pem(first.certificate(), first.key()));
 
         assertThat(api.uri().getScheme()).isEqualTo("https");
@@ -83,7 +83,7 @@ class RestApiTlsIT {
     }
 
     @Test
-    void takesAKeystore() throws Exception {
+    void acceptsAKeystore() throws Exception {
         start(CertificateFiles.keystore(second.keystore(), second.password()));
 
         assertThat(health(second).statusCode()).isIn(200, 503);
@@ -104,7 +104,7 @@ class RestApiTlsIT {
     }
 
     @Test
-    void takesANewCertificateUpOnceItIsCompleteAndRetainsTheOldOneUntilThen() throws Exception {
+    void reloadsACertificateOnceItIsComplete() throws Exception {
         Path certificate = Files.copy(first.certificate(), directory.resolve("live.pem"));
         Path key = Files.copy(first.key(), directory.resolve("live.key"));
         start(CertificateFiles.pem(certificate, key));
@@ -122,10 +122,10 @@ class RestApiTlsIT {
     }
 
     @Test
-    void reportsWhatIsWrongWithTheFiles() {
+    void explainsProblemsOfTheFiles() {
         assertThatThrownBy(() -> start(CertificateFiles.pem(first.certificate(), second.key())))
                 .isInstanceOf(IOException.class)
-                .hasMessageContainingAll("first.pem", "second.key", "the key is not that of the certificate");
+                .hasMessageContainingAll("first.pem", "second.key", "the key does not belong to the certificate");
         assertThatThrownBy(() -> start(CertificateFiles.pem(first.key(), first.key())))
                 .isInstanceOf(IOException.class)
                 .hasMessageContainingAll("first.key", "openssl pkcs8");
@@ -151,7 +151,7 @@ class RestApiTlsIT {
                         HttpResponse.BodyHandlers.ofByteArray());
     }
 
-    /** Of the certificate that a new connection is shown. */
+    /** Returns the serial number of the certificate of a new connection. */
     private String subject() throws Exception {
         try (SSLSocket socket = (SSLSocket) trusting(first, second)
                 .getSocketFactory()

@@ -13,21 +13,21 @@ import io.furrow.kafka.Readiness;
 import static org.assertj.core.api.Assertions.assertThatCode;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
-/** What an address needs before the API listens on it. */
+/** Checks the requirements for the address of the API. */
 class RestSettingsTest {
     private static final Path FILE = Path.of("file");
 
     private final RestSettings everywhere = RestSettings.on(0).withHost("0.0.0.0");
 
     @Test
-    void needsNothingOnThisMachineAlone() {
+    void needsNothingOnLoopback() {
         for (String host : new String[] {"127.0.0.1", "localhost", "::1"}) {
             assertThatCode(() -> RestSettings.on(0).withHost(host).check()).doesNotThrowAnyException();
         }
     }
 
     @Test
-    void needsTokensWhereOthersReachIt() {
+    void needsTokensOnOtherAddresses() {
         assertThatThrownBy(() -> RestApi.start(
                         ControlSettings.of(new java.util.Properties()), everywhere, new Readiness(Clock.systemUTC())))
                 .isInstanceOf(IOException.class)
@@ -35,7 +35,7 @@ class RestSettingsTest {
     }
 
     @Test
-    void needsTlsWhereOthersReachItUnlessAProxyEndsIt() {
+    void needsTlsOnOtherAddressesUnlessAProxyTerminatesIt() {
         RestSettings plain = everywhere.withTokens(FILE);
 
         assertThatThrownBy(plain::check)

@@ -30,7 +30,7 @@ import io.furrow.model.control.Role;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** Every operation of the description with every role. */
+/** Calls every described operation with every role. */
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
 @Tag("full")
 class RolesIT {
@@ -68,7 +68,7 @@ class RolesIT {
         running.close();
     }
 
-    /** @param path with names in the place of its parameters, of things that are not there */
+    /** @param path with names of missing resources as parameters */
     private record Operation(String method, String path, Role minimum) {}
 
     static Stream<Operation> operations() throws Exception {
@@ -96,7 +96,7 @@ class RolesIT {
 
     @ParameterizedTest
     @MethodSource("operations")
-    void letsARoleDoWhatItMayAndNothingElse(Operation operation) throws Exception {
+    void allowsEachRoleOnlyItsOperations(Operation operation) throws Exception {
         for (Role role : Role.values()) {
             ApiClient caller = callers.get(role);
             String body =
@@ -117,14 +117,14 @@ class RolesIT {
     }
 
     @Test
-    void letsEverybodyHaveWhatShowsNothingOfTheFarm() throws Exception {
+    void servesPublicOperationsWithoutAToken() throws Exception {
         ApiClient nobody = new ApiClient(api.uri(), null);
         for (String path : List.of("/health", "/metrics", "/openapi.json")) {
             assertThat(nobody.status("GET", path, null)).as(path).isEqualTo(200);
         }
     }
 
-    /** What needs no token is marked so, everything else has its role, and that is the one of the code. */
+    /** Public operations are marked, all others have the role of the code. */
     @Test
     void describesTheRoleOfEachOperation() throws Exception {
         OpenApiDocument document = OpenApiDocument.read();
@@ -141,7 +141,7 @@ class RolesIT {
     }
 
     @Test
-    void believesUsersOnlyOfATokenThatSpeaksForThem() throws Exception {
+    void acceptsUserHeadersOnlyWithATokenForUsers() throws Exception {
         assertThat(me("token-that-speaks-1", "vera", "viewer")).contains("200", "\"vera\"", "\"viewer\"");
         assertThat(me("token-that-speaks-1", "anna", "admin")).contains("200", "\"anna\"", "\"operator\"");
         assertThat(me("token-of-an-admin-1", "vera", "viewer")).contains("403", "not-for-users", "'anna'");
@@ -166,7 +166,7 @@ class RolesIT {
     }
 
     @Test
-    void takesNewTokensUpAndRetainsTheOldOnesWhereTheFileIsBad() throws Exception {
+    void reloadsTokensAndRetainsTheOldOnesIfTheFileIsInvalid() throws Exception {
         ApiClient late = new ApiClient(api.uri(), "token-of-a-late-one");
         String before = Files.readString(tokens);
         assertThat(late.status("GET", "/api/domains", null)).isEqualTo(401);
@@ -179,7 +179,7 @@ class RolesIT {
             await().until(() -> late.get("/health")
                     .at("/warnings/0")
                     .asText()
-                    .equals("the file of tokens cannot be used as it is; the tokens from before count"));
+                    .equals("the file of tokens cannot be used as it is; the previous tokens stay valid"));
             assertThat(late.status("GET", "/api/domains", null)).isEqualTo(200);
 
             Files.writeString(tokens, before);

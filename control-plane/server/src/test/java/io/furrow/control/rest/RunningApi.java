@@ -23,7 +23,7 @@ import io.furrow.model.device.FarmSecret;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** The API with managers, and a context broker for commands. */
+/** Runs the API with managers and a context broker for commands. */
 public final class RunningApi implements AutoCloseable {
     static final Duration TIMEOUT = Duration.ofSeconds(60);
     static final FarmSecret SECRET = new FarmSecret("a secret of sixteen bytes or more".getBytes());
@@ -62,20 +62,20 @@ public final class RunningApi implements AutoCloseable {
         return broker;
     }
 
-    /** What is there. */
+    /** Returns an existing resource. */
     public JsonNode get(String path) throws Exception {
         HttpResponse<byte[]> answer = client.send("GET", path, null);
         assertThat(answer.statusCode()).as(path).isEqualTo(200);
         return client.json(answer);
     }
 
-    /** Asks for what is refused; where nothing is known of the path, that is not a described answer. */
+    /** Sends a request that is rejected. The answer for an unknown path is not described. */
     public void refused(String method, String path, String body, int status, String error) throws Exception {
         boolean described = !error.equals("not-found");
         assertThat(client.error(method, path, body, described)).isEqualTo(status + " " + error);
     }
 
-    /** What somebody else than the control plane writes. */
+    /** Writes a record of another program. */
     void write(String topic, String key, byte[] value) {
         try (KafkaProducer<String, byte[]> producer =
                 new KafkaProducer<>(settings().client(), new StringSerializer(), new ByteArraySerializer())) {

@@ -10,7 +10,7 @@ import io.furrow.stub.StubServer;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** Takes or refuses updates, and reports the last. */
+/** Accepts or rejects updates, and records the last one. */
 final class StubContextBroker implements AutoCloseable {
     private final StubServer server = new StubServer(this::take);
     private volatile String last = "";
@@ -31,7 +31,7 @@ final class StubContextBroker implements AutoCloseable {
         return scope;
     }
 
-    /** Answers nobody until the latch is open. */
+    /** Does not answer until the latch is open. */
     void hold(CountDownLatch until) {
         held = until;
     }

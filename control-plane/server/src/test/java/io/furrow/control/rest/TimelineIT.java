@@ -82,7 +82,7 @@ class TimelineIT {
     }
 
     @Test
-    void countsTheEventsOfAMissionBucketByBucket() throws Exception {
+    void countsTheEventsOfAMissionByBucket() throws Exception {
         JsonNode all = counted("?buckets=10");
         assertThat(all.path("from").asLong()).isEqualTo(TIME);
         assertThat(all.path("width").asLong()).isEqualTo(1_000);
@@ -96,7 +96,7 @@ class TimelineIT {
     }
 
     @Test
-    void rejectsWhatIsNoPartOfAMission() throws Exception {
+    void rejectsARangeOutsideOfTheMission() throws Exception {
         assertRefused("/api/recordings/sowing/timeline", "404 unknown-mission");
         assertRefused("/api/recordings/deleted/timeline", "404 unknown-mission");
         assertRefused(TIMELINE + "?buckets=0", "400 wrong-member");

@@ -50,7 +50,7 @@ final class AlarmDelivery implements SupervisedWorker.Work, ConsumerRebalanceLis
     /** Key of the record with the start time: alarms that were closed earlier and never delivered are not delivered. */
     private static final String SINCE = "";
 
-    private static final Duration NEWS = Duration.ofMinutes(10);
+    private static final Duration MAX_AGE_AT_FIRST_START = Duration.ofMinutes(10);
 
     private final Properties client;
     private final Webhook.Settings settings;
@@ -64,8 +64,8 @@ final class AlarmDelivery implements SupervisedWorker.Work, ConsumerRebalanceLis
 
     private Map<TopicPartition, Long> unread = Map.of();
     private long decided;
-    private long taken;
-    private long refused;
+    private long accepted;
+    private long rejected;
     private volatile String detail = "starts";
 
     private record Done(DeliveryQueue.Post post, Webhook.Answer answer) {}
@@ -114,11 +114,11 @@ final class AlarmDelivery implements SupervisedWorker.Work, ConsumerRebalanceLis
         List<Done> more = new ArrayList<>();
         done.drainTo(more);
         more.forEach(each -> complete(worker, each));
-        if (isRead()) {
+        if (isCaughtUp()) {
             post();
         }
         detail = "%d waiting, %d in flight, since the start %d accepted and %d rejected"
-                .formatted(queue.waiting(), queue.inFlight(), taken, refused);
+                .formatted(queue.waiting(), queue.inFlight(), accepted, rejected);
     }
 
     private void post() {
@@ -179,12 +179,12 @@ final class AlarmDelivery implements SupervisedWorker.Work, ConsumerRebalanceLis
         Webhook.Answer answer = completed.answer();
         Alarm alarm = completed.post().alarm();
         switch (answer.outcome()) {
-            case TAKEN -> {
-                taken++;
+            case ACCEPTED -> {
+                accepted++;
                 worker.succeeded();
             }
-            case REFUSED -> {
-                refused++;
+            case REJECTED -> {
+                rejected++;
                 worker.failed("alarm %s was rejected: %s".formatted(alarm.alarm(), answer.reason()));
                 LOG.error(
                         "the webhook at {} rejected alarm {} ({}), which is not posted again until it changes: {}",
@@ -208,7 +208,7 @@ final class AlarmDelivery implements SupervisedWorker.Work, ConsumerRebalanceLis
     }
 
     /** Whether all records that existed when the topic was assigned were read. */
-    private boolean isRead() {
+    private boolean isCaughtUp() {
         if (!unread.isEmpty()
                 && unread.entrySet().stream().allMatch(end -> consumer.position(end.getKey()) >= end.getValue())) {
             unread = Map.of();
@@ -243,7 +243,7 @@ final class AlarmDelivery implements SupervisedWorker.Work, ConsumerRebalanceLis
                 return delivered(record).time();
             }
         }
-        long since = clock.millis() - NEWS.toMillis();
+        long since = clock.millis() - MAX_AGE_AT_FIRST_START.toMillis();
         store(new DeliveryQueue.Update(SINCE, new DeliveryState(0, AlarmState.CLOSED, since, 0, false)));
         return since;
     }

@@ -29,8 +29,8 @@ final class BoundedBody implements BodySubscriber<Void> {
     }
 
     @Override
-    public void onSubscribe(Flow.Subscription given) {
-        subscription = given;
+    public void onSubscribe(Flow.Subscription newSubscription) {
+        subscription = newSubscription;
         subscription.request(1);
     }
 

@@ -50,7 +50,8 @@ final class DeliveryQueue {
      * An alarm to be posted.
      *
      * @param id of the delivery: {@code <alarm>:<sequence>}, for a repetition {@code <alarm>:<sequence>:<number>}
-     * @param attempt to be stored before the post, which may be accepted though nobody learns of it; null if the alarm has one
+     * @param attempt update to be stored before the post, because its response may be lost; null if an attempt is
+     *     stored already
      */
     record Post(String id, Alarm alarm, int repeats, Update attempt) {}
 
@@ -94,9 +95,7 @@ final class DeliveryQueue {
         decide(entry, now);
     }
 
-    /**
-     * Handles the tombstone of an alarm: it is no longer posted, so that memory is bounded by the alarms on the topic.
-     */
+    /** Handles the tombstone of an alarm: it is no longer posted, so that memory is bounded by the alarms on the topic. */
     Optional<Update> remove(String alarm) {
         Entry entry = entries.get(alarm);
         if (entry == null) {
@@ -159,7 +158,7 @@ final class DeliveryQueue {
             return entry == null ? Optional.empty() : forgetIfDone(alarm.alarm(), entry);
         }
         DeliveryState delivered = new DeliveryState(
-                alarm.sequence(), alarm.state(), now, post.repeats(), answer.outcome() == Webhook.Outcome.REFUSED);
+                alarm.sequence(), alarm.state(), now, post.repeats(), answer.outcome() == Webhook.Outcome.REJECTED);
         if (failuresInARow >= UNAVAILABLE_AFTER) {
             waiting.forEach(each -> each.notBefore = each.failures > 0 ? now : each.notBefore);
         }

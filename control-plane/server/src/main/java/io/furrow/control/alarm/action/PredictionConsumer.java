@@ -40,7 +40,7 @@ final class PredictionConsumer implements SupervisedWorker.Work, ConsumerRebalan
     private static final String GROUP = "furrow-stop-on-predicted";
     private static final Duration POLL = Duration.ofMillis(200);
     private static final Duration TAKEN_OVER_AFTER = Duration.ofSeconds(10);
-    private static final Duration REMEMBERED = Duration.ofHours(1);
+    private static final Duration AUDIT_LOOKBACK = Duration.ofHours(1);
     private static final String PREDICTED = "predicted";
 
     private final Properties client;
@@ -106,7 +106,7 @@ final class PredictionConsumer implements SupervisedWorker.Work, ConsumerRebalan
     @Override
     public void onPartitionsAssigned(Collection<TopicPartition> partitions) {
         try (CommittedReader<String> audit = CommittedReader.open(client, Topics.AUDIT)) {
-            audit.seekToTime(clock.millis() - REMEMBERED.toMillis()).readToEnd(this::remember);
+            audit.seekToTime(clock.millis() - AUDIT_LOOKBACK.toMillis()).readToEnd(this::restore);
         }
         Map<TopicPartition, Long> fresh = new HashMap<>();
         partitions.forEach(partition -> fresh.put(partition, clock.millis() - StopRobots.FRESH.toMillis()));
@@ -119,10 +119,10 @@ final class PredictionConsumer implements SupervisedWorker.Work, ConsumerRebalan
                         : found.get(partition).offset()));
     }
 
-    private void remember(ConsumerRecord<String, byte[]> entry) {
+    private void restore(ConsumerRecord<String, byte[]> entry) {
         try {
             if (entry.value() != null) {
-                robots.remember(NgsiJson.read(entry.value()));
+                robots.restore(NgsiJson.read(entry.value()));
             }
         } catch (UnreadableException e) {
             LOG.debug(

@@ -31,7 +31,7 @@ import io.furrow.model.text.FailureText;
 public final class StopRobots {
     static final Duration FRESH = Duration.ofSeconds(10);
     static final int ATTEMPTS = 3;
-    static final int MAX_REMEMBERED = 10_000;
+    static final int MAX_HANDLED = 10_000;
     static final String USER = "alarms";
     static final String STOP = "Stop";
     static final String DEVICE = "device";
@@ -47,7 +47,7 @@ public final class StopRobots {
     private final Executor executor;
     private final Clock clock;
     /** Result, or reason for not sending, by encounter and device; the eldest entry is evicted. */
-    private final Map<String, String> handled = BoundedMap.byInsertion(MAX_REMEMBERED);
+    private final Map<String, String> handled = BoundedMap.byInsertion(MAX_HANDLED);
 
     /**
      * Which robots are stopped, and how.
@@ -75,7 +75,7 @@ public final class StopRobots {
     }
 
     /** Restores an entry of the audit topic, so that a Stop that any instance has sent is not sent again. */
-    void remember(JsonNode entry) {
+    void restore(JsonNode entry) {
         if (STOP.equals(entry.path("command").textValue())
                 && USER.equals(entry.path("user").textValue())
                 && SENT.equals(entry.path("result").textValue())) {
@@ -92,7 +92,7 @@ public final class StopRobots {
         for (EncounterReport.Member member : encounter.members()) {
             String type = encounter.typeOf(member, types);
             if (type == null) {
-                leave(encounter, member, "the type of its entity is unknown; add it to a mission");
+                skip(encounter, member, "the type of its entity is unknown; add it to a mission");
             } else if (settings.types().contains(type)) {
                 decide(encounter, member, type, time);
             }
@@ -101,13 +101,13 @@ public final class StopRobots {
 
     private void decide(EncounterReport encounter, EncounterReport.Member robot, String type, long time) {
         if (!isFresh(time)) {
-            leave(encounter, robot, stale());
+            skip(encounter, robot, stale());
         } else if (!SENT.equals(put(key(encounter.id(), robot.id()), SENT))) {
             try {
                 executor.execute(() -> stop(encounter, robot, type, time));
             } catch (RejectedExecutionException e) {
                 forget(encounter, robot);
-                leave(encounter, robot, "too many robots are being stopped at once");
+                skip(encounter, robot, "too many robots are being stopped at once");
             }
         }
     }
@@ -158,7 +158,7 @@ public final class StopRobots {
     }
 
     /** Writes an audit entry, once per reason, that no command was sent. */
-    private void leave(EncounterReport encounter, EncounterReport.Member member, String reason) {
+    private void skip(EncounterReport encounter, EncounterReport.Member member, String reason) {
         String key = key(encounter.id(), member.id());
         synchronized (handled) {
             String before = handled.get(key);

@@ -34,7 +34,7 @@ public final class Webhook {
 
     private static final Duration TIMEOUT = Duration.ofSeconds(10);
     private static final Duration MAX_RETRY_AFTER = Duration.ofHours(1);
-    /** 4xx status codes that say nothing of the alarm: a token has expired, a proxy does not know the receiver now. */
+    /** 4xx status codes that do not concern the alarm: an expired token, a proxy that does not find the receiver. */
     private static final Set<Integer> TEMPORARY =
             Set.of(401, 402, 403, 404, 405, 407, 408, 410, 421, 423, 425, 429, 451);
 
@@ -94,9 +94,9 @@ public final class Webhook {
 
     /** Result of a post. */
     enum Outcome {
-        TAKEN,
+        ACCEPTED,
         /** Rejected permanently. */
-        REFUSED,
+        REJECTED,
         /** May be accepted later. */
         FAILED
     }
@@ -147,10 +147,10 @@ public final class Webhook {
     private Answer answer(HttpResponse<Void> response) {
         int status = response.statusCode();
         if (status / 100 == 2) {
-            return new Answer(Outcome.TAKEN, null, null);
+            return new Answer(Outcome.ACCEPTED, null, null);
         }
         if (status / 100 == 4 && !TEMPORARY.contains(status)) {
-            return new Answer(Outcome.REFUSED, "it responded with " + status, null);
+            return new Answer(Outcome.REJECTED, "it responded with " + status, null);
         }
         String reason = status / 100 == 3
                 ? "it responded with %d, and redirects are not followed: name the final URL".formatted(status)

@@ -1,2 +1,2 @@
-/** What alarms trigger: webhooks, and stop commands for robots with their audit. */
+/** Acts on alarms: webhooks, and audited stop commands for robots. */
 package io.furrow.control.alarm.action;

@@ -17,9 +17,9 @@ import io.furrow.control.manager.UnitOfWork;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.Fault;
 
-/** Adds the processors that raise alarms from results of analytics, from the statuses of missions and from faults of Furrow itself. */
+/** Adds the processors that raise alarms from results of analytics, statuses of missions and faults of Furrow itself. */
 public final class AnalyticsAlarms {
-    /** Three times the interval at which it is repeated. */
+    /** Three times the interval at which faults are repeated. */
     private static final Duration FAULT_HOLDS = Duration.ofMinutes(3);
 
     private AnalyticsAlarms() {}
@@ -80,6 +80,7 @@ public final class AnalyticsAlarms {
         ManagerTopology.observe(
                 results,
                 new ManagerTopology.Nodes("watch-" + name, name + "-out"),
+                true,
                 unitOfWork -> opening.apply(AlarmManager.handler(unitOfWork), unitOfWork),
                 Stream.concat(AlarmManager.stores().stream(), types.stores().stream())
                         .toList());

@@ -46,7 +46,7 @@ public final class DeviceTypeCache implements SupervisedWorker.Work, Function<St
             try {
                 JsonNode json = NgsiJson.read(record.value());
                 return json.path("type").textValue();
-            } catch (UnreadableException e) { // its type is unknown then
+            } catch (UnreadableException e) { // the type stays unknown
                 LOG.debug(
                         "record {}-{}@{} is not JSON and is skipped",
                         record.topic(),

@@ -15,11 +15,11 @@ import io.furrow.model.control.AlarmKind;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Raises alarms for encounters. A collision lasts until the encounter has ended and the pair has kept its distance for a
- * while: devices at the border of what is close have one alarm, not one per report. Records of an ongoing encounter raise
- * it too, if it was closed manually or began before the processor started. No record reports the end of a prediction:
- * it ends when it is not repeated for a while, or when the encounter starts, and there is none while there is a collision. A
- * collision that is not repeated for {@link AlarmCommandHandler#COLLISION_HOLDS} has ended, too: its last record was lost.
+ * Raises alarms for encounters. A collision lasts until some time after the end of the encounter, so that devices near
+ * the distance threshold have one alarm, not one per report. Records of an ongoing encounter raise it too, if it was
+ * closed manually or began before the processor started. The end of a prediction is not reported: it ends when it is
+ * not repeated for a while, or when the encounter starts; a pair with a collision has no prediction. A collision that
+ * is not repeated for {@link AlarmCommandHandler#COLLISION_HOLDS} ends too, because its last record was lost.
  *
  * @param types returns the type of a device's entity by tenant, service path and id
  */
@@ -43,7 +43,7 @@ public record EncounterAlarmProcessor(AlarmCommandHandler alarms, Function<Strin
         switch (encounter.phase()) {
             case "started" -> {
                 alarms.end(AlarmKind.PREDICTED_ENCOUNTER, pair, "the encounter has started", now);
-                alarms.raiseAnew(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_HOLDS), now);
+                alarms.raiseAgain(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_HOLDS), now);
             }
             case "ongoing" ->
                 alarms.raiseOrExtend(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_HOLDS), now);

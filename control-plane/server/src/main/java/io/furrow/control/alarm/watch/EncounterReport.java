@@ -33,8 +33,8 @@ public record EncounterReport(
     public static EncounterReport read(byte[] value, FiwareScope scope) throws UnreadableException {
         Entity entity = Entity.parse(value);
         return new EncounterReport(
-                needed(entity, CollisionResult.ENCOUNTER),
-                needed(entity, CollisionResult.PHASE),
+                required(entity, CollisionResult.ENCOUNTER),
+                required(entity, CollisionResult.PHASE),
                 member(entity, CollisionResult.FIRST),
                 member(entity, CollisionResult.SECOND),
                 entity.number(CollisionResult.DISTANCE).orElse(Double.NaN),
@@ -48,7 +48,7 @@ public record EncounterReport(
         return first.id() + "-" + second.id();
     }
 
-    /** Returns what tells the pair from others of the same ids: tenant, service path, both types and the pair. */
+    /** Returns the unambiguous identity of the pair: tenant, service path, both types and the pair. */
     String identity() {
         return scope.identity((first.type() + " " + second.type()).strip(), pair());
     }
@@ -73,18 +73,17 @@ public record EncounterReport(
 
     /** Returns the distance as text with its unit. */
     String meters() {
-        double message = Double.isNaN(minDistance) ? distance : minDistance;
-        return String.format(Locale.ROOT, "%.1f m", message);
+        return String.format(Locale.ROOT, "%.1f m", Double.isNaN(minDistance) ? distance : minDistance);
     }
 
     private static Member member(Entity entity, CollisionResult.Member names) throws UnreadableException {
         return new Member(
-                needed(entity, names.id()),
+                required(entity, names.id()),
                 entity.text(names.mission()).orElse(""),
                 entity.text(names.type()).orElse(""));
     }
 
-    private static String needed(Entity entity, String attribute) throws UnreadableException {
+    private static String required(Entity entity, String attribute) throws UnreadableException {
         return entity.text(attribute)
                 .orElseThrow(() -> new UnreadableException(
                         Reason.NOT_AN_EVENT, "the encounter has no attribute '" + attribute + "'"));

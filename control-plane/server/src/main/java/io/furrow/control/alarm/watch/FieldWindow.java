@@ -29,7 +29,7 @@ public record FieldWindow(
         boolean verified) {
     /** @param type empty if the record does not name it */
     public record Suspect(String id, String type) {
-        /** Tells it from other entities of the field's tenant and path; the length makes it unambiguous. */
+        /** Returns a key that is unique within the field's tenant and path; the length makes it unambiguous. */
         public String key() {
             return type.isEmpty() ? id : type.length() + ":" + type + id;
         }

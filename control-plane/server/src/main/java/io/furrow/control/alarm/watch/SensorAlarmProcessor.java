@@ -25,20 +25,20 @@ import io.furrow.model.ngsi.UnreadableException;
 final class SensorAlarmProcessor implements Observer {
     private static final int WINDOWS = 3;
     private static final Duration MIN = Duration.ofMinutes(1);
-    /** Runs of a field without windows for this time are discarded. */
-    private static final Duration REMEMBERED = Duration.ofDays(1);
+    /** Streaks of a field without windows for this time are discarded. */
+    private static final Duration MAX_IDLE = Duration.ofDays(1);
 
     private static final long CLEARING_INTERVAL = Duration.ofHours(1).toMillis();
 
     private final AlarmCommandHandler alarms;
     private final Function<String, String> types;
-    private final Table<SuspectStreaks> runs;
+    private final Table<SuspectStreaks> streaks;
     private long nextClearing;
 
-    SensorAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types, Table<SuspectStreaks> runs) {
+    SensorAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types, Table<SuspectStreaks> streaks) {
         this.alarms = alarms;
         this.types = types;
-        this.runs = runs;
+        this.streaks = streaks;
     }
 
     @Override
@@ -48,17 +48,17 @@ final class SensorAlarmProcessor implements Observer {
             return;
         }
         FiwareScope scope = KafkaClients.scope(record.headers());
-        SuspectStreaks existing = runsOf(scope.identity(window.field()), window.windowEnd());
-        SuspectStreaks run = existing.after(window);
-        if (run == existing) {
+        SuspectStreaks existing = streaksOf(scope.identity(window.field()), window.windowEnd());
+        SuspectStreaks streak = existing.after(window);
+        if (streak == existing) {
             return;
         }
-        runs.put(run.field(), run); // also without suspects: a late, earlier window must not count
+        streaks.put(streak.field(), streak); // also without suspects, because a late, earlier window must not count
         Duration holds = Duration.ofMillis((window.windowEnd() - window.windowStart()) * WINDOWS);
         for (FieldWindow.Suspect suspect : window.suspects()) {
             String id = suspect.id();
             String identity = scope.identity(suspect.type(), id);
-            if (run.of(suspect) >= WINDOWS || alarms.isRaised(AlarmKind.SUSPECT_SENSOR, identity)) {
+            if (streak.of(suspect) >= WINDOWS || alarms.isRaised(AlarmKind.SUSPECT_SENSOR, identity)) {
                 String text = "%s deviates from the other sensors in field %s".formatted(id, window.field());
                 String type = suspect.type().isEmpty() ? types.apply(scope.identity(id)) : suspect.type();
                 Cause.AffectedDevice device = Cause.AffectedDevice.of(id, type, scope);
@@ -70,19 +70,20 @@ final class SensorAlarmProcessor implements Observer {
         }
     }
 
-    /** Removes the runs of fields that no longer produce windows. */
+    /** Removes the streaks of fields that no longer produce windows. */
     @Override
     public void passTime(long now) {
         if (now < nextClearing) {
             return;
         }
         nextClearing = now + CLEARING_INTERVAL;
-        runs.where(run -> run.windowEnd() + REMEMBERED.toMillis() <= now).forEach(run -> runs.put(run.field(), null));
+        streaks.where(streak -> streak.windowEnd() + MAX_IDLE.toMillis() <= now)
+                .forEach(streak -> streaks.put(streak.field(), null));
     }
 
-    private SuspectStreaks runsOf(String field, long time) {
-        SuspectStreaks existing = runs.get(field);
-        return existing == null || existing.windowEnd() + REMEMBERED.toMillis() <= time
+    private SuspectStreaks streaksOf(String field, long time) {
+        SuspectStreaks existing = streaks.get(field);
+        return existing == null || existing.windowEnd() + MAX_IDLE.toMillis() <= time
                 ? new SuspectStreaks(field, Long.MIN_VALUE, Map.of())
                 : existing;
     }

@@ -16,10 +16,10 @@ import io.furrow.model.control.AlarmKind;
 import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Raises an alarm while devices of a mission that starts or runs are missing, as its status says. */
+/** Raises an alarm while devices of a starting or running mission are missing according to its status. */
 final class StartAlarmProcessor implements Observer {
     private final AlarmCommandHandler alarms;
-    /** Reported again and again: an alarm does not take each change at once. */
+    /** Reported periodically, because an alarm may ignore a change that follows another one closely. */
     private final Map<String, Cause> causes = new HashMap<>();
 
     StartAlarmProcessor(AlarmCommandHandler alarms) {
@@ -31,9 +31,9 @@ final class StartAlarmProcessor implements Observer {
         String mission = record.key();
         MissionStatus status =
                 record.value() == null ? null : StateJson.readRecord(record.value(), MissionStatus.class);
-        boolean shallRun =
+        boolean isDesired =
                 status != null && (status.state() == MissionState.STARTING || status.state() == MissionState.RUNNING);
-        if (shallRun && !status.missing().isEmpty()) {
+        if (isDesired && !status.missing().isEmpty()) {
             Cause cause = cause(mission, status);
             causes.put(mission, cause);
             alarms.report(cause, null, now);

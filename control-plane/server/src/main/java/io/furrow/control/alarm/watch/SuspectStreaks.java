@@ -15,9 +15,7 @@ record SuspectStreaks(String field, long windowEnd, Map<String, Integer> windows
         windows = Map.copyOf(windows);
     }
 
-    /**
-     * Returns the runs after another window. A window that is not newer, or that has too few devices, changes nothing.
-     */
+    /** Returns the streaks after another window. A window that is not newer, or that has too few devices, changes nothing. */
     SuspectStreaks after(FieldWindow window) {
         if (window.windowEnd() <= windowEnd || !window.verified()) {
             return this;
@@ -27,7 +25,7 @@ record SuspectStreaks(String field, long windowEnd, Map<String, Integer> windows
         return new SuspectStreaks(field, window.windowEnd(), now);
     }
 
-    /** A run of results that named no types is by id alone. */
+    /** Returns the streak of a suspect; one of results without types is stored by id alone. */
     int of(FieldWindow.Suspect suspect) {
         return windows.getOrDefault(suspect.key(), windows.getOrDefault(suspect.id(), 0));
     }

@@ -21,13 +21,13 @@ import io.furrow.model.file.FileProblem;
 import io.furrow.model.file.PrivateFile;
 
 /**
- * A token of the REST API. A name may have several, so that one can take the place of another.
+ * A token of the REST API. A name may have several tokens, so that they can be rotated.
  *
- * @param name of who has it, as it stands on the audit topic
- * @param secret left out of {@link #toString()}
- * @param role what it allows
- * @param forUsers whether it speaks for users, who are named with each request and may at most what {@code role} allows; it
- *     speaks for nobody else then
+ * @param name of its owner, as used on the audit topic
+ * @param secret not part of {@link #toString()}
+ * @param role permissions of its owner
+ * @param forUsers whether it acts on behalf of users named in each request, with at most the permissions of
+ *     {@code role}; then it cannot be used without a user
  */
 public record ApiToken(String name, byte[] secret, Role role, boolean forUsers) {
     private static final Logger LOG = LoggerFactory.getLogger(ApiToken.class);
@@ -35,10 +35,11 @@ public record ApiToken(String name, byte[] secret, Role role, boolean forUsers) 
             Pattern.compile("([A-Za-z0-9_.@-]{1,64})\\s+(\\S{16,512})(?:\\s+(\\S+))?(\\s+for-users)?");
 
     /**
-     * Reads lines {@code <name> <token> <role>}; empty ones and those that begin with # are skipped. A line without a role is
-     * that of a viewer. A line may end with {@code for-users}.
+     * Reads lines {@code <name> <token> <role>}; empty lines and those that begin with # are skipped. The default role
+     * is viewer. A line may end with {@code for-users}.
      *
-     * @throws IOException if the file cannot be read, has another line, a token twice, or none; the message names the line
+     * @throws IOException if the file cannot be read, contains another line, a duplicate token or no token; the message
+     *     names the line
      */
     static List<ApiToken> read(Path file) throws IOException {
         List<ApiToken> tokens = new ArrayList<>();
@@ -54,7 +55,7 @@ public record ApiToken(String name, byte[] secret, Role role, boolean forUsers) 
                 throw wrong(file, i, "a line is '<name> <token> <role>', the token at least 16 characters long");
             }
             if (!secrets.add(parts.group(2))) {
-                throw wrong(file, i, "this token stands further above already; each line has a token of its own");
+                throw wrong(file, i, "an earlier line has the same token; each line needs its own");
             }
             tokens.add(new ApiToken(
                     parts.group(1),
@@ -95,17 +96,17 @@ public record ApiToken(String name, byte[] secret, Role role, boolean forUsers) 
         return new IOException("%s, line %d: %s".formatted(file, index + 1, reason));
     }
 
-    /** What a user may for whom this token speaks. */
-    ApiToken speakingFor(String user, Role userRole) {
+    /** Returns the token for a user on whose behalf this one acts. */
+    ApiToken onBehalfOf(String user, Role userRole) {
         return new ApiToken(user, secret, role.includes(userRole) ? userRole : role, false);
     }
 
-    /** The one of them with this secret, found in a time that does not depend on how much of it is right. */
+    /** Finds the token with a secret, in constant time. */
     static Optional<ApiToken> find(List<ApiToken> tokens, String secret) {
-        byte[] given = secret.getBytes(StandardCharsets.UTF_8);
+        byte[] candidate = secret.getBytes(StandardCharsets.UTF_8);
         ApiToken found = null;
         for (ApiToken each : tokens) {
-            if (MessageDigest.isEqual(each.secret, given)) {
+            if (MessageDigest.isEqual(each.secret, candidate)) {
                 found = each;
             }
         }

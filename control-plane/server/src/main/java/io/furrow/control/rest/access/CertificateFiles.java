@@ -26,12 +26,12 @@ import org.apache.kafka.common.security.ssl.DefaultSslEngineFactory;
 import io.furrow.model.text.FailureText;
 
 /**
- * With which certificate the REST API is reached over TLS: a certificate chain and its key in PEM, or both in a keystore.
+ * The files of the certificate for TLS: a certificate chain and its key in PEM, or both in a keystore.
  *
  * @param certificate chain in PEM, the server's own certificate first; null with a keystore
  * @param key in PEM (PKCS #8); null with a keystore
  * @param keystore PKCS #12; null with PEM files
- * @param passwordFile whose first line is the password of the keystore, or of an encrypted key; null for none
+ * @param passwordFile its first line is the password of the keystore or of an encrypted key; null for none
  */
 public record CertificateFiles(Path certificate, Path key, Path keystore, Path passwordFile) {
     private static final Map<String, String> SIGNATURES =
@@ -46,7 +46,7 @@ public record CertificateFiles(Path certificate, Path key, Path keystore, Path p
         }
     }
 
-    /** A certificate chain and its unencrypted key. */
+    /** Returns the files of a certificate chain and its unencrypted key. */
     public static CertificateFiles pem(Path certificate, Path key) {
         return new CertificateFiles(certificate, key, null, null);
     }
@@ -56,7 +56,7 @@ public record CertificateFiles(Path certificate, Path key, Path keystore, Path p
     }
 
     /**
-     * What the files hold.
+     * The content of the files.
      *
      * @param password of the key; null for none
      */
@@ -68,7 +68,7 @@ public record CertificateFiles(Path certificate, Path key, Path keystore, Path p
                 .toList();
     }
 
-    /** @throws IOException if they cannot be read, or key and certificate do not belong together; names them and what to do */
+    /** @throws IOException if they cannot be read or key and certificate do not match; the message names them and what to do */
     Content read() throws IOException {
         String password = passwordFile == null
                 ? null
@@ -93,7 +93,7 @@ public record CertificateFiles(Path certificate, Path key, Path keystore, Path p
             return content;
         } catch (KafkaException | GeneralSecurityException e) {
             throw new IOException(
-                    "TLS cannot be had of %s (%s). A key in PEM is PKCS #8 ('BEGIN PRIVATE KEY'; openssl pkcs8 -topk8 makes one), and is that of the first certificate"
+                    "TLS cannot use %s (%s). A key in PEM must be PKCS #8 ('BEGIN PRIVATE KEY'; openssl pkcs8 -topk8 converts one) and belong to the first certificate"
                             .formatted(all(), reason(e)),
                     e);
         }
@@ -107,7 +107,7 @@ public record CertificateFiles(Path certificate, Path key, Path keystore, Path p
         return FailureText.of(cause);
     }
 
-    /** Both are replaced one after the other, so that for a moment they may not be a pair. */
+    /** Checks that key and certificate match, which may fail for a moment while both files are being replaced. */
     private static void check(Content content) throws GeneralSecurityException {
         char[] password = content.password() == null ? null : content.password().toCharArray();
         int keys = 0;
@@ -129,7 +129,7 @@ public record CertificateFiles(Path certificate, Path key, Path keystore, Path p
         byte[] signed = signature.sign();
         signature.initVerify(certificate);
         if (!signature.verify(signed)) {
-            throw new GeneralSecurityException("the key is not that of the certificate");
+            throw new GeneralSecurityException("the key does not belong to the certificate");
         }
     }
 }

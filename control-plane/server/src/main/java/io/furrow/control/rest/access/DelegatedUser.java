@@ -8,8 +8,8 @@ import jakarta.ws.rs.container.ContainerRequestContext;
 import io.furrow.model.control.Role;
 
 /**
- * For whom a request is sent with a token that speaks for users: the headers {@value #USER} and {@value #ROLE}. The dashboard sends
- * them for users whom a proxy in front of it has signed in.
+ * Evaluates the headers {@value #USER} and {@value #ROLE} of requests with a token that acts on behalf of users. The
+ * dashboard sends them for users that its proxy has authenticated.
  */
 final class DelegatedUser {
     static final String USER = "Furrow-User";
@@ -20,9 +20,9 @@ final class DelegatedUser {
     private DelegatedUser() {}
 
     /**
-     * Who asks, and what they may: the token itself, or the user for whom it speaks.
+     * Returns the caller and its permissions: the token itself, or the user on whose behalf it acts.
      *
-     * @throws ProblemException 403 where another token names a user, 400 where a token for users names none or no role
+     * @throws ProblemException 403 if another token names a user, 400 if a token for users names no user or no role
      */
     static ApiToken caller(ContainerRequestContext request, ApiToken token) {
         String user = request.getHeaderString(USER);
@@ -45,6 +45,6 @@ final class DelegatedUser {
                     "the token of '%s' speaks for users: %s must be a name of 1 to 64 of A-Z a-z 0-9 _ . @ -, and %s viewer, operator or admin"
                             .formatted(token.name(), USER, ROLE));
         }
-        return token.speakingFor(user, userRole.get());
+        return token.onBehalfOf(user, userRole.get());
     }
 }

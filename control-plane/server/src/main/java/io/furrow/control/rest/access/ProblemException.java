@@ -8,15 +8,15 @@ import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** A request that is answered with an error; the message is its {@code reason}. */
+/** Thrown to answer a request with an error; the message is its {@code reason}. */
 public final class ProblemException extends RuntimeException {
     private static final long serialVersionUID = 1L;
-    private static final int AGAIN_SECONDS = 1;
+    private static final int RETRY_AFTER_SECONDS = 1;
 
     private final int status;
     private final String error;
 
-    /** @param status of HTTP @param error the code in the answer */
+    /** @param status HTTP status @param error code in the answer */
     public ProblemException(int status, String error, String reason) {
         super(reason);
         this.status = status;
@@ -33,7 +33,7 @@ public final class ProblemException extends RuntimeException {
         }
     }
 
-    /** Which status an error of a manager has in HTTP: 400 for what is not understood, 404 for what is not there, and so on. */
+    /** Maps the error code of a manager to an HTTP status. */
     private static int statusOf(String code) {
         return switch (code) {
             case "not-json", "not-a-request", "unknown-command", "missing-member", "wrong-member", "illegal-name" ->
@@ -60,7 +60,7 @@ public final class ProblemException extends RuntimeException {
                         .formatted(RequestContext.KEY));
     }
 
-    /** @param bytes below 0 if they were not counted */
+    /** @param bytes negative if unknown */
     public static ProblemException tooLarge(long bytes, int max) {
         return new ProblemException(
                 ErrorCode.TOO_LARGE,
@@ -81,7 +81,12 @@ public final class ProblemException extends RuntimeException {
         return response(status, CommandResult.ofError(error, getMessage()).json());
     }
 
-    /** What a manager refused. @param error its code @param json with {@code error} and {@code reason} */
+    /**
+     * Returns the response for a rejection of a manager.
+     *
+     * @param error its code
+     * @param json with {@code error} and {@code reason}
+     */
     public static Response response(String error, ObjectNode json) {
         return response(statusOf(error), json);
     }
@@ -90,7 +95,7 @@ public final class ProblemException extends RuntimeException {
         Response.ResponseBuilder answer =
                 Response.status(status).type(MediaType.APPLICATION_JSON_TYPE).entity(NgsiJson.write(json));
         if (status == 503) {
-            answer.header("Retry-After", AGAIN_SECONDS);
+            answer.header("Retry-After", RETRY_AFTER_SECONDS);
         } else if (status == 401) {
             answer.header("WWW-Authenticate", "Bearer");
         }

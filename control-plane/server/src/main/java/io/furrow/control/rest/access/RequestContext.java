@@ -6,14 +6,14 @@ import java.util.regex.Pattern;
 import jakarta.ws.rs.container.ContainerRequestContext;
 
 /**
- * Who asks, and under which id.
+ * The caller and the id of a request.
  *
  * @param user for the audit
- * @param requestId of the header {@value #KEY}, else a new one
+ * @param requestId value of the header {@value #KEY}, else a new id
  */
 public record RequestContext(String user, String requestId) {
     public static final String KEY = "Idempotency-Key";
-    /** As user, where no token is asked for. */
+    /** The user if no token is required. */
     static final String ANONYMOUS = "rest";
 
     private static final Pattern REQUEST_ID = Pattern.compile("[!-~]{1,200}");

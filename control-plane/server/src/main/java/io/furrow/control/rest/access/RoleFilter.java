@@ -14,12 +14,12 @@ import jakarta.ws.rs.core.Context;
 import io.furrow.model.control.Role;
 
 /**
- * Refuses what the role of a caller does not allow. A viewer may read, an operator may do everything else too, but for operations
- * with {@link RolesAllowed}. Where no tokens are asked for, a caller is an admin.
+ * Rejects requests that the role of the caller does not allow. A viewer may read, an operator may do everything else
+ * except operations with {@link RolesAllowed}. Without tokens every caller is an admin.
  */
 @Priority(Priorities.AUTHORIZATION)
 public final class RoleFilter implements ContainerRequestFilter {
-    private static final Set<String> READING = Set.of("GET", "HEAD", "OPTIONS");
+    private static final Set<String> READ_METHODS = Set.of("GET", "HEAD", "OPTIONS");
 
     @Context
     private ResourceInfo operation;
@@ -40,12 +40,12 @@ public final class RoleFilter implements ContainerRequestFilter {
         }
     }
 
-    /** The role that an operation needs at least. */
+    /** Returns the minimum role for an operation. */
     public static Role minimum(Method operation, String httpMethod) {
-        RolesAllowed named = operation == null ? null : operation.getAnnotation(RolesAllowed.class);
-        if (named != null) {
-            return Role.of(named.value()[0]).orElseThrow();
+        RolesAllowed roles = operation == null ? null : operation.getAnnotation(RolesAllowed.class);
+        if (roles != null) {
+            return Role.of(roles.value()[0]).orElseThrow();
         }
-        return READING.contains(httpMethod) ? Role.VIEWER : Role.OPERATOR;
+        return READ_METHODS.contains(httpMethod) ? Role.VIEWER : Role.OPERATOR;
     }
 }

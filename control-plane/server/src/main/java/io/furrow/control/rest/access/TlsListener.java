@@ -18,8 +18,8 @@ import org.slf4j.LoggerFactory;
 import io.furrow.model.file.ReloadedFile;
 
 /**
- * TLS 1.2 and 1.3 in front of HTTP. When the files of the certificate change, new connections get the new one; those that stand go
- * on. Files that cannot be used leave the certificate from before.
+ * Provides TLS 1.2 and 1.3 for HTTP. When the files of the certificate change, new connections use the new one and
+ * existing connections continue. While the files are unusable, the previous certificate stays in use.
  */
 public final class TlsListener {
     private static final Logger LOG = LoggerFactory.getLogger(TlsListener.class);
@@ -27,12 +27,12 @@ public final class TlsListener {
 
     private final ReloadedFile<CertificateFiles.Content> files;
     private final SslContextFactory.Server context = new SslContextFactory.Server();
-    private CertificateFiles.Content used;
+    private CertificateFiles.Content current;
 
     private TlsListener(ReloadedFile<CertificateFiles.Content> files) {
         this.files = files;
-        this.used = files.get();
-        use(context, used);
+        this.current = files.get();
+        use(context, current);
         context.setIncludeProtocols("TLSv1.3", "TLSv1.2");
     }
 
@@ -46,10 +46,10 @@ public final class TlsListener {
         context.setKeyManagerPassword(content.password());
     }
 
-    /** What a connector speaks, the outermost protocol first. */
+    /** Returns the protocols of a connector, the outermost first. */
     public ConnectionFactory[] protocols(HttpConfiguration http) {
         SecureRequestCustomizer secure = new SecureRequestCustomizer();
-        // The certificate is compared with the name by the client; which names are served, the filters of the API say.
+        // The client compares certificate and name; the access rule of the API checks the host.
         secure.setSniHostCheck(false);
         http.addCustomizer(secure);
         return new ConnectionFactory[] {
@@ -57,14 +57,14 @@ public final class TlsListener {
         };
     }
 
-    /** Follows the files for as long as the server runs. */
-    public void follow(Server server) {
+    /** Checks the files periodically while the server runs. */
+    public void watch(Server server) {
         server.getScheduler()
                 .schedule(
                         () -> {
                             reload();
                             if (server.isRunning()) {
-                                follow(server);
+                                watch(server);
                             }
                         },
                         CHECK_SECONDS,
@@ -73,18 +73,18 @@ public final class TlsListener {
 
     private void reload() {
         CertificateFiles.Content newest = files.get();
-        if (newest != used) {
+        if (newest != current) {
             try {
                 context.reload(each -> use(each, newest));
                 LOG.info("the REST API has a new certificate");
             } catch (Exception e) { // Jetty declares no narrower type
                 LOG.warn("the new certificate of the REST API cannot be used; the previous one stays in use", e);
             }
-            used = newest;
+            current = newest;
         }
     }
 
-    /** Why the files as they are now are not in use; empty if they are. */
+    /** Returns why the current files are not in use; empty if they are. */
     Optional<String> problem() {
         return files.problem();
     }

@@ -19,8 +19,8 @@ import org.slf4j.LoggerFactory;
 import io.furrow.model.file.ReloadedFile;
 
 /**
- * Accepts requests with one of the tokens, and those for resources that show nothing of the farm. The file of tokens
- * is read again when it changes; as long as it cannot be used, the tokens from before count.
+ * Accepts requests with a valid token, and those for public resources. The file of tokens is reloaded when it changes;
+ * while it is unusable, the previous tokens stay valid.
  */
 @PreMatching
 @Priority(Priorities.AUTHENTICATION)
@@ -29,7 +29,7 @@ public final class TokenFilter implements ContainerRequestFilter {
     public static final String TOKEN = "furrow.token";
 
     private static final Logger LOG = LoggerFactory.getLogger(TokenFilter.class);
-    private static final Set<String> OPEN = Set.of("health", "ready", "metrics", "openapi.json");
+    private static final Set<String> PUBLIC = Set.of("health", "ready", "metrics", "openapi.json");
     private static final Pattern HEADER = Pattern.compile("[Bb]earer +(\\S+) *");
 
     private final ReloadedFile<List<ApiToken>> tokens;
@@ -43,7 +43,7 @@ public final class TokenFilter implements ContainerRequestFilter {
         return new TokenFilter(ReloadedFile.open(List.of(file), () -> ApiToken.read(file), LOG::warn));
     }
 
-    /** Why the file as it is now is not in use; empty if it is. */
+    /** Returns why the current file is not in use; empty if it is. */
     Optional<String> problem() {
         tokens.get();
         return tokens.problem();
@@ -51,15 +51,14 @@ public final class TokenFilter implements ContainerRequestFilter {
 
     @Override
     public void filter(ContainerRequestContext request) {
-        if (OPEN.contains(request.getUriInfo().getPath())) {
+        if (PUBLIC.contains(request.getUriInfo().getPath())) {
             return;
         }
         String header = request.getHeaderString("Authorization");
         Matcher bearer = HEADER.matcher(header == null ? "" : header);
         Optional<ApiToken> token = bearer.matches() ? ApiToken.find(tokens.get(), bearer.group(1)) : Optional.empty();
         if (token.isEmpty()) {
-            String message =
-                    header == null ? "has no header 'Authorization: Bearer <token>'" : "has no token that is known";
+            String message = header == null ? "has no header 'Authorization: Bearer <token>'" : "has no valid token";
             request.abortWith(new ProblemException(401, "unauthorized", "the request " + message).response());
         } else {
             try {

@@ -1,2 +1,2 @@
-/** Who may do what with the REST API, over TLS or without, and how requests are refused. */
+/** Controls access to the REST API: tokens, roles, TLS, and responses to rejected requests. */
 package io.furrow.control.rest.access;

@@ -21,24 +21,24 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
-/** Reads the audit topic backwards, from Kafka, at most {@value #AT_ONCE} requests at once. */
+/** Reads the audit topic backwards from Kafka, for at most {@value #MAX_CONCURRENT} requests at once. */
 public final class AuditHistory {
-    /** Records that one request reads at most. */
-    public static final int READ = 20_000;
+    /** Maximum number of records that one request reads. */
+    public static final int MAX_READ = 20_000;
 
-    private static final int AT_ONCE = 2;
+    private static final int MAX_CONCURRENT = 2;
     private static final int STEP = 2_000;
     private static final Duration POLL = Duration.ofMillis(200);
     private static final Duration TIMEOUT = Duration.ofSeconds(5);
     private static final TopicPartition AUDIT = new TopicPartition(Topics.AUDIT, 0);
 
     private final Properties settings = new Properties();
-    private final Semaphore free = new Semaphore(AT_ONCE);
+    private final Semaphore free = new Semaphore(MAX_CONCURRENT);
 
     /**
-     * What was found, the newest first.
+     * A page of entries, the newest first.
      *
-     * @param next before which the next page begins; negative if there is no older one
+     * @param next exclusive upper bound of the next page; negative if there is no older entry
      */
     public record Page(List<AuditedEntry> entries, long next) {}
 
@@ -49,9 +49,10 @@ public final class AuditHistory {
     }
 
     /**
-     * The newest before a place, as far as one request reads: a page may have less than was asked for, or nothing, and a next one.
+     * Returns the newest entries before a position. Because the number of records per request is limited, a page may
+     * have fewer entries than requested, or none, and still a next page.
      *
-     * @throws ProblemException where Kafka is unavailable, or too many ask
+     * @throws ProblemException if Kafka is unavailable or too many requests are running
      */
     public Page read(long before, int limit, Predicate<AuditedEntry> desired) {
         if (!free.tryAcquire()) {
@@ -74,7 +75,7 @@ public final class AuditHistory {
         consumer.assign(List.of(AUDIT));
         long first = consumer.beginningOffsets(List.of(AUDIT)).get(AUDIT);
         long end = Math.min(before, consumer.endOffsets(List.of(AUDIT)).get(AUDIT));
-        long minimum = Math.max(first, end - READ);
+        long minimum = Math.max(first, end - MAX_READ);
         long deadline = System.nanoTime() + TIMEOUT.toNanos();
         List<AuditedEntry> found = new ArrayList<>();
         while (end > minimum && System.nanoTime() < deadline) {
@@ -94,7 +95,10 @@ public final class AuditHistory {
         return new Page(found, end > first ? end : -1);
     }
 
-    /** Of a stretch, the oldest first. What is aborted, and the marks of transactions, are places without an entry. */
+    /**
+     * Returns the entries of an offset range, the oldest first. Aborted records and transaction markers have offsets
+     * but are not entries.
+     */
     private static List<AuditedEntry> step(Consumer<String, byte[]> consumer, long start, long end, long deadline) {
         List<AuditedEntry> entries = new ArrayList<>();
         consumer.seek(AUDIT, start);
@@ -112,7 +116,7 @@ public final class AuditHistory {
         return entries;
     }
 
-    /** Null for what is none. */
+    /** Parses an entry; null if it is invalid. */
     private static ObjectNode entry(byte[] value) {
         try {
             return value != null && NgsiJson.read(value) instanceof ObjectNode object ? object : null;

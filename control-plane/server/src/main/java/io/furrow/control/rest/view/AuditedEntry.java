@@ -2,9 +2,9 @@ package io.furrow.control.rest.view;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-/** An entry of the audit topic. @param position its offset there: older ones have lower ones */
+/** An entry of the audit topic. @param position its offset */
 public record AuditedEntry(long position, ObjectNode value) {
-    /** With its position, by which older ones are asked for. */
+    /** Returns the entry with its position, which pages refer to. */
     public ObjectNode json() {
         return value.put("position", position);
     }

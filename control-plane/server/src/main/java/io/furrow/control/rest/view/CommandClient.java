@@ -28,12 +28,13 @@ import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
- * Asks the managers over their topics, whichever instance they run in, and waits for the answer. The same request id twice is
- * one request: whoever has heard nothing may ask again. No thread waits meanwhile, and no more than {@value #MAX_AWAITED} requests.
+ * Sends commands to the managers over their topics and returns their answers asynchronously. Requests with the same id
+ * are one request, so that a client without an answer may repeat it. At most {@value #MAX_PENDING} requests wait for an
+ * answer.
  */
 public final class CommandClient implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(CommandClient.class);
-    private static final int MAX_AWAITED = 2000;
+    private static final int MAX_PENDING = 2000;
 
     private final PendingReplies answers;
     private final StateView view;
@@ -41,10 +42,10 @@ public final class CommandClient implements AutoCloseable {
     private final Executor executor;
     private final RecordSender sender;
 
-    /** A command to a manager. @param members of the request but its type, command, id and user */
+    /** A command to a manager. @param members of the request, except type, command, id and user */
     public record CommandRequest(String topic, String command, ObjectNode members) {}
 
-    /** @param executor answers are forwarded by it */
+    /** @param executor completes the answers */
     public CommandClient(
             Properties client, PendingReplies answers, StateView view, Duration timeout, Executor executor) {
         this.answers = answers;
@@ -55,38 +56,39 @@ public final class CommandClient implements AutoCloseable {
     }
 
     /**
-     * The answer of a manager, also where it refuses; a {@link ProblemException} if there is none.
+     * Returns the answer of a manager, also a rejection; fails with a {@link ProblemException} if there is none.
      *
-     * @throws ProblemException where answers are not heard yet, the id was given to another request, or too many wait already
+     * @throws ProblemException if answers are not read yet, the id was used for another request, or too many requests
+     *     are waiting
      */
-    public CompletionStage<CommandResult> request(CommandRequest question, RequestContext caller) {
+    public CompletionStage<CommandResult> request(CommandRequest command, RequestContext caller) {
         if (!view.isComplete()) {
             throw ProblemException.notReady();
         }
-        byte[] value = value(message(question, caller));
-        PendingReplies.Key key = new PendingReplies.Key(question.topic(), caller.requestId());
-        PendingReplies.Awaited mine =
-                new PendingReplies.Awaited(RequestFingerprint.of(value), new CompletableFuture<>());
-        PendingReplies.Awaited first = answers.await(key, mine);
+        byte[] value = value(message(command, caller));
+        PendingReplies.Key key = new PendingReplies.Key(command.topic(), caller.requestId());
+        PendingReplies.PendingRequest own =
+                new PendingReplies.PendingRequest(RequestFingerprint.of(value), new CompletableFuture<>());
+        PendingReplies.PendingRequest first = answers.await(key, own);
         if (first == null) {
-            begin(key, mine, value);
-        } else if (!first.fingerprint().equals(mine.fingerprint())) {
+            send(key, own, value);
+        } else if (!first.fingerprint().equals(own.fingerprint())) {
             throw ProblemException.keyReused();
         }
-        return (first == null ? mine : first)
+        return (first == null ? own : first)
                 .future()
-                .handleAsync((answer, failure) -> heard(answer, failure, caller), executor);
+                .handleAsync((answer, failure) -> result(answer, failure, caller), executor);
     }
 
-    private void begin(PendingReplies.Key key, PendingReplies.Awaited mine, byte[] value) {
-        CompletableFuture<CommandResult> future = mine.future();
+    private void send(PendingReplies.Key key, PendingReplies.PendingRequest own, byte[] value) {
+        CompletableFuture<CommandResult> future = own.future();
         future.orTimeout(timeout.toMillis(), TimeUnit.MILLISECONDS)
-                .whenComplete((answer, failure) -> answers.forget(key, mine));
+                .whenComplete((answer, failure) -> answers.forget(key, own));
         try {
-            if (answers.awaited() > MAX_AWAITED) {
+            if (answers.pending() > MAX_PENDING) {
                 throw ProblemException.overloaded();
             }
-            answers.find(key, mine.fingerprint())
+            answers.find(key, own.fingerprint())
                     .ifPresentOrElse(
                             future::complete,
                             () -> sender.send(
@@ -102,11 +104,11 @@ public final class CommandClient implements AutoCloseable {
         }
     }
 
-    private static ObjectNode message(CommandRequest question, RequestContext caller) {
-        ObjectNode request = question.members().deepCopy();
+    private static ObjectNode message(CommandRequest command, RequestContext caller) {
+        ObjectNode request = command.members().deepCopy();
         return request.put("type", "request")
                 .put("requestId", caller.requestId())
-                .put("command", question.command())
+                .put("command", command.command())
                 .put(AuditEntry.USER, caller.user());
     }
 
@@ -114,7 +116,7 @@ public final class CommandClient implements AutoCloseable {
         byte[] value;
         try {
             value = NgsiJson.write(request);
-        } catch (UncheckedIOException e) { // half of a surrogate pair has no form in UTF-8
+        } catch (UncheckedIOException e) { // UTF-8 cannot encode half of a surrogate pair
             throw new ProblemException(ErrorCode.NOT_JSON, "a text of the body is not Unicode");
         }
         if (value.length > Limits.REQUEST_BYTES) {
@@ -123,7 +125,7 @@ public final class CommandClient implements AutoCloseable {
         return value;
     }
 
-    private CommandResult heard(CommandResult answer, Throwable failure, RequestContext caller) {
+    private CommandResult result(CommandResult answer, Throwable failure, RequestContext caller) {
         if (failure == null) {
             return answer;
         }
@@ -146,7 +148,7 @@ public final class CommandClient implements AutoCloseable {
                         .formatted(why, RequestContext.KEY, caller.requestId()));
     }
 
-    /** Puts what no manager knows of on the audit topic. */
+    /** Audits a command that no manager executes. */
     public void audit(AuditEntry entry) {
         try {
             sender.send(new ProducerRecord<>(Topics.AUDIT, entry.toBytes()), () -> true)

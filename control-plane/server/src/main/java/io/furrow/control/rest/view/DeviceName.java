@@ -11,7 +11,7 @@ import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.event.FiwareScope;
 
-/** The device that a request is about: the id of its entity, and where one id is several entities, which of them. */
+/** Identifies the device of a request: the id of its entity, with tenant, service path and type if the id is ambiguous. */
 public final class DeviceName {
     @PathParam("device")
     private String id;
@@ -29,23 +29,23 @@ public final class DeviceName {
         return id;
     }
 
-    /** Whether no other type is asked for; robots of FIROS write theirs in upper case. */
+    /** Whether the request names no other type; the case is ignored, because FIROS uses upper case. */
     public boolean isOfType(String existing) {
         return type == null || existing.isEmpty() || type.equalsIgnoreCase(existing);
     }
 
     /**
-     * The key of the device: in the scope that the request names, else in the only one that has the id.
+     * Returns the key of the device: in the requested scope, else in the only scope that contains the id.
      *
      * @param keys of all devices
-     * @param usual where a device is that is on no mission
-     * @throws ProblemException where several have the id and the request names no scope
+     * @param defaultScope scope of devices that are not on a mission
+     * @throws ProblemException if several scopes contain the id and the request names none
      */
-    public String key(Stream<String> keys, FiwareScope usual) {
+    public String key(Stream<String> keys, FiwareScope defaultScope) {
         if (service != null || servicePath != null) {
             return FiwareScope.of(
-                            service == null ? usual.service() : service,
-                            servicePath == null ? usual.servicePath() : servicePath)
+                            service == null ? defaultScope.service() : service,
+                            servicePath == null ? defaultScope.servicePath() : servicePath)
                     .identity(id);
         }
         List<String> found = keys.filter(key -> key.endsWith("|" + id)
@@ -60,7 +60,7 @@ public final class DeviceName {
                                     id,
                                     found.stream().map(DeviceName::scope).collect(Collectors.joining(", "))));
         }
-        return found.isEmpty() ? usual.identity(id) : found.get(0);
+        return found.isEmpty() ? defaultScope.identity(id) : found.get(0);
     }
 
     private static String scope(String key) {

@@ -16,14 +16,14 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/** Reads desired devices with the settings of their groups, and how they are connected. */
+/** Reads desired devices with the settings of their groups and with their connections. */
 public record DeviceView(StateView view) {
     /** @param identity tenant, service path and id of the entity */
     public Optional<DesiredDevice> find(String identity) {
         return view.find(Topics.DEVICES, identity).flatMap(device -> read(device, new MissionDeviceLists()));
     }
 
-    /** Those of a mission that shall run. */
+    /** Returns the devices of a mission that are desired to run. */
     public List<DesiredDevice> of(String mission) {
         MissionDeviceLists lists = new MissionDeviceLists();
         int parts = view.find(Topics.MISSIONS, mission)
@@ -41,7 +41,7 @@ public record DeviceView(StateView view) {
         return devices;
     }
 
-    /** The device with what is known of how it is connected; lists of devices leave that out. */
+    /** Adds the connection of a device; lists of devices omit it. */
     public ObjectNode withConnection(String key, ObjectNode device) {
         ObjectNode connection = view.find(Topics.DEVICES_CONNECTION, key).orElseGet(NgsiJson::object);
         JsonNode health = device.path("health");
@@ -76,7 +76,7 @@ public record DeviceView(StateView view) {
             }
             String failure = current ? status.path("reason").textValue() : null;
             return Optional.of(SilenceCause.ofUnheard(existing, failure, from));
-        } catch (UnreadableException e) { // a later version wrote it, or somebody else: it is shown as it is
+        } catch (UnreadableException e) { // written by a later version or another program; shown without a cause
             return Optional.empty();
         }
     }
@@ -94,7 +94,7 @@ public record DeviceView(StateView view) {
         view.find(Topics.MISSION_DEVICES, key).ifPresent(list -> lists.take(key, NgsiJson.write(list)));
     }
 
-    /** Without settings where those of its group are not known yet. */
+    /** Returns the device without settings if its device list was not read yet. */
     private static Optional<DesiredDevice> resolve(ObjectNode device, MissionDeviceLists lists) {
         try {
             DesiredDevice desired = DesiredDevice.read(NgsiJson.write(device));

@@ -18,17 +18,18 @@ import io.furrow.mission.mongo.EventDensity;
 import io.furrow.model.control.ErrorCode;
 
 /**
- * Counts the events of missions tile by tile, as a map is drawn: a tile is {@value #BUCKETS} buckets of one width that begin at a multiple
- * of its length, so that views that move and zoom share tiles. One thread asks MongoDB; what was counted is cached.
+ * Counts the events of missions in tiles, like those of a map: a tile consists of {@value #BUCKETS} buckets of equal
+ * width and begins at a multiple of its length, so that views that pan and zoom share tiles. One thread queries
+ * MongoDB; counts are cached.
  */
 public final class EventTiles implements AutoCloseable {
-    /** Of a tile. */
+    /** Number of buckets of a tile. */
     static final int BUCKETS = 256;
 
     private static final int MAX_WAITING = 64;
     private static final int MAX_CACHED = 2_000;
     private static final long FRESH_MS = 600_000;
-    /** Events come in later than they are of. */
+    /** Maximum delay of events. */
     private static final long LATENESS_MS = 60_000;
 
     private final Counter counter;
@@ -50,12 +51,12 @@ public final class EventTiles implements AutoCloseable {
 
     /**
      * @param counts of each bucket
-     * @param last the newest event of the mission, as it was known then, epoch ms
+     * @param last newest known event of the mission at that time, epoch ms
      * @param at when it was counted, epoch ms
      */
     record Counted(long[] counts, long last, long at) {}
 
-    /** Asks MongoDB. */
+    /** Queries MongoDB. */
     interface Counter extends AutoCloseable {
         Optional<long[]> count(String mission, long from, long width, int buckets) throws RecordingException;
 
@@ -68,7 +69,7 @@ public final class EventTiles implements AutoCloseable {
         this.clock = clock;
     }
 
-    /** Does not wait for MongoDB. @return null if the control plane has none */
+    /** Creates tiles without waiting for MongoDB. @return null if the control plane has no MongoDB */
     public static EventTiles of(ReplaySettings settings) {
         return settings.mongo() == null
                 ? null
@@ -89,10 +90,10 @@ public final class EventTiles implements AutoCloseable {
     }
 
     /**
-     * The counts of a tile, at once where they are cached. They are counted again after ten minutes, and where the mission has had events
-     * since then that may lie in the tile.
+     * Returns the counts of a tile, immediately if they are cached. They are counted again after ten minutes, or if the
+     * mission has newer events that may lie in the tile.
      *
-     * @param last the newest event of the mission as far as is known, epoch ms
+     * @param last newest known event of the mission, epoch ms
      * @return fails with a {@link ProblemException}
      */
     CompletableFuture<Counted> count(Tile tile, long last) {
@@ -123,9 +124,9 @@ public final class EventTiles implements AutoCloseable {
 
     private void count(Tile tile, long last, CompletableFuture<Counted> answer) {
         try {
-            long begun = clock.millis();
+            long startedAt = clock.millis();
             Counted counted = counter.count(tile.mission(), tile.from(), tile.width(), BUCKETS)
-                    .map(counts -> new Counted(counts, last, begun))
+                    .map(counts -> new Counted(counts, last, startedAt))
                     .orElseThrow(() -> unknown(tile.mission()));
             synchronized (cached) {
                 cached.put(tile, counted);
@@ -134,7 +135,7 @@ public final class EventTiles implements AutoCloseable {
             answer.complete(counted);
         } catch (RecordingException e) {
             fail(tile, answer, new ProblemException(503, "mongodb-away", e.getMessage()));
-        } catch (RuntimeException e) { // a fault of ours, which must not leave the caller without an answer
+        } catch (RuntimeException e) { // also a bug must complete the answer
             fail(tile, answer, e);
         }
     }
@@ -149,7 +150,7 @@ public final class EventTiles implements AutoCloseable {
     public static ProblemException unknown(String mission) {
         return new ProblemException(
                 ErrorCode.UNKNOWN_MISSION,
-                "nothing is stored of mission '%s'; GET /api/recordings lists what is".formatted(mission));
+                "mission '%s' is not recorded; GET /api/recordings lists the recorded ones".formatted(mission));
     }
 
     @Override

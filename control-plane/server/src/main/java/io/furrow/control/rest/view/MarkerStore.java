@@ -17,58 +17,62 @@ import io.furrow.mission.marker.Markers;
 import io.furrow.mission.marker.RejectedMarkerException;
 import io.furrow.model.control.ErrorCode;
 
-/** Asks MongoDB for markers on a thread of its own, so that no request waits on those of the API. At most {@value #MAX_WAITING} wait. */
+/**
+ * Accesses markers in MongoDB on its own thread, so that requests do not block threads of the API. At most
+ * {@value #MAX_WAITING} requests wait.
+ */
 public final class MarkerStore implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(MarkerStore.class);
     private static final int MAX_WAITING = 64;
 
     private final ReplaySettings settings;
-    private final Executor answering;
+    private final Executor resultExecutor;
     private final ThreadPoolExecutor executor = DaemonThreads.single("control-plane-markers", MAX_WAITING);
-    /** Of the thread that asks. */
+    /** Used by the executor's thread only. */
     private Markers markers;
 
-    /** What is asked. @param <T> the answer */
+    /** A query or change. @param <T> type of the result */
     public interface Query<T> {
         T request(Markers markers) throws RejectedMarkerException, RecordingException;
     }
 
-    /** @param answering answers are forwarded by it */
-    public MarkerStore(ReplaySettings settings, Executor answering) {
+    /** @param resultExecutor completes the results */
+    public MarkerStore(ReplaySettings settings, Executor resultExecutor) {
         this.settings = settings;
-        this.answering = answering;
+        this.resultExecutor = resultExecutor;
     }
 
     /**
-     * The answer, or a {@link ProblemException}: 400 for what MongoDB is not given, 503 where it is unavailable.
+     * Returns the result, or fails with a {@link ProblemException}: 400 for an invalid marker, 503 if MongoDB is
+     * unavailable.
      *
-     * @throws ProblemException if there is no MongoDB, or too much waits already
+     * @throws ProblemException if there is no MongoDB, or too many requests are waiting
      */
-    public <T> CompletionStage<T> request(Query<T> question) {
+    public <T> CompletionStage<T> request(Query<T> query) {
         if (settings.mongo() == null) {
             throw new ProblemException(
                     501, "no-mongodb", "this control plane was started without --mongo, where markers are kept");
         }
         CompletableFuture<T> answer = new CompletableFuture<>();
         try {
-            executor.execute(() -> request(question, answer));
+            executor.execute(() -> request(query, answer));
         } catch (RejectedExecutionException e) {
             throw ProblemException.overloaded();
         }
-        return answer.whenCompleteAsync((given, failure) -> {}, answering);
+        return answer.whenCompleteAsync((result, failure) -> {}, resultExecutor);
     }
 
-    private <T> void request(Query<T> question, CompletableFuture<T> answer) {
+    private <T> void request(Query<T> query, CompletableFuture<T> answer) {
         try {
             if (markers == null) {
                 markers = Markers.open(settings.mongo(), settings.database());
             }
-            answer.complete(question.request(markers));
+            answer.complete(query.request(markers));
         } catch (RejectedMarkerException e) {
             answer.completeExceptionally(new ProblemException(ErrorCode.WRONG_MEMBER, e.getMessage()));
         } catch (RecordingException e) {
             answer.completeExceptionally(new ProblemException(503, "mongodb-away", e.getMessage()));
-        } catch (RuntimeException e) { // a fault of ours, which must not leave the caller without an answer
+        } catch (RuntimeException e) { // also a bug must complete the answer
             answer.completeExceptionally(e);
         }
     }
@@ -82,7 +86,7 @@ public final class MarkerStore implements AutoCloseable {
                 }
             });
         } catch (RejectedExecutionException e) {
-            LOG.debug("Too much is asked of MongoDB to take leave of it", e);
+            LOG.debug("the client of MongoDB was not closed, because too many requests are waiting", e);
         }
         executor.shutdown();
     }

@@ -14,11 +14,11 @@ import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * How many events a stretch of a mission has, bucket by bucket.
+ * The number of events per bucket in a time range of a mission.
  *
- * @param from event time of the first bucket's begin, epoch ms
- * @param width of a bucket, ms; one of a ladder of widths that people read times by
- * @param buckets how many
+ * @param from start of the first bucket, event time, epoch ms
+ * @param width of a bucket, ms; one of a list of human-friendly widths
+ * @param buckets number of buckets
  */
 public record MissionTimeline(String mission, Extent extent, long from, long width, int buckets) {
     public static final int MAX_BUCKETS = 1_000;
@@ -50,32 +50,33 @@ public record MissionTimeline(String mission, Extent extent, long from, long wid
         12 * HOUR,
         DAY
     };
-    private static final long ANSWER_MS = 1_000;
+    private static final long TIMEOUT_MS = 1_000;
 
     /** First and last event time of a mission, epoch ms. */
     public record Extent(long first, long last) {}
 
     /**
-     * The buckets of a stretch that the mission has events in. Their width goes by the stretch, so that those of several missions agree.
+     * Returns the buckets of the part of a range in which the mission has events. Their width depends only on the
+     * range, so that the buckets of several missions match.
      *
      * @param from epoch ms
      * @param to epoch ms, after {@code from}
-     * @param atMost how many buckets, unless the stretch begins and ends within some
+     * @param maxBuckets maximum number of buckets, apart from partial ones at both ends
      */
-    public static MissionTimeline of(String mission, Extent extent, long from, long to, int atMost) {
-        long width = width(to - from, atMost);
+    public static MissionTimeline of(String mission, Extent extent, long from, long to, int maxBuckets) {
+        long width = width(to - from, maxBuckets);
         long begin = Math.floorDiv(Math.max(from, extent.first()), width) * width;
         long end = Math.min(to, extent.last() + 1);
         return new MissionTimeline(mission, extent, begin, width, Math.toIntExact(ceilDiv(end - begin, width)));
     }
 
-    private static long width(long length, int atMost) {
+    private static long width(long length, int maxBuckets) {
         for (long width : WIDTHS) {
-            if (length <= width * atMost) {
+            if (length <= width * maxBuckets) {
                 return width;
             }
         }
-        return ceilDiv(ceilDiv(length, atMost), DAY) * DAY;
+        return ceilDiv(ceilDiv(length, maxBuckets), DAY) * DAY;
     }
 
     private static long ceilDiv(long length, long by) {
@@ -92,18 +93,19 @@ public record MissionTimeline(String mission, Extent extent, long from, long wid
     }
 
     /**
-     * The answer, after a second at most: what was not counted by then is null, and comes when it is asked for again.
+     * Returns the answer after at most a second; tiles that were not counted by then are null, and available to a later
+     * request.
      *
-     * @param answering answers are made by it
+     * @param executor creates the answer
      * @return fails with a {@link ProblemException}
      */
-    public CompletionStage<ObjectNode> count(EventTiles events, Executor answering) {
+    public CompletionStage<ObjectNode> count(EventTiles events, Executor executor) {
         List<EventTiles.Tile> tiles = tiles();
         List<CompletableFuture<EventTiles.Counted>> answers =
                 tiles.stream().map(tile -> events.count(tile, extent.last())).toList();
         return CompletableFuture.allOf(answers.toArray(CompletableFuture[]::new))
-                .completeOnTimeout(null, ANSWER_MS, TimeUnit.MILLISECONDS)
-                .thenApplyAsync(counted -> json(tiles, answers), answering);
+                .completeOnTimeout(null, TIMEOUT_MS, TimeUnit.MILLISECONDS)
+                .thenApplyAsync(counted -> json(tiles, answers), executor);
     }
 
     private ObjectNode json(List<EventTiles.Tile> tiles, List<CompletableFuture<EventTiles.Counted>> answers) {

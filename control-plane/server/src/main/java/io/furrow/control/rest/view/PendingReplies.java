@@ -13,16 +13,20 @@ import io.furrow.model.control.ErrorCode;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * The answers of the managers by the id of their request: those that somebody waits for, and the newest {@value #REMEMBERED} of each manager,
- * because a manager does not answer a repeated request again. An answer belongs to the request with its fingerprint.
+ * Matches the answers of the managers with pending requests by request id, and caches the newest {@value #MAX_CACHED}
+ * answers of each manager, because a manager does not answer a repeated request again. An answer belongs to the request
+ * with the same fingerprint.
  */
 public final class PendingReplies {
-    static final int REMEMBERED = 20_000;
+    static final int MAX_CACHED = 20_000;
 
-    private final Map<Key, Awaited> awaited = new ConcurrentHashMap<>();
+    private final Map<Key, PendingRequest> pending = new ConcurrentHashMap<>();
     private final Map<Kind, LongAdder> counts = new ConcurrentHashMap<>();
-    /** By topic: at the start one is read before the other, and the answers of a busy one would push those of the rest out. */
-    private final Map<String, Map<Key, Remembered>> remembered = new ConcurrentHashMap<>();
+    /**
+     * Separate caches by topic: at the start one topic is read before the others, and the answers of a busy manager
+     * would evict those of the others.
+     */
+    private final Map<String, Map<Key, CachedReply>> cached = new ConcurrentHashMap<>();
 
     /** @param topic of the manager @param status of the answer */
     public record Kind(String topic, String status) {}
@@ -30,83 +34,83 @@ public final class PendingReplies {
     /** @param topic of the manager */
     record Key(String topic, String requestId) {}
 
-    /** @param fingerprint of the request that waits */
-    record Awaited(String fingerprint, CompletableFuture<CommandResult> future) {}
+    /** @param fingerprint of the pending request */
+    record PendingRequest(String fingerprint, CompletableFuture<CommandResult> future) {}
 
-    /** @param fingerprint of the request that was answered; null if an earlier version answered, which did not say */
-    private record Remembered(String fingerprint, byte[] answer) {}
+    /** @param fingerprint of the answered request; null if an earlier version answered without it */
+    private record CachedReply(String fingerprint, byte[] answer) {}
 
-    /** Whoever asked first under this id and still waits, else null, and then the given one waits. */
-    Awaited await(Key key, Awaited waiting) {
-        return awaited.putIfAbsent(key, waiting);
+    /** Registers a pending request; returns the one that is already pending under this id, else null. */
+    PendingRequest await(Key key, PendingRequest request) {
+        return pending.putIfAbsent(key, request);
     }
 
-    void forget(Key key, Awaited waiting) {
-        awaited.remove(key, waiting);
+    void forget(Key key, PendingRequest request) {
+        pending.remove(key, request);
     }
 
-    public int awaited() {
-        return awaited.size();
+    public int pending() {
+        return pending.size();
     }
 
-    /** Whether somebody waits for the answer to the request of this fingerprint. @param fingerprint null if it is not known */
-    boolean isAwaited(Key key, String fingerprint) {
-        Awaited waiting = awaited.get(key);
-        return waiting != null && (fingerprint == null || fingerprint.equals(waiting.fingerprint()));
+    /** Whether the request with this fingerprint is pending. @param fingerprint null if unknown */
+    boolean isPending(Key key, String fingerprint) {
+        PendingRequest request = pending.get(key);
+        return request != null && (fingerprint == null || fingerprint.equals(request.fingerprint()));
     }
 
     /**
-     * The answer that was given under this id.
+     * Returns the cached answer with this id.
      *
-     * @throws ProblemException where it was given to a request of another fingerprint
+     * @throws ProblemException if it belongs to a request with another fingerprint
      */
     Optional<CommandResult> find(Key key, String fingerprint) {
-        Remembered find;
-        Map<Key, Remembered> newest = newest(key);
+        CachedReply reply;
+        Map<Key, CachedReply> newest = newest(key);
         synchronized (newest) {
-            find = newest.get(key);
+            reply = newest.get(key);
         }
-        if (find == null) {
+        if (reply == null) {
             return Optional.empty();
         }
-        if (find.fingerprint() != null && !find.fingerprint().equals(fingerprint)) {
+        if (reply.fingerprint() != null && !reply.fingerprint().equals(fingerprint)) {
             throw ProblemException.keyReused();
         }
-        return Optional.of(NgsiJson.own(() -> CommandResult.read(find.answer())));
+        return Optional.of(NgsiJson.own(() -> CommandResult.read(reply.answer())));
     }
 
-    /** @param fingerprint of the request; null if the answer does not say */
-    void remember(Key key, String fingerprint, byte[] value, CommandResult answer) {
+    /** Caches an answer. @param fingerprint of the request; null if unknown */
+    void cache(Key key, String fingerprint, byte[] value, CommandResult answer) {
         String error = answer.error().orElse("");
         boolean isLasting =
                 !error.equals(ErrorCode.REQUEST_ID_REUSED.code()) && !error.equals(ErrorCode.OVERLOADED.code());
         if (isLasting) {
-            Map<Key, Remembered> newest = newest(key);
+            Map<Key, CachedReply> newest = newest(key);
             synchronized (newest) {
-                newest.put(key, new Remembered(fingerprint, value));
+                newest.put(key, new CachedReply(fingerprint, value));
             }
         }
     }
 
-    private Map<Key, Remembered> newest(Key key) {
-        return remembered.computeIfAbsent(key.topic(), any -> BoundedMap.byInsertion(REMEMBERED));
+    private Map<Key, CachedReply> newest(Key key) {
+        return cached.computeIfAbsent(key.topic(), any -> BoundedMap.byInsertion(MAX_CACHED));
     }
 
-    /** An answer that was read, of whomever. */
+    /** Counts an answer to any client. */
     void count(String topic, String status) {
         counts.computeIfAbsent(new Kind(topic, status), any -> new LongAdder()).increment();
     }
 
-    /** How many were read since the start. */
+    /** Returns the number of answers since the start. */
     public Map<Kind, LongAdder> counts() {
         return counts;
     }
 
-    /** Completes the request that waits for it. */
+    /** Completes the pending request of an answer. */
     void release(Key key, CommandResult answer) {
-        Awaited waiting = awaited.remove(key);
-        if (waiting != null) {
-            waiting.future().complete(answer);
+        PendingRequest request = pending.remove(key);
+        if (request != null) {
+            request.future().complete(answer);
         }
     }
 }

@@ -15,7 +15,10 @@ import org.apache.kafka.common.errors.InterruptException;
 
 import io.furrow.model.control.CommandResult;
 
-/** Holds answers until the view has come as far as the topics were when they were read, so that it shows what they report. */
+/**
+ * Delays answers until the view has reached the end that the topics had when the answers were read, so that the view
+ * shows their effects.
+ */
 final class ReadYourWritesBarrier {
     private final PendingReplies answers;
     private final Queue<HeldResponse> held = new ArrayDeque<>();
@@ -28,7 +31,7 @@ final class ReadYourWritesBarrier {
         this.answers = answers;
     }
 
-    /** @param ends of the topics that the view is made of, asked for after the answers were read */
+    /** @param ends of the topics of the view, requested after the answers were read */
     void hold(
             Map<PendingReplies.Key, CommandResult> fresh,
             KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>> ends) {
@@ -40,10 +43,10 @@ final class ReadYourWritesBarrier {
     }
 
     /**
-     * Forwards, in order, what the view shows.
+     * Releases, in order, the answers whose effects the view shows.
      *
-     * @param position how far a partition was read
-     * @throws KafkaException where the ends could not be had
+     * @param position current position in a partition
+     * @throws KafkaException if the ends could not be determined
      */
     void release(ToLongFunction<TopicPartition> position) {
         while (!held.isEmpty() && isVisible(held.peek(), position)) {

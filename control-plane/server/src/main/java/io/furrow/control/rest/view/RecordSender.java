@@ -18,8 +18,8 @@ import io.furrow.kafka.KafkaClients;
 import io.furrow.model.control.Limits;
 
 /**
- * Sends records to Kafka on a thread of its own, so that nobody waits where a producer would block. What waits to be sent is bounded, in
- * records and in bytes; beyond that {@link ProblemException} says to come back.
+ * Sends records to Kafka on its own thread, so that callers never block in a producer. The queue is bounded in records
+ * and bytes; beyond that a {@link ProblemException} asks to retry.
  */
 final class RecordSender implements AutoCloseable {
     private static final int MAX_RECORDS = 1000;
@@ -31,7 +31,7 @@ final class RecordSender implements AutoCloseable {
     private final Semaphore bytes = new Semaphore(MAX_BYTES);
     private final ThreadPoolExecutor executor = DaemonThreads.single("control-plane-rest-sender", MAX_RECORDS);
 
-    /** @param timeout after which a record that Kafka did not take has failed */
+    /** @param timeout after which an unacknowledged record fails */
     RecordSender(Properties client, Duration timeout) {
         Properties settings = new Properties();
         settings.putAll(client);
@@ -44,12 +44,12 @@ final class RecordSender implements AutoCloseable {
     }
 
     /**
-     * Sends a record unless nobody wants it any more when its turn comes.
+     * Sends a record, unless it is no longer needed when its turn comes.
      *
-     * @return completes once Kafka has it
-     * @throws ProblemException where too much waits already
+     * @return completes once Kafka has acknowledged it
+     * @throws ProblemException if the queue is full
      */
-    CompletableFuture<Void> send(ProducerRecord<String, byte[]> record, BooleanSupplier desired) {
+    CompletableFuture<Void> send(ProducerRecord<String, byte[]> record, BooleanSupplier isNeeded) {
         int size = record.value().length;
         if (!bytes.tryAcquire(size)) {
             throw ProblemException.overloaded();
@@ -57,7 +57,7 @@ final class RecordSender implements AutoCloseable {
         CompletableFuture<Void> sent = new CompletableFuture<>();
         sent.whenComplete((done, failure) -> bytes.release(size));
         try {
-            executor.execute(() -> send(record, desired, sent));
+            executor.execute(() -> send(record, isNeeded, sent));
         } catch (RejectedExecutionException e) {
             sent.cancel(false);
             throw ProblemException.overloaded();
@@ -65,8 +65,8 @@ final class RecordSender implements AutoCloseable {
         return sent;
     }
 
-    private void send(ProducerRecord<String, byte[]> record, BooleanSupplier desired, CompletableFuture<Void> sent) {
-        if (!desired.getAsBoolean()) {
+    private void send(ProducerRecord<String, byte[]> record, BooleanSupplier isNeeded, CompletableFuture<Void> sent) {
+        if (!isNeeded.getAsBoolean()) {
             sent.cancel(false);
             return;
         }

@@ -13,8 +13,9 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * Writes server-sent events to one client: {@code status} with a replay as it is now, {@code over} once it is forgotten. Of a client that
- * reads slowly nothing waits but its own thread: which replays have changed since is remembered, not what they were meanwhile.
+ * Writes server-sent events to one client: {@code status} with the current state of a replay, {@code over} once it was
+ * removed. A slow client blocks only its own thread; intermediate states of a replay are skipped, because only the
+ * names of changed replays are queued.
  */
 final class ReplayFeed {
     private static final byte[] HEARTBEAT = ":\n\n".getBytes(StandardCharsets.UTF_8);
@@ -24,13 +25,13 @@ final class ReplayFeed {
     private final String only;
 
     private final Set<String> changed = new LinkedHashSet<>();
-    /** Those that the client knows of; of its thread only. */
+    /** Replays that the client has received; used by its thread only. */
     private final Set<String> shown = new HashSet<>();
 
-    private boolean anew = true;
+    private boolean allChanged = true;
     private boolean closed;
 
-    /** Takes what is written; may block as long as the client does not read. */
+    /** Receives the events; may block while the client does not read. */
     interface Output {
         void write(byte[] event) throws IOException;
     }
@@ -41,7 +42,7 @@ final class ReplayFeed {
         this.only = only;
     }
 
-    /** Something of a replay is different. */
+    /** Called when a replay has changed. */
     synchronized void changed(String replay) {
         if (only == null || only.equals(replay)) {
             changed.add(replay);
@@ -49,9 +50,9 @@ final class ReplayFeed {
         }
     }
 
-    /** Everything may be different. */
+    /** Called when any replay may have changed. */
     synchronized void changedAll() {
-        anew = true;
+        allChanged = true;
         notifyAll();
     }
 
@@ -61,14 +62,14 @@ final class ReplayFeed {
     }
 
     /**
-     * Returns when it is closed, or its only replay is over.
+     * Writes events until the feed is closed or its only replay is over.
      *
-     * @param heartbeat after which something is written though nothing has changed
+     * @param heartbeat interval after which a comment is written if nothing has changed
      */
     void write(Output output, Duration heartbeat) throws IOException, InterruptedException {
-        output.write(HEARTBEAT); // the client learns that it is connected
-        boolean goesOn = true;
-        while (goesOn) {
+        output.write(HEARTBEAT); // signals the client that it is connected
+        boolean continues = true;
+        while (continues) {
             Optional<Set<String>> due = await(heartbeat);
             if (due.isEmpty()) {
                 return;
@@ -77,12 +78,12 @@ final class ReplayFeed {
                 output.write(HEARTBEAT);
             }
             for (String replay : due.get()) {
-                goesOn &= show(replay, output);
+                continues &= show(replay, output);
             }
         }
     }
 
-    /** The replays to write, none where a heartbeat is due; empty if it is closed. */
+    /** Returns the replays to write, none if a heartbeat is due; empty if it is closed. */
     private synchronized Optional<Set<String>> await(Duration heartbeat) throws InterruptedException {
         long end = System.nanoTime() + heartbeat.toNanos();
         long left = heartbeat.toMillis();
@@ -96,21 +97,21 @@ final class ReplayFeed {
         Set<String> due = new LinkedHashSet<>();
         if (isDue()) {
             due.addAll(changed);
-            if (anew) {
+            if (allChanged) {
                 due.addAll(shown);
                 due.addAll(only == null ? replays.names() : Set.of(only));
             }
             changed.clear();
-            anew = false;
+            allChanged = false;
         }
         return Optional.of(due);
     }
 
     private boolean isDue() {
-        return (anew || !changed.isEmpty()) && replays.isComplete();
+        return (allChanged || !changed.isEmpty()) && replays.isComplete();
     }
 
-    /** Returns whether more can come. */
+    /** Writes the state of a replay. Returns whether further events are possible. */
     private boolean show(String replay, Output output) throws IOException {
         Optional<ObjectNode> now = replays.find(replay);
         if (now.isPresent()) {
@@ -119,7 +120,7 @@ final class ReplayFeed {
             return true;
         }
         if (!shown.remove(replay) && only == null) {
-            return true; // the last of one that was over before
+            return true; // it was over before the client connected
         }
         ObjectNode last = NgsiJson.object().put("replay", replay);
         replays.status(replay).ifPresent(status -> last.set("status", status));

@@ -16,7 +16,7 @@ import org.slf4j.LoggerFactory;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.topic.Topics;
 
-/** The clients that follow replays, each with a thread of its own that writes to it; at most {@value #MAX_FEEDS}. */
+/** Manages the clients that follow replays, at most {@value #MAX_FEEDS}, each with its own thread that writes to it. */
 public final class ReplayFeeds implements StateView.Listener, AutoCloseable {
     static final int MAX_FEEDS = 100;
 
@@ -32,10 +32,11 @@ public final class ReplayFeeds implements StateView.Listener, AutoCloseable {
     }
 
     /**
-     * Answers with events until the client leaves.
+     * Answers with events until the client disconnects.
      *
      * @param only null for all replays
-     * @throws ProblemException if there is no such replay, the topics were not read yet, or too many clients follow already
+     * @throws ProblemException if there is no such replay, the topics were not read yet, or too many clients are
+     *     connected
      */
     public void open(String only, AsyncResponse response) {
         if (only == null) {
@@ -57,7 +58,7 @@ public final class ReplayFeeds implements StateView.Listener, AutoCloseable {
         thread.start();
     }
 
-    /** Begins the answer on this thread, so that it alone writes to the client, and waits for it. */
+    /** Starts the answer on this thread, so that only this thread writes to the client and blocks. */
     private void run(ReplayFeed feed, AsyncResponse response) {
         try (ChunkedOutput<byte[]> output = new ChunkedOutput<>(byte[].class)) {
             response.resume(Response.ok(output)
@@ -66,8 +67,8 @@ public final class ReplayFeeds implements StateView.Listener, AutoCloseable {
                     .header("X-Accel-Buffering", "no")
                     .build());
             feed.write(output::write, HEARTBEAT);
-        } catch (IOException | ProblemException e) { // the client has left or does not read, or the view begins again
-            LOG.debug("a client follows no replay any more", e);
+        } catch (IOException | ProblemException e) { // the client disconnected or does not read, or the view is rebuilt
+            LOG.debug("a client no longer follows replays", e);
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         } finally {
@@ -76,7 +77,7 @@ public final class ReplayFeeds implements StateView.Listener, AutoCloseable {
         }
     }
 
-    /** How many clients follow. */
+    /** Returns the number of connected clients. */
     int size() {
         return feeds.size();
     }

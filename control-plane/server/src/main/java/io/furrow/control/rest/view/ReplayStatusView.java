@@ -10,7 +10,7 @@ import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.topic.Topics;
 
-/** The replays that are requested, each with what its player says of it as the member {@code status}. */
+/** Reads desired replays, each with the status reported by its player as member {@code status}. */
 public record ReplayStatusView(StateView view) {
     public static final String REPLAY = "replay";
     public static final String GROUP = "group";
@@ -19,7 +19,7 @@ public record ReplayStatusView(StateView view) {
         return view.isComplete();
     }
 
-    /** In the order of their names. @throws ProblemException where the topics were not read to their ends yet */
+    /** Returns all replays in the order of their names. @throws ProblemException if the topics were not read yet */
     public Stream<ObjectNode> all() {
         return view.all(Topics.REPLAYS).map(this::withStatus);
     }
@@ -39,7 +39,7 @@ public record ReplayStatusView(StateView view) {
                         ErrorCode.UNKNOWN_REPLAY, "there is no replay '%s', or it is over".formatted(replay)));
     }
 
-    /** Those of a group. @throws ProblemException if there is none */
+    /** Returns the members of a group. @throws ProblemException if there is none */
     public List<ObjectNode> group(String group) {
         List<ObjectNode> members =
                 all().filter(each -> group.equals(each.path(GROUP).textValue())).toList();
@@ -50,7 +50,7 @@ public record ReplayStatusView(StateView view) {
         return members;
     }
 
-    /** What its player said last. */
+    /** Returns the last status reported by its player. */
     Optional<ObjectNode> status(String replay) {
         return view.find(Topics.REPLAYS_STATUS, replay);
     }

@@ -16,11 +16,11 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
 /**
- * What is on the compacted topics of the control plane, and the end of its audit topic. Held as bytes, because trees take ten times
- * the room; whoever reads gets a tree of his own.
+ * Caches the compacted topics of the control plane and the end of its audit topic. Values are held as bytes, because
+ * trees need ten times the memory; every read returns a new tree.
  */
 public final class StateView {
-    /** The topics that are held whole. */
+    /** The topics that are cached completely. */
     static final List<String> TOPICS = List.of(
             Topics.DOMAINS,
             Topics.MISSIONS,
@@ -36,7 +36,7 @@ public final class StateView {
             Topics.RECORDINGS,
             Topics.ALARMS);
 
-    /** How many entries of the audit topic are held. */
+    /** Number of cached entries of the audit topic. */
     public static final int AUDITED = 1000;
 
     private final Map<String, Map<String, byte[]>> byTopic = new ConcurrentHashMap<>();
@@ -45,15 +45,15 @@ public final class StateView {
     private volatile boolean complete;
     private volatile Listener listener;
 
-    /** Hears on the thread that reads the topics, and may not block it. */
+    /** Called on the thread that reads the topics; must not block. */
     interface Listener {
         void changed(String topic, String key);
 
-        /** All was read again. */
+        /** Called after all topics were read again. */
         void completed();
     }
 
-    /** An entry of the audit topic. @param offset its place there */
+    /** An entry of the audit topic. */
     private record Audited(long offset, byte[] value) {}
 
     /**
@@ -63,10 +63,10 @@ public final class StateView {
      */
     public record AuditPage(List<AuditedEntry> entries, boolean isWhole) {}
 
-    /** What is under a key of a topic. */
+    /** A record of a topic. */
     public record Entry(String key, ObjectNode value) {}
 
-    /** Begins again; nothing can be read until {@link #complete()}. */
+    /** Clears the view; it cannot be read until {@link #complete()}. */
     void clear() {
         complete = false;
         TOPICS.forEach(topic -> byTopic.put(topic, new ConcurrentSkipListMap<>()));
@@ -87,7 +87,7 @@ public final class StateView {
         }
     }
 
-    /** Says what the audit begins with. @param isFirst whether the topic holds nothing before it */
+    /** Called before the first audit entry. @param isFirst whether it is the first of the topic */
     void auditFrom(boolean isFirst) {
         synchronized (audited) {
             auditedWhole = isFirst;
@@ -112,7 +112,7 @@ public final class StateView {
         }
     }
 
-    /** Called once, before anything is put. */
+    /** Sets the listener; called once, before the first {@link #put}. */
     public void listen(Listener to) {
         listener = to;
     }
@@ -121,22 +121,22 @@ public final class StateView {
         return complete;
     }
 
-    /** @throws ProblemException where the topics were not read to their ends yet */
+    /** Returns a value. @throws ProblemException if the topics were not read yet */
     public Optional<ObjectNode> find(String topic, String key) {
         return Optional.ofNullable(read(topic).get(key)).map(StateView::parse);
     }
 
-    /** In the order of the keys. @throws ProblemException as {@link #find} */
+    /** Returns all values in the order of their keys. @throws ProblemException as {@link #find} */
     public Stream<ObjectNode> all(String topic) {
         return read(topic).values().stream().map(StateView::parse);
     }
 
-    /** In their order. @throws ProblemException as {@link #find} */
+    /** Returns all keys in order. @throws ProblemException as {@link #find} */
     public Stream<String> keys(String topic) {
         return read(topic).keySet().stream();
     }
 
-    /** With their keys, in their order. @throws ProblemException as {@link #find} */
+    /** Returns all values with their keys, in order. @throws ProblemException as {@link #find} */
     public Stream<Entry> entries(String topic) {
         return read(topic).entrySet().stream().map(each -> new Entry(each.getKey(), parse(each.getValue())));
     }
@@ -148,7 +148,7 @@ public final class StateView {
         return byTopic.get(topic);
     }
 
-    /** Of the newest {@value #AUDITED} those before a place. @throws ProblemException as {@link #find} */
+    /** Returns the cached entries before a position. @throws ProblemException as {@link #find} */
     public AuditPage audited(long before) {
         if (!complete) {
             throw ProblemException.notReady();

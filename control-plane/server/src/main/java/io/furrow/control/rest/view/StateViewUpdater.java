@@ -37,8 +37,8 @@ import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
- * Follows the topics of the control plane, what is committed on them, with a consumer of no group: so each instance sees all. An
- * answer is forwarded when the view has come as far as the topics were when it was read: what it reports can be seen then.
+ * Reads the committed records of the control plane's topics, with a consumer without a group, so that each instance
+ * reads all. Answers pass through the {@link ReadYourWritesBarrier}.
  */
 public final class StateViewUpdater implements AutoCloseable {
     static final List<String> MANAGERS =
@@ -52,7 +52,7 @@ public final class StateViewUpdater implements AutoCloseable {
     private static final long TIMEOUT_SECONDS = 10;
 
     private final Properties settings;
-    private final Duration remembered;
+    private final Duration answerRetention;
     private final StateView view;
     private final PendingReplies answers;
     private final CountDownLatch closing = new CountDownLatch(1);
@@ -61,10 +61,10 @@ public final class StateViewUpdater implements AutoCloseable {
     private volatile Instant lastPoll;
     private volatile String failure = "";
 
-    /** @param remembered how far back answers are read at the start */
-    public StateViewUpdater(Properties client, Duration remembered, StateView view, PendingReplies answers) {
+    /** @param answerRetention age of the oldest answers that are read at the start */
+    public StateViewUpdater(Properties client, Duration answerRetention, StateView view, PendingReplies answers) {
         this.settings = CommittedReader.settings(client);
-        this.remembered = remembered;
+        this.answerRetention = answerRetention;
         this.view = view;
         this.answers = answers;
     }
@@ -99,9 +99,9 @@ public final class StateViewUpdater implements AutoCloseable {
                 consumer = fresh;
                 view.clear();
                 read(fresh, admin);
-            } catch (WakeupException e) { // to look whether it is closed
+            } catch (WakeupException e) { // the loop checks whether it is closed
                 LOG.debug("the view of the control plane's topics was woken up", e);
-            } catch (RuntimeException e) { // of Kafka, or of ours: without a view nothing can be read
+            } catch (RuntimeException e) { // Kafka is unavailable, or a bug
                 LOG.warn("the view of the control plane's topics failed and is rebuilt", e);
                 failure = FailureText.of(e);
                 view.clear();
@@ -119,29 +119,30 @@ public final class StateViewUpdater implements AutoCloseable {
         }
     }
 
-    /** @param admin asks for the ends of topics: a broker would leave such a request of the consumer behind its waiting fetch */
+    /** @param admin queries the ends of topics: the broker would queue such a request of the consumer behind its pending fetch */
     private void read(Consumer<String, byte[]> from, Admin admin) {
         List<TopicPartition> viewed = partitions(from, StateView.TOPICS);
         List<TopicPartition> all = begin(from, viewed);
         Map<TopicPartition, Long> ends = from.endOffsets(all);
         Map<TopicPartition, OffsetSpec> latest = new HashMap<>();
         viewed.forEach(each -> latest.put(each, OffsetSpec.latest()));
-        ReadYourWritesBarrier gate = new ReadYourWritesBarrier(answers);
+        ReadYourWritesBarrier barrier = new ReadYourWritesBarrier(answers);
         while (closing.getCount() > 0) {
-            Map<PendingReplies.Key, CommandResult> fresh = take(from.poll(gate.isEmpty() ? POLL : POLL_WITH_ANSWERS));
+            Map<PendingReplies.Key, CommandResult> fresh =
+                    take(from.poll(barrier.isEmpty() ? POLL : POLL_WITH_ANSWERS));
             lastPoll = Instant.now();
             if (!view.isComplete() && ReadYourWritesBarrier.reached(ends, from::position)) {
                 view.complete();
                 LOG.info("the view of the control plane's topics is complete");
             }
             if (!fresh.isEmpty()) {
-                gate.hold(fresh, admin.listOffsets(latest, COMMITTED).all());
+                barrier.hold(fresh, admin.listOffsets(latest, COMMITTED).all());
             }
-            gate.release(from::position);
+            barrier.release(from::position);
         }
     }
 
-    /** What is held whole from its beginning, the rest from as far back as it counts. */
+    /** Seeks cached topics to the beginning, managers' topics to the oldest relevant answer, and the audit to its end. */
     private List<TopicPartition> begin(Consumer<String, byte[]> from, List<TopicPartition> viewed) {
         List<TopicPartition> managers = partitions(from, MANAGERS);
         List<TopicPartition> audit = partitions(from, List.of(Topics.AUDIT));
@@ -152,7 +153,7 @@ public final class StateViewUpdater implements AutoCloseable {
         from.seekToBeginning(viewed);
 
         Map<TopicPartition, Long> since = new HashMap<>();
-        managers.forEach(each -> since.put(each, System.currentTimeMillis() - remembered.toMillis()));
+        managers.forEach(each -> since.put(each, System.currentTimeMillis() - answerRetention.toMillis()));
         Map<TopicPartition, OffsetAndTimestamp> found = from.offsetsForTimes(since);
         Map<TopicPartition, Long> ends = from.endOffsets(all);
         Map<TopicPartition, Long> beginnings = from.beginningOffsets(audit);
@@ -161,7 +162,7 @@ public final class StateViewUpdater implements AutoCloseable {
                     each,
                     found.get(each) == null ? ends.get(each) : found.get(each).offset());
         }
-        for (TopicPartition each : audit) { // every transaction has a marker, which has an offset too
+        for (TopicPartition each : audit) { // twice the offsets, because every transaction also has a marker
             long start = Math.max(beginnings.get(each), ends.get(each) - 2L * StateView.AUDITED);
             from.seek(each, start);
             view.auditFrom(start == beginnings.get(each));
@@ -181,7 +182,7 @@ public final class StateViewUpdater implements AutoCloseable {
         return partitions;
     }
 
-    /** Answers the answers among them that somebody waits for. */
+    /** Processes records; returns the answers to pending requests among them. */
     private Map<PendingReplies.Key, CommandResult> take(ConsumerRecords<String, byte[]> records) {
         Map<PendingReplies.Key, CommandResult> fresh = new HashMap<>();
         for (ConsumerRecord<String, byte[]> record : records) {
@@ -198,7 +199,7 @@ public final class StateViewUpdater implements AutoCloseable {
         CommandResult answer;
         try {
             answer = CommandResult.read(record.value() == null ? new byte[0] : record.value());
-        } catch (UnreadableException e) { // a request, or what somebody else wrote there
+        } catch (UnreadableException e) { // a request, or a record of another program
             return;
         }
         if (view.isComplete()) {
@@ -207,9 +208,9 @@ public final class StateViewUpdater implements AutoCloseable {
         answer.requestId().ifPresent(id -> {
             PendingReplies.Key key = new PendingReplies.Key(record.topic(), id);
             String fingerprint =
-                    KafkaClients.text(record.headers(), RequestFingerprint.HEADER); // null if it names none
-            answers.remember(key, fingerprint, record.value(), answer);
-            if (answers.isAwaited(key, fingerprint)) {
+                    KafkaClients.text(record.headers(), RequestFingerprint.HEADER); // null without a header
+            answers.cache(key, fingerprint, record.value(), answer);
+            if (answers.isPending(key, fingerprint)) {
                 fresh.put(key, answer);
             }
         });
@@ -224,7 +225,7 @@ public final class StateViewUpdater implements AutoCloseable {
             } else if (value != null) {
                 view.audit(record.offset(), value);
             }
-        } catch (UnreadableException e) { // managers and hosts write nothing of the kind
+        } catch (UnreadableException e) { // managers and hosts never write this
             LOG.debug("{}-{}@{} is not JSON", record.topic(), record.partition(), record.offset(), e);
         }
     }

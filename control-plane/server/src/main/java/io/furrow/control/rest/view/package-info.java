@@ -1,2 +1,2 @@
-/** What the REST API reads: a view of the managers' topics, stored events and markers; and the client that sends commands. */
+/** Provides the data of the REST API: a view of the managers' topics, recorded events and markers; and sends commands. */
 package io.furrow.control.rest.view;

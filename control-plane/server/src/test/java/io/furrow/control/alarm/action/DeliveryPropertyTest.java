@@ -27,7 +27,7 @@ import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Random alarms, a webhook that fails at random, restarts: in the end it knows the newest state of all that it is to know of. */
+/** Applies random alarms, failures of the webhook and restarts: in the end the webhook has the newest state of all relevant alarms. */
 class DeliveryPropertyTest {
     private static final int FARMS = 100;
     private static final int STEPS = 150;
@@ -51,7 +51,7 @@ class DeliveryPropertyTest {
         private final CapturingPublisher publisher = new CapturingPublisher();
         private final AlarmCommandHandler handler = AlarmHandlerFixture.writingTo(publisher);
         private final Map<String, DeliveryState> stored = new HashMap<>();
-        /** What the webhook took, the newest of each alarm. */
+        /** Newest accepted state of each alarm. */
         private final Map<String, Alarm> received = new HashMap<>();
 
         private final Map<String, String> deliveries = new HashMap<>();
@@ -126,12 +126,12 @@ class DeliveryPropertyTest {
                             default -> new AlarmCommand.Acknowledge(alarm, null);
                         },
                         now);
-            } catch (RejectedException e) { // then nothing has changed
+            } catch (RejectedException e) { // then nothing changed
                 assertThat(e.code()).as(label).isNotNull();
             }
         }
 
-        /** What is under way may have been taken or not; the topics are read again, compacted. */
+        /** Posts in flight may or may not be accepted; the compacted topics are read again. */
         private void restart() {
             for (DeliveryQueue.Post post : inFlight) {
                 if (random.nextBoolean()) {
@@ -179,7 +179,7 @@ class DeliveryPropertyTest {
                         queue.completed(post, Webhook.Answer.failed("503"), now).ifPresent(this::store);
                     } else {
                         receive(post);
-                        queue.completed(post, new Webhook.Answer(Webhook.Outcome.TAKEN, null, null), now)
+                        queue.completed(post, new Webhook.Answer(Webhook.Outcome.ACCEPTED, null, null), now)
                                 .ifPresent(this::store);
                     }
                 }

@@ -21,8 +21,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 class DeliveryQueueTest {
     private static final long NOW = 1_700_000_000_000L;
     private static final Webhook.Settings SETTINGS = Webhook.Settings.of(URI.create("http://127.0.0.1:1/"));
-    private static final Webhook.Answer TAKEN = new Webhook.Answer(Webhook.Outcome.TAKEN, null, null);
-    private static final Webhook.Answer REFUSED = new Webhook.Answer(Webhook.Outcome.REFUSED, "410", null);
+    private static final Webhook.Answer ACCEPTED = new Webhook.Answer(Webhook.Outcome.ACCEPTED, null, null);
+    private static final Webhook.Answer REJECTED = new Webhook.Answer(Webhook.Outcome.REJECTED, "410", null);
     private static final Webhook.Answer FAILED = Webhook.Answer.failed("503");
 
     private final Map<String, DeliveryState> stored = new HashMap<>();
@@ -39,7 +39,7 @@ class DeliveryQueueTest {
     }
 
     @Test
-    void hasFourUnderWayAtMost() {
+    void limitsPostsInFlightToFour() {
         for (int i = 0; i < 10; i++) {
             take(AlarmKind.COLLISION);
         }
@@ -48,7 +48,7 @@ class DeliveryQueueTest {
     }
 
     @Test
-    void letsAFailureDelayNoOtherAlarm() {
+    void doesNotDelayOthersAfterAFailure() {
         Alarm failing = take(AlarmKind.COLLISION);
         for (int i = 0; i < 5; i++) {
             complete(all().get(0), FAILED);
@@ -56,7 +56,7 @@ class DeliveryQueueTest {
             Alarm other = take(AlarmKind.PREDICTED_ENCOUNTER);
             List<DeliveryQueue.Post> posts = all();
             assertThat(ids(posts)).containsExactly(other.alarm());
-            complete(posts.get(0), TAKEN);
+            complete(posts.get(0), ACCEPTED);
             now += DeliveryQueue.MAX_BACKOFF.toMillis();
         }
         assertThat(ids(all())).containsExactly(failing.alarm());
@@ -101,7 +101,7 @@ class DeliveryQueueTest {
         while (delivered.size() < 2 && now < end + DeliveryQueue.MAX_BACKOFF.toMillis()) {
             for (DeliveryQueue.Post post : all()) {
                 delivered.put(post.alarm().alarm(), post.alarm().state());
-                complete(post, TAKEN);
+                complete(post, ACCEPTED);
             }
             now += 1000;
         }
@@ -109,7 +109,7 @@ class DeliveryQueueTest {
     }
 
     @Test
-    void endsTheBackoffOfAllOnceTheWebhookIsBack() {
+    void endsAllBackoffsOnceTheWebhookRecovers() {
         take(AlarmKind.COLLISION);
         take(AlarmKind.COLLISION);
         for (int i = 0; i < 8; i++) {
@@ -119,12 +119,12 @@ class DeliveryQueueTest {
         List<DeliveryQueue.Post> both = all();
         complete(both.get(0), FAILED);
         assertThat(all()).isEmpty();
-        complete(both.get(1), TAKEN);
+        complete(both.get(1), ACCEPTED);
         assertThat(all()).hasSize(1);
     }
 
     @Test
-    void postsNothingBeforeTheTimeThatTheWebhookRequested() {
+    void respectsRetryAfter() {
         take(AlarmKind.COLLISION);
         complete(all().get(0), new Webhook.Answer(Webhook.Outcome.FAILED, "429", Duration.ofMinutes(10)));
         take(AlarmKind.COLLISION);
@@ -135,7 +135,7 @@ class DeliveryQueueTest {
     }
 
     @Test
-    void postsTheNewestStateOnlyUnderTheIdOfItsChange() {
+    void postsOnlyTheNewestStateWithTheIdOfItsChange() {
         Alarm alarm = take(AlarmKind.COLLISION);
         DeliveryQueue.Post first = all().get(0);
         assertThat(first.id()).isEqualTo("collision-1:1");
@@ -144,7 +144,7 @@ class DeliveryQueueTest {
         queue.take(acknowledged, now);
         queue.take(acknowledged.become(AlarmState.CLOSED, "ann", "over", now).numbered(3), now);
         assertThat(all()).as("one post of an alarm at a time").isEmpty();
-        complete(first, TAKEN);
+        complete(first, ACCEPTED);
         List<DeliveryQueue.Post> next = all();
         assertThat(next).extracting(DeliveryQueue.Post::id).containsExactly("collision-1:3");
         complete(next.get(0), FAILED);
@@ -153,9 +153,9 @@ class DeliveryQueueTest {
     }
 
     @Test
-    void doesNotRepeatWhatIsRefused() {
+    void doesNotRepeatARejectedAlarm() {
         Alarm alarm = take(AlarmKind.COLLISION);
-        complete(all().get(0), REFUSED);
+        complete(all().get(0), REJECTED);
         now += SETTINGS.repeatInterval().multipliedBy(2).toMillis();
         queue.passTime(now);
         assertThat(all()).isEmpty();
@@ -163,12 +163,12 @@ class DeliveryQueueTest {
     }
 
     @Test
-    void repeatsWhatIsOpenUnderAnotherIdAndNotWhatSomebodyAcknowledged() {
+    void repeatsOpenAlarmsUntilTheyAreAcknowledged() {
         Alarm open = take(AlarmKind.COLLISION);
         Alarm seen = take(AlarmKind.COLLISION);
         queue.take(seen.become(AlarmState.ACKNOWLEDGED, "ann", null, now).numbered(++sequence), now);
-        all().forEach(post -> complete(post, TAKEN));
-        all().forEach(post -> complete(post, TAKEN));
+        all().forEach(post -> complete(post, ACCEPTED));
+        all().forEach(post -> complete(post, ACCEPTED));
         now += SETTINGS.repeatInterval().toMillis() - 1;
         queue.passTime(now);
         assertThat(all()).isEmpty();
@@ -176,14 +176,14 @@ class DeliveryQueueTest {
         queue.passTime(now);
         List<DeliveryQueue.Post> again = all();
         assertThat(again).extracting(DeliveryQueue.Post::id).containsExactly(open.alarm() + ":1:1");
-        complete(again.get(0), TAKEN);
+        complete(again.get(0), ACCEPTED);
         now += SETTINGS.repeatInterval().toMillis();
         queue.passTime(now);
         assertThat(all()).extracting(DeliveryQueue.Post::id).containsExactly(open.alarm() + ":1:2");
     }
 
     @Test
-    void waitsWithALesserAlarmForOneThatInhibitsIt() {
+    void delaysAMinorAlarmForAnInhibitingOne() {
         Alarm minor = take(AlarmKind.SILENT_DEVICE);
         assertThat(all()).isEmpty();
         now += 5_000;
@@ -207,9 +207,9 @@ class DeliveryQueueTest {
     }
 
     @Test
-    void reportsTheEndOfWhatWasReportedThoughItIsInhibitedOrMutedNow() {
+    void postsTheEndOfAPostedAlarmAlsoWhileInhibitedOrMuted() {
         Alarm alarm = take(AlarmKind.COLLISION);
-        complete(all().get(0), TAKEN);
+        complete(all().get(0), ACCEPTED);
         Alarm muted = alarm.muted(now + 100_000, now).numbered(++sequence);
         queue.take(muted, now);
         assertThat(all()).isEmpty();
@@ -218,9 +218,9 @@ class DeliveryQueueTest {
     }
 
     @Test
-    void goesOnAfterARestartWhereItWas() {
+    void continuesAfterARestart() {
         Alarm first = take(AlarmKind.COLLISION);
-        complete(all().get(0), TAKEN);
+        complete(all().get(0), ACCEPTED);
         Alarm second = take(AlarmKind.COLLISION);
         Alarm closed = take(AlarmKind.COLLISION)
                 .become(AlarmState.CLOSED, null, "over", now)
@@ -233,7 +233,7 @@ class DeliveryQueueTest {
         assertThat(ids(all())).containsExactlyInAnyOrder(second.alarm(), closed.alarm());
     }
 
-    /** The answer of its post was lost with the process. */
+    /** The response to its post was lost with the process. */
     @Test
     void postsTheEndOfAnInhibitedAlarmThatMayHaveBeenAccepted() {
         Alarm alarm = take(AlarmKind.SILENT_DEVICE);
@@ -250,9 +250,9 @@ class DeliveryQueueTest {
     }
 
     @Test
-    void forgetsWhatIsGone() {
+    void removesEntriesOfRemovedAlarms() {
         Alarm existing = take(AlarmKind.COLLISION);
-        complete(all().get(0), TAKEN);
+        complete(all().get(0), ACCEPTED);
         assertThat(queue.remove(existing.alarm())).contains(new DeliveryQueue.Update(existing.alarm(), null));
         Alarm unposted = take(AlarmKind.COLLISION);
         assertThat(queue.isWaiting(unposted.alarm())).isTrue();
@@ -261,7 +261,7 @@ class DeliveryQueueTest {
         Alarm inFlight = take(AlarmKind.COLLISION);
         DeliveryQueue.Post post = all().get(0);
         assertThat(queue.remove(inFlight.alarm())).isEmpty();
-        assertThat(queue.completed(post, TAKEN, now)).contains(new DeliveryQueue.Update(inFlight.alarm(), null));
+        assertThat(queue.completed(post, ACCEPTED, now)).contains(new DeliveryQueue.Update(inFlight.alarm(), null));
         assertThat(queue.inFlight()).isZero();
 
         queue.restore("nosuch", new DeliveryState(1, AlarmState.OPEN, now, 0, false));

@@ -33,7 +33,7 @@ class StopRobotsTest {
     private StopRobots robots = robots();
 
     @Test
-    void stopsTheRobotsOfAPredictedEncounterOnceAndNothingElse() {
+    void stopsOnlyTheRobotsOfAPredictedEncounterOnce() {
         robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
         robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
         robots.take(encounter("e-2", "started", "r1", "cam"), NOW);
@@ -49,7 +49,7 @@ class StopRobotsTest {
     }
 
     @Test
-    void stopsTheRobotThatARecordNamesWhereAnotherEntityHasItsId() {
+    void usesTheTypeOfTheRecordForAnAmbiguousId() {
         FiwareScope scope = new FiwareScope("farm", "/");
         robots.take(
                 new EncounterReport(
@@ -65,7 +65,7 @@ class StopRobotsTest {
     }
 
     @Test
-    void triesAgainAndReportsWhatBecameOfIt() {
+    void retriesAndAuditsTheResult() {
         failing = StopRobots.ATTEMPTS - 1;
         robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
         assertThat(sent).hasSize(StopRobots.ATTEMPTS);
@@ -78,7 +78,7 @@ class StopRobotsTest {
     }
 
     @Test
-    void stopsNobodyForAnOldPredictionAndReportsSoOnce() {
+    void auditsAStalePredictionOnce() {
         long old = NOW - StopRobots.FRESH.toMillis() - 1;
         robots.take(encounter("e-1", "predicted", "r1", "cam"), old);
         robots.take(encounter("e-1", "predicted", "r1", "cam"), old);
@@ -89,7 +89,7 @@ class StopRobotsTest {
     }
 
     @Test
-    void stopsNoRobotForWhatBecameOldWhileItWaited() {
+    void sendsNoStopForAPredictionThatBecameStaleInTheQueue() {
         List<Runnable> waiting = new ArrayList<>();
         executor = waiting::add;
         SettableClock clock = new SettableClock(Instant.ofEpochMilli(NOW));
@@ -102,7 +102,7 @@ class StopRobotsTest {
     }
 
     @Test
-    void reportsThatItCouldNotStopWhatItHasNotReadAndDoesOnceItDoes() {
+    void auditsAnUnknownTypeAndStopsOnceItIsKnown() {
         robots.take(encounter("e-1", "predicted", "r2", "cam"), NOW);
         robots.take(encounter("e-1", "predicted", "r2", "cam"), NOW);
         assertThat(sent).isEmpty();
@@ -114,7 +114,7 @@ class StopRobotsTest {
     }
 
     @Test
-    void reportsThatMoreRobotsWaitThanMay() {
+    void auditsAFullQueue() {
         executor = task -> {
             throw new RejectedExecutionException("full");
         };
@@ -124,10 +124,10 @@ class StopRobotsTest {
     }
 
     @Test
-    void doesNotStopAgainWhatAnotherInstanceStopped() throws Exception {
+    void doesNotRepeatAStopOfAnotherInstance() throws Exception {
         robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
         StopRobots other = robots();
-        other.remember(NgsiJson.read(audited.get(0).toBytes()));
+        other.restore(NgsiJson.read(audited.get(0).toBytes()));
         other.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
         assertThat(sent).hasSize(1);
         other.take(encounter("e-2", "predicted", "r1", "cam"), NOW);
@@ -135,7 +135,7 @@ class StopRobotsTest {
     }
 
     @Test
-    void survivesASenderThatThrowsWhatItDoesNotDeclare() {
+    void survivesUncheckedExceptionsOfTheSender() {
         robots = new StopRobots(
                 StopRobots.Settings.of((device, type, command, value) -> {
                     throw new IllegalArgumentException("invalid URI");
@@ -152,7 +152,7 @@ class StopRobotsTest {
 
     /** Another tenant may have a robot of this id. */
     @Test
-    void sendsItToTheTenantOfTheEncounter() {
+    void sendsTheStopToTheTenantOfTheEncounter() {
         List<FiwareScope> tenants = new ArrayList<>();
         CommandSender sender = new CommandSender() {
             @Override

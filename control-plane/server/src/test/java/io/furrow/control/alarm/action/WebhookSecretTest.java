@@ -19,15 +19,15 @@ class WebhookSecretTest {
     @TempDir
     Path directory;
 
-    /** The test vector of the control plane's README; printf '1700000000.{"id":"collision-7:7"}' | openssl dgst -sha256 -hmac … */
+    /** Uses the test vector of the control plane's README: printf '1700000000.{"id":"collision-7:7"}' | openssl dgst -sha256 -hmac … */
     @Test
-    void signsAsTheDocumentationSays() throws Exception {
+    void signsAsDocumented() throws Exception {
         assertThat(secret("correct horse battery staple\n").signature(1_700_000_000, BODY))
                 .isEqualTo("t=1700000000,v1=08d30c56a11e29adb51aa5ee2642298cbb637c24a94b8cbd09975ed0c20453a3");
     }
 
     @Test
-    void signsWithBothSecretsDuringAChangeAndReadsTheFileAnew() throws Exception {
+    void signsWithBothSecretsDuringARotation() throws Exception {
         Path file = directory.resolve("secret");
         Files.writeString(file, "the old secret, long\n");
         WebhookSecret secret = WebhookSecret.read(file);

@@ -70,7 +70,7 @@ class WebhookTest {
 
     @Test
     void postsAnAlarmWithTheIdOfItsDelivery() throws Exception {
-        assertThat(post(settings()).outcome()).isEqualTo(Webhook.Outcome.TAKEN);
+        assertThat(post(settings()).outcome()).isEqualTo(Webhook.Outcome.ACCEPTED);
         JsonNode body = NgsiJson.read(posted.get(0));
         assertThat(body.path("id").asText()).isEqualTo("collision-7:7");
         assertThat(body.path("alarm").asText()).isEqualTo("collision-7");
@@ -80,7 +80,7 @@ class WebhookTest {
     }
 
     @Test
-    void signsTheBodyWhereThereIsASecret(@TempDir Path directory) throws Exception {
+    void signsTheBodyIfThereIsASecret(@TempDir Path directory) throws Exception {
         Path file = Files.writeString(directory.resolve("secret"), "a-secret-of-some-length\n");
         post(settings().signedWith(file));
         String signature = WebhookSecret.read(file).signature(NOW / 1000, posted.get(0));
@@ -88,7 +88,7 @@ class WebhookTest {
     }
 
     @Test
-    void refusesToStartWithASecretThatIsNone(@TempDir Path directory) {
+    void doesNotStartWithAnInvalidSecret(@TempDir Path directory) {
         assertThatThrownBy(() -> new Webhook(settings().signedWith(directory.resolve("nosuch")), Clock.systemUTC()))
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("nosuch cannot be read");
@@ -96,9 +96,9 @@ class WebhookTest {
 
     @ParameterizedTest
     @CsvSource({
-        "200, TAKEN", "202, TAKEN", "204, TAKEN", "301, FAILED", "307, FAILED", "400, REFUSED", "401, FAILED",
+        "200, ACCEPTED", "202, ACCEPTED", "204, ACCEPTED", "301, FAILED", "307, FAILED", "400, REJECTED", "401, FAILED",
                 "403, FAILED",
-        "404, FAILED", "408, FAILED", "410, FAILED", "422, REFUSED", "425, FAILED", "429, FAILED", "500, FAILED",
+        "404, FAILED", "408, FAILED", "410, FAILED", "422, REJECTED", "425, FAILED", "429, FAILED", "500, FAILED",
                 "503, FAILED"
     })
     void distinguishesTemporaryFromPermanentRejections(int answered, Webhook.Outcome outcome) throws Exception {
@@ -114,22 +114,22 @@ class WebhookTest {
         "503, 'Tue, 14 Nov 2023 22:14:00 GMT', PT40S", "503, 'Tue, 14 Nov 2023 22:13:00 GMT', PT0S",
         "503, soon, ", "503, -1, "
     })
-    void readsHowLongItIsToWait(int answered, String header, Duration expected) throws Exception {
+    void parsesRetryAfter(int answered, String header, Duration expected) throws Exception {
         status = answered;
         retryAfter = header;
         assertThat(post(settings()).retryAfter()).isEqualTo(expected);
     }
 
     @Test
-    void readsNoMoreOfAnAnswerThanItMay() throws Exception {
+    void limitsTheBytesReadOfAResponse() throws Exception {
         status = 200;
         endless = true;
-        assertThat(post(settings()).outcome()).isEqualTo(Webhook.Outcome.TAKEN);
+        assertThat(post(settings()).outcome()).isEqualTo(Webhook.Outcome.ACCEPTED);
         assertThat(cut.await(1, TimeUnit.MINUTES)).isTrue();
     }
 
     @Test
-    void reportsThatNobodyListens() throws Exception {
+    void reportsARefusedConnection() throws Exception {
         Webhook.Settings settings = settings();
         server.close();
         assertThat(post(settings))
@@ -139,7 +139,7 @@ class WebhookTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"hooks.example.com/x", "localhost:8080/x", "ftp://a/x", "http:/x", "/x"})
-    void rejectsAUrlThatCannotBePostedTo(String url) {
+    void rejectsAnInvalidUrl(String url) {
         assertThatThrownBy(() -> Webhook.Settings.of(URI.create(url)))
                 .isInstanceOf(IllegalArgumentException.class)
                 .hasMessageContaining(url);

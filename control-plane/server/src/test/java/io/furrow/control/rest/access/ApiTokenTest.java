@@ -20,7 +20,7 @@ class ApiTokenTest {
     Path directory;
 
     @Test
-    void readsNamesTokensAndRolesAndTakesALineWithoutARoleForAViewer() throws Exception {
+    void readsTokensWithViewerAsDefaultRole() throws Exception {
         List<ApiToken> tokens = ApiToken.read(file("""
                 # the farm's
 
@@ -41,30 +41,30 @@ class ApiTokenTest {
                     a-token-of-sixteen-signs                       | line 1: a line is
                     ann a-token-of-sixteen-signs root              | line 1: 'root' is not a role; it is viewer, operator or admin
                     ann a-token-of-sixteen-signs admin now         | line 1: a line is
-                    ann a-token-of-sixteen-signs;;bob a-token-of-sixteen-signs admin | line 3: this token stands further above
+                    ann a-token-of-sixteen-signs;;bob a-token-of-sixteen-signs admin | line 3: an earlier line has the same token
                     ann a-token-of-sixteen-signs for-users         | line 1: 'for-users' is not a role
                     # nobody                                       | holds no token
                     """)
-    void namesTheLineThatIsWrong(String lines, String message) {
+    void namesTheInvalidLine(String lines, String message) {
         assertThatThrownBy(() -> ApiToken.read(file(lines.replace(';', '\n'))))
                 .isInstanceOf(IOException.class)
                 .hasMessageContainingAll(directory.toString(), message);
     }
 
     @Test
-    void letsALineDeclareThatItsTokenSpeaksForUsers() throws Exception {
+    void readsTokensForUsers() throws Exception {
         List<ApiToken> tokens = ApiToken.read(file("""
                 dashboard a-token-of-sixteen-signs operator for-users
                 ann another-token-of-signs admin
                 """));
 
         assertThat(tokens).extracting(ApiToken::forUsers).containsExactly(true, false);
-        assertThat(tokens.get(0).speakingFor("vera", Role.VIEWER)).hasToString("vera (viewer)");
-        assertThat(tokens.get(0).speakingFor("vera", Role.ADMIN)).hasToString("vera (operator)");
+        assertThat(tokens.get(0).onBehalfOf("vera", Role.VIEWER)).hasToString("vera (viewer)");
+        assertThat(tokens.get(0).onBehalfOf("vera", Role.ADMIN)).hasToString("vera (operator)");
     }
 
     @Test
-    void reportsWhichFileIsMissing() {
+    void namesTheMissingFile() {
         assertThatThrownBy(() -> ApiToken.read(directory.resolve("missing")))
                 .isInstanceOf(IOException.class)
                 .hasMessageContainingAll("the file of tokens", "missing", "cannot be read");

@@ -73,7 +73,7 @@ class EventTilesTest {
     }
 
     @Test
-    void countsATileOnceForAllWhoRequest() throws Exception {
+    void countsATileOnceForConcurrentRequests() throws Exception {
         counter.open = new CountDownLatch(1);
         CompletableFuture<EventTiles.Counted> one = tiles.count(FIRST, HOUR);
         CompletableFuture<EventTiles.Counted> other = tiles.count(FIRST, HOUR);
@@ -86,7 +86,7 @@ class EventTilesTest {
     }
 
     @Test
-    void countsAgainWhereNewEventsMayBe() throws Exception {
+    void countsAgainAfterNewEvents() throws Exception {
         long end = FIRST.to();
         count(FIRST, end - 1);
         count(FIRST, end + 1);
@@ -103,7 +103,7 @@ class EventTilesTest {
     }
 
     @Test
-    void remembersNoFailure() throws Exception {
+    void doesNotCacheFailures() throws Exception {
         counter.unavailable = true;
         assertThatThrownBy(() -> count(FIRST, HOUR))
                 .isInstanceOf(ExecutionException.class)
@@ -113,11 +113,11 @@ class EventTilesTest {
         count(FIRST, HOUR);
 
         EventTiles.Tile unknown = new EventTiles.Tile("other", 1000, 0);
-        assertThatThrownBy(() -> count(unknown, HOUR)).hasMessageContaining("nothing is stored of mission 'other'");
+        assertThatThrownBy(() -> count(unknown, HOUR)).hasMessageContaining("mission 'other' is not recorded");
     }
 
     @Test
-    void answersWithWhatIsCountedAndWithTheRestWhenRequestedAgain() throws Exception {
+    void returnsPartialCountsAndTheRestLater() throws Exception {
         counter.open = new CountDownLatch(1);
         JsonNode first = timeline(0, HOUR, 500);
         assertThat(first.path("complete").asBoolean()).isFalse();
@@ -136,7 +136,7 @@ class EventTilesTest {
     }
 
     @Test
-    void takesTheNarrowestWidthOfWhichNotTooManyAreNeeded() throws Exception {
+    void choosesTheNarrowestSufficientWidth() throws Exception {
         assertWidth(0, HOUR, 1_000, 5_000, 720);
         assertWidth(0, HOUR, 720, 5_000, 720);
         assertWidth(0, HOUR, 719, 10_000, 360);

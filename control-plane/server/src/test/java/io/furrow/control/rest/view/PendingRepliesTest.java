@@ -11,9 +11,9 @@ class PendingRepliesTest {
     private final PendingReplies answers = new PendingReplies();
 
     @Test
-    void remembersTheAnswersOfAManagerHoweverManyAnotherGives() {
+    void cachesAnswersPerManager() {
         answer(Topics.ALARM_MANAGER, "alarm-1");
-        for (int i = 0; i <= PendingReplies.REMEMBERED; i++) {
+        for (int i = 0; i <= PendingReplies.MAX_CACHED; i++) {
             answer(Topics.MISSION_MANAGER, "mission-" + i);
         }
 
@@ -24,7 +24,7 @@ class PendingRepliesTest {
 
     private void answer(String topic, String id) {
         CommandResult answer = CommandResult.of("created");
-        answers.remember(new PendingReplies.Key(topic, id), "f", answer.toBytes(), answer);
+        answers.cache(new PendingReplies.Key(topic, id), "f", answer.toBytes(), answer);
     }
 
     private boolean isRemembered(String topic, String id) {

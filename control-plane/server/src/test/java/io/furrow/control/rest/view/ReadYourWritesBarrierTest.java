@@ -27,7 +27,7 @@ class ReadYourWritesBarrierTest {
     private final KafkaFutureImpl<Map<TopicPartition, ListOffsetsResultInfo>> ends = new KafkaFutureImpl<>();
 
     @Test
-    void holdsAnAnswerUntilTheViewIsAsFarAsTheTopicsWere() {
+    void holdsAnAnswerUntilTheViewHasCaughtUp() {
         CompletableFuture<CommandResult> waiting = held("r-1", ends);
         gate.release(positions::get);
         assertThat(waiting).isNotDone();
@@ -44,7 +44,7 @@ class ReadYourWritesBarrierTest {
     }
 
     @Test
-    void handsAnswersOnInOrder() {
+    void releasesAnswersInOrder() {
         CompletableFuture<CommandResult> first = held("r-1", ends);
         CompletableFuture<CommandResult> second = held("r-2", KafkaFuture.completedFuture(Map.of()));
         gate.release(positions::get);
@@ -57,7 +57,7 @@ class ReadYourWritesBarrierTest {
     }
 
     @Test
-    void failsWhereTheEndsCannotBeHad() {
+    void failsIfTheEndsAreUnknown() {
         held("r-1", ends);
         ends.completeExceptionally(new KafkaException("away"));
 
@@ -70,7 +70,7 @@ class ReadYourWritesBarrierTest {
             String id, KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>> future) {
         PendingReplies.Key key = new PendingReplies.Key(Topics.MISSION_MANAGER, id);
         CompletableFuture<CommandResult> waiting = new CompletableFuture<>();
-        answers.await(key, new PendingReplies.Awaited("", waiting));
+        answers.await(key, new PendingReplies.PendingRequest("", waiting));
         gate.hold(Map.of(key, CommandResult.of("created")), future);
         return waiting;
     }

@@ -34,7 +34,7 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** Replays as server-sent events, with the API and Kafka as they are. */
+/** Receives replays as server-sent events from a real API and Kafka. */
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
 @Tag("full")
 class ReplayFeedIT {
@@ -104,7 +104,7 @@ class ReplayFeedIT {
             until(one, "\"wanted\":\"paused\"");
 
             report(replay, 1_000_000, ReplayStatus.State.ENDED);
-            until(one, "\"state\":\"ended\""); // where it rests, and can be rewound
+            until(one, "\"state\":\"ended\""); // where it can be rewound
             client.send("DELETE", "/api/replays/" + replay, null);
             until(one, "\"wanted\":\"stopped\"");
             report(replay, 1_000_001, ReplayStatus.State.STOPPED);
@@ -117,9 +117,9 @@ class ReplayFeedIT {
         }
     }
 
-    /** A stream without a body would keep its place forever. */
+    /** A stream without a body would occupy a feed forever. */
     @Test
-    void givesNoPlaceToWhoeverRequestsHeadersOnly() throws Exception {
+    void opensNoFeedForHeadRequests() throws Exception {
         for (int i = 0; i < 110; i++) {
             HttpRequest head = HttpRequest.newBuilder(URI.create(running.api().uri() + "/api/replays/events"))
                     .method("HEAD", HttpRequest.BodyPublishers.noBody())
@@ -129,9 +129,9 @@ class ReplayFeedIT {
         }
     }
 
-    /** A hundred may follow, though none of them reads; with them there are others to wait for no thread. */
+    /** A hundred clients that do not read must not block other requests. */
     @Test
-    void isNotHeldUpByClientsThatDoNotRead() throws Exception {
+    void isNotBlockedByClientsThatDoNotRead() throws Exception {
         String replay = startReplay();
         List<Socket> silent = new ArrayList<>();
         try {
@@ -155,7 +155,7 @@ class ReplayFeedIT {
         }
         report(replay, 2000, ReplayStatus.State.RUNNING);
         await().until(() -> {
-            report(replay, 2000, ReplayStatus.State.RUNNING); // who has left is noticed when something is written
+            report(replay, 2000, ReplayStatus.State.RUNNING); // a disconnected client is detected at the next write
             HttpResponse<InputStream> answer = open("/api/replays/" + replay + "/events");
             answer.body().close();
             return answer.statusCode() == 200;

@@ -84,7 +84,7 @@ class ReplayFeedTest {
     }
 
     @Test
-    void showsAllReplaysAndThenWhatChanges() throws Exception {
+    void writesAllReplaysAndThenChanges() throws Exception {
         BlockingQueue<String> events = new LinkedBlockingQueue<>();
         write(feed(null), event -> events.add(text(event)), LONG);
 
@@ -116,7 +116,7 @@ class ReplayFeedTest {
     }
 
     @Test
-    void writesTheNewestOnlyToAClientThatReadsSlowly() throws Exception {
+    void writesOnlyTheNewestStateToASlowClient() throws Exception {
         Semaphore reads = new Semaphore(0);
         BlockingQueue<String> events = new LinkedBlockingQueue<>();
         write(
@@ -140,7 +140,7 @@ class ReplayFeedTest {
     }
 
     @Test
-    void writesAHeartbeatWhereNothingChanges() throws Exception {
+    void writesAHeartbeatWithoutChanges() throws Exception {
         BlockingQueue<String> events = new LinkedBlockingQueue<>();
         write(feed("a.0a1b2c3d"), event -> events.add(text(event)), Duration.ofMillis(20));
         assertThat(next(events)).isEqualTo(":\n\n");
@@ -150,7 +150,7 @@ class ReplayFeedTest {
     }
 
     @Test
-    void goesOnWhenTheTopicsWereReadAnew() throws Exception {
+    void continuesAfterTheTopicsWereReadAgain() throws Exception {
         BlockingQueue<String> events = new LinkedBlockingQueue<>();
         ReplayFeed feed = feed(null);
         Thread thread = write(feed, event -> events.add(text(event)), LONG);

@@ -1,0 +1,96 @@
+package io.furrow.control.rest;
+
+import java.time.Instant;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.junit.jupiter.api.Test;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** Tests {@code /api/fields}. */
+interface FieldRoutes extends RestApiRoutes {
+    @Test
+    default void importsFieldsAndRejectsInvalidOnes() throws Exception {
+        String square = "[[[10,50],[10.001,50],[10.001,50.001],[10,50.001],[10,50]]]";
+        String file = """
+                {"type":"FeatureCollection","features":[
+                  {"type":"Feature","id":"a","geometry":{"type":"Polygon","coordinates":%s},"properties":{"name":"Home"}},
+                  {"type":"Feature","id":"b","geometry":{"type":"Point","coordinates":[10,50]},"properties":{}}]}
+                """.formatted(square);
+
+        JsonNode first = client().ask("POST", "/api/fields?domain=north", file);
+        JsonNode again = client().ask("POST", "/api/fields?domain=north", file);
+
+        assertThat(first.path("imported").asInt()).isEqualTo(1);
+        assertThat(first.at("/fields/0/change").asText()).isEqualTo("added");
+        assertThat(first.at("/refused/0/id").asText()).isEqualTo("b");
+        assertThat(first.at("/refused/0/reason").asText()).contains("Point");
+        assertThat(again.path("imported").asInt()).isZero();
+        assertThat(again.path("unchanged").asInt()).isEqualTo(1);
+        JsonNode fields = running().get("/api/fields");
+        assertThat(fields.path("type").asText()).isEqualTo("FeatureCollection");
+        assertThat(fields.path("features")).hasSize(1);
+        JsonNode home = fields.at("/features/0");
+        assertThat(home.path("id").asText()).isEqualTo("a");
+        assertThat(home.at("/properties/name").asText()).isEqualTo("Home");
+        assertThat(home.at("/geometry/coordinates/0/1/0").asDouble()).isEqualTo(10.001);
+        assertThat(running().get("/api/fields?domain=north").path("features")).hasSize(1);
+        assertThat(running().get("/api/fields?domain=south").path("features")).isEmpty();
+        client().send("POST", "/api/fields?domain=north", file.replace("Home", "Behind the barn"));
+        assertThat(running().get("/api/fields").path("features"))
+                .singleElement()
+                .satisfies(
+                        now -> assertThat(now.at("/properties/name").asText()).isEqualTo("Behind the barn"));
+
+        String bow = file.replace(square, "[[[10,50],[10.002,50.002],[10.002,50],[10,50.002],[10,50]]]");
+        assertThat(client().ask("POST", "/api/fields?domain=north", bow).at("/fields/0/mended"))
+                .anySatisfy(note -> assertThat(note.asText()).contains("Self-intersection"));
+        assertThat(running().get("/api/fields").at("/features/0/geometry/type").asText())
+                .isEqualTo("MultiPolygon");
+        assertThat(client().ask("POST", "/api/fields?crs=EPSG:1", file)
+                        .path("reason")
+                        .asText())
+                .contains("specify it with 'crs'");
+        assertThat(client().ask("POST", "/api/fields?name-property=nosuch", file)
+                        .path("reason")
+                        .asText())
+                .contains("'name-property' nosuch: no feature of the file has this attribute");
+
+        JsonNode renamed = client().ask("PATCH", "/api/fields/a", "{\"name\":\"Hill\"}");
+        assertThat(renamed.path("status").asText() + " " + renamed.path("name").asText())
+                .isEqualTo("changed Hill");
+        assertThat(running()
+                        .get("/api/fields")
+                        .at("/features/0/properties/name")
+                        .asText())
+                .isEqualTo("Hill");
+        for (String body : new String[] {
+            "{}", "{\"name\":\" \"}", "{\"nmae\":\"x\"}",
+            "{\"name\":\"x\",\"validTo\":1}", "{\"validTo\":\"soon\"}", "{\"validTo\":null}",
+            "{\"name\":7}"
+        }) {
+            running().refused("PATCH", "/api/fields/a", body, 400, "wrong-member");
+        }
+        running().refused("PATCH", "/api/fields/z", "{\"name\":\"x\"}", 404, "unknown-field");
+        running().refused("DELETE", "/api/fields/z", null, 404, "unknown-field");
+        running().refused("PATCH", "/api/fields/a", "{\"validTo\":1}", 409, "wrong-state");
+        String now = Instant.now().toString();
+        assertThat(client().ask("PATCH", "/api/fields/a", "{\"validTo\":\"%s\"}".formatted(now))
+                        .path("status")
+                        .asText())
+                .isEqualTo("ended");
+        assertThat(running().get("/api/fields").path("features")).isEmpty();
+        assertThat(client().ask("DELETE", "/api/fields/a", null)
+                        .path("versions")
+                        .asInt())
+                .isEqualTo(4);
+
+        running().refused("POST", "/api/fields", "{\"type\":\"Feature", 400, "unusable-file");
+        running().refused("POST", "/api/fields?domain=a.b", file, 400, "wrong-member");
+        running().refused("POST", "/api/fields", " ".repeat(FieldsResource.MAX_BYTES + 1), 413, "too-large");
+        await().untilAsserted(
+                        () -> assertThat(running().get("/api/audit?limit=1000").findValuesAsText("command"))
+                                .contains("import-fields", "rename-field", "end-field", "delete-field"));
+    }
+}

@@ -1,0 +1,83 @@
+package io.furrow.control.rest;
+
+import java.net.http.HttpResponse;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.junit.jupiter.api.Test;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** Tests {@code /api/replays}. */
+interface ReplayRoutes extends RestApiRoutes {
+    @Test
+    default void controlsAReplay() throws Exception {
+        JsonNode made = client().ask("POST", "/api/replays", "{\"mission\":\"hoeing\",\"speed\":\"max\"}");
+        String replay = "/api/replays/" + made.path("replay").asText();
+        assertThat(running().get(replay).path("wanted").asText()).isEqualTo("running");
+        assertThat(client().ask("POST", replay + "/pause", null).path("status").asText())
+                .isEqualTo("paused");
+        assertThat(client().status("POST", replay + "/step", "{\"count\":3}")).isEqualTo(200);
+        assertThat(client().status("POST", replay + "/seek", "{\"to\":1700000000000}"))
+                .isEqualTo(200);
+        assertThat(client().status("POST", replay + "/speed", "{\"speed\":2}")).isEqualTo(200);
+        assertThat(client().status("POST", replay + "/resume", null)).isEqualTo(200);
+        assertThat(running().get("/api/replays").findValuesAsText("replay"))
+                .contains(made.path("replay").asText());
+        running().refused("POST", replay + "/step", "{}", 409, "wrong-state");
+        running().refused("POST", replay + "/dance", null, 404, "not-found");
+        assertThat(client().status("DELETE", replay, null)).isEqualTo(200);
+        running().refused("GET", "/api/replays/hoeing.00000000", null, 404, "unknown-replay");
+    }
+
+    @Test
+    default void controlsAReplayWithAllOptions() throws Exception {
+        HttpResponse<byte[]> made = client().send("POST", "/api/replays", """
+                {"mission": "ridging", "topic": "data.show.replay.0000cafe", "from": 0, "to": 9000, "range": {"from": 1000, "to": 2000},
+                 "maxGap": "PT5S", "stamps": "now", "startAt": 1700000000000, "analytics": ["presence"], "source": {"file": "a.jsonl"}}
+                """);
+        assertThat(made.statusCode()).as(new String(made.body())).isEqualTo(201);
+        String replay = "/api/replays/ridging.0000cafe";
+        assertThat(made.headers().firstValue("Location"))
+                .contains(running().api().uri() + replay);
+        assertThat(running().get(replay).at("/range/to").asLong()).isEqualTo(2000);
+        assertThat(running().get(replay).path("stamps").asText()).isEqualTo("now");
+        assertThat(running().get(replay).at("/source/file").asText()).isEqualTo("a.jsonl");
+
+        assertThat(client().status("POST", replay + "/loop", "{\"from\":3000,\"to\":4000}"))
+                .isEqualTo(200);
+        assertThat(running().get(replay).at("/range/to").asLong()).isEqualTo(4000);
+        assertThat(client().status("POST", replay + "/loop", null)).isEqualTo(200);
+        assertThat(running().get(replay).has("range")).isFalse();
+        running()
+                .refused(
+                        "POST",
+                        "/api/replays",
+                        "{\"mission\":\"ridging\",\"topic\":\"data.show.replay.0000cafe\"}",
+                        409,
+                        "replay-exists");
+        assertThat(client().status("GET", replay + "/events", null)).isEqualTo(200);
+        assertThat(client().status("GET", "/api/replays/events", null)).isEqualTo(200);
+        running().refused("GET", "/api/replays/ridging.00000000/events", null, 404, "unknown-replay");
+        assertThat(running().get("/api/recordings")).isEmpty();
+    }
+
+    @Test
+    default void controlsAGroupOfReplays() throws Exception {
+        HttpResponse<byte[]> made = client().send(
+                        "POST", "/api/replays", "{\"missions\":[\"sowing\",\"rolling\"],\"from\":1000,\"to\":900000}");
+        assertThat(made.statusCode()).as(new String(made.body())).isEqualTo(201);
+        String group =
+                "/api/replays/groups/" + client().json(made).path("group").asText();
+        assertThat(made.headers().firstValue("Location"))
+                .contains(running().api().uri() + group);
+        assertThat(running().get(group).findValuesAsText("mission")).containsExactly("rolling", "sowing");
+
+        assertThat(client().status("POST", group + "/pause", null)).isEqualTo(200);
+        assertThat(client().status("POST", group + "/seek", "{\"to\":5000}")).isEqualTo(200);
+        assertThat(running().get(group).get(0).at("/clock/shows").asLong()).isEqualTo(5000);
+        running().refused("POST", group + "/step", "{}", 409, "wrong-state");
+        running().refused("GET", "/api/replays/groups/0a1b2c3d", null, 404, "unknown-replay");
+        assertThat(client().status("DELETE", group, null)).isEqualTo(200);
+        assertThat(running().get(group).findValuesAsText("wanted")).containsExactly("stopped", "stopped");
+    }
+}
