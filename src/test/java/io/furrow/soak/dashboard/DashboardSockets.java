@@ -95,7 +95,7 @@ public final class DashboardSockets implements AutoCloseable {
 
     /** Arguments: folder, seconds, sockets, slow, records per second, drops, p99 in ms. */
     public static void main(String... args) throws Exception {
-        JavaProcess.endAllWithThisOne();
+        JavaProcess.killChildrenAtExit();
         List<String> faults = run(new Settings(
                 Path.of(args[0]),
                 Duration.ofSeconds(Long.parseLong(args[1])),

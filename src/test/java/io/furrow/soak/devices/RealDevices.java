@@ -46,7 +46,7 @@ public final class RealDevices {
 
     /** Arguments: the checkout, a folder for data and logs, for how many seconds nothing is disturbed. */
     public static void main(String... args) throws Exception {
-        JavaProcess.endAllWithThisOne();
+        JavaProcess.killChildrenAtExit();
         RealDevices soak = new RealDevices(
                 Path.of(args[0]).toAbsolutePath(),
                 Path.of(args[1]).toAbsolutePath(),

@@ -74,7 +74,7 @@ public final class FarmYear implements AutoCloseable {
 
     /** Arguments: the checkout, a folder for data and logs, how many weeks, the seconds of a day. */
     public static void main(String... args) throws Exception {
-        JavaProcess.endAllWithThisOne();
+        JavaProcess.killChildrenAtExit();
         FarmYear year = new FarmYear(
                 List.of(Path.of(args[0]).toAbsolutePath().resolve("furrow").toString()),
                 Path.of(args[1]).toAbsolutePath(),
