@@ -32,8 +32,8 @@ final class ControlPlaneProxy extends ProxyHandler.Reverse {
     private final URI controlPlane;
 
     ControlPlaneProxy(URI controlPlane) {
-        super(request ->
-                HttpURI.build(controlPlane + request.getHttpURI().getPathQuery()).asImmutable());
+        super(request -> HttpURI.build(controlPlane + request.getHttpURI().getPathQuery())
+                .asImmutable());
         this.controlPlane = controlPlane;
         setProxyToServerHost(controlPlane.getAuthority());
     }

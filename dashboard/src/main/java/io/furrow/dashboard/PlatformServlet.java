@@ -173,7 +173,8 @@ final class PlatformServlet extends UserServlet {
             });
             if (!lags.isEmpty()) {
                 ObjectNode entry = to.addObject().put("group", group);
-                entry.put("lag", lags.values().stream().mapToLong(Long::longValue).sum());
+                entry.put(
+                        "lag", lags.values().stream().mapToLong(Long::longValue).sum());
                 ObjectNode topics = entry.putObject("topics");
                 lags.forEach(topics::put);
             }

@@ -262,7 +262,7 @@ class DashboardStreamsIT extends DashboardFixture {
     }
 
     @Tag("full")
-    void sharesOneConsumerAmongAllSocketsOfATopic() throws Exception {
+    @Test
     void sharesOneConsumerAmongAllSocketsOfATopic() throws Exception {
         List<SocketClient> clients = new ArrayList<>();
         for (int i = 0; i < 10; i++) {

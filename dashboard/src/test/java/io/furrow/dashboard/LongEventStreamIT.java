@@ -109,8 +109,7 @@ class LongEventStreamIT {
                 Reader vera = new Reader(stream(dashboard, VERA).body());
                 Reader olga = new Reader(stream(dashboard, OLGA).body());
 
-                await().atMost(TIMEOUT)
-                        .until(() -> vera.pings() >= MIN_PINGS && olga.pings() >= MIN_PINGS);
+                await().atMost(TIMEOUT).until(() -> vera.pings() >= MIN_PINGS && olga.pings() >= MIN_PINGS);
                 producer.send(new ProducerRecord<>(TOPIC, "k", "{\"n\":1}".getBytes(UTF_8)))
                         .get();
                 await().atMost(TIMEOUT)

@@ -61,8 +61,7 @@ class RequestWorkersTest {
         ServerConnector connector = new ServerConnector(server, 1, 1);
         connector.setHost("127.0.0.1");
         server.addConnector(connector);
-        server.setHandler(
-                new RequestWorkers(path -> path.startsWith("/api/"), rejections::add, new BlockingHandler()));
+        server.setHandler(new RequestWorkers(path -> path.startsWith("/api/"), rejections::add, new BlockingHandler()));
         server.start();
         uri = URI.create("http://127.0.0.1:" + connector.getLocalPort());
     }

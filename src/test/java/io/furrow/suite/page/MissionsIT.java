@@ -108,8 +108,8 @@ class MissionsIT {
     }
 
     @Tag("full")
+    @Test
     void createsAndDeletesADomain(PageSuite suite) {
-    void makesAndDeletesADomain(PageSuite suite) {
         FarmPage farm = suite.open("#/missions?tab=domains");
         farm.button("New domain").click();
         Locator dialog = farm.find("dialog[open]");

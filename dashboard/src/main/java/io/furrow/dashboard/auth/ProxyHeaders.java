@@ -65,7 +65,8 @@ public final class ProxyHeaders extends Handler.Wrapper {
         headers.remove(proxy.groupsHeader());
         boolean isApi = Request.getPathInContext(request).startsWith("/api/"); // the page itself is public
         if (isApi && received.contains(proxy.userHeader()) && proxy.isAt(address(request))) {
-            User user = proxy.user(received.getValuesList(proxy.userHeader()), received.getValuesList(proxy.groupsHeader()));
+            User user = proxy.user(
+                    received.getValuesList(proxy.userHeader()), received.getValuesList(proxy.groupsHeader()));
             headers.put(Credentials.AUTHORIZATION, "Bearer " + proxy.token());
             headers.put(Credentials.USER, user.name());
             headers.put(Credentials.ROLE, user.role().code());

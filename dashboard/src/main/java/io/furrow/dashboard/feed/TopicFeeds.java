@@ -72,7 +72,8 @@ public final class TopicFeeds implements AutoCloseable {
      * @throws Problem 503 if Kafka does not respond
      */
     public synchronized Map<String, Long> written(Collection<String> names) {
-        if (System.nanoTime() - countedAt < TIME_TO_LIVE_NANOS && counts.keySet().containsAll(names)) {
+        if (System.nanoTime() - countedAt < TIME_TO_LIVE_NANOS
+                && counts.keySet().containsAll(names)) {
             return counts;
         }
         try {
@@ -91,7 +92,9 @@ public final class TopicFeeds implements AutoCloseable {
             return counts;
         } catch (ExecutionException | TimeoutException e) {
             throw new Problem(
-                    503, "kafka-away", "Kafka does not return the offsets of its topics; check --kafka and that it runs");
+                    503,
+                    "kafka-away",
+                    "Kafka does not return the offsets of its topics; check --kafka and that it runs");
         } catch (InterruptedException e) {
             throw Problem.stopping();
         }

@@ -60,8 +60,7 @@ public final class PageFiles {
         ResourceFactory resources = ResourceFactory.of(owner);
         String root = "META-INF/resources/webjars/%s/%s/".formatted(name, version(name));
         return ResourceFactory.combine(
-                classPath(resources, root + "dist/", LIBRARIES.get(name)),
-                classPath(resources, root, "package.json"));
+                classPath(resources, root + "dist/", LIBRARIES.get(name)), classPath(resources, root, "package.json"));
     }
 
     /** Finds a folder by a file in it, since a jar need not have entries for folders. */

@@ -59,7 +59,9 @@ public final class HistoryServlet extends UserServlet {
         try {
             if (!free.tryAcquire(WAIT_SECONDS, TimeUnit.SECONDS)) {
                 throw new Problem(
-                        503, "overloaded", "%d histories are being read; ask again in a moment".formatted(MAX_CONCURRENT));
+                        503,
+                        "overloaded",
+                        "%d histories are being read; ask again in a moment".formatted(MAX_CONCURRENT));
             }
         } catch (InterruptedException e) {
             throw Problem.stopping();

@@ -54,6 +54,7 @@ final class SendQueue {
                 merged++;
                 counters.add(Count.RECORDS_MERGED, 1);
             }
+        }
         bytes += record.bytes();
         overflown = overflown || all.size() + latest.size() > limits.waitingRecords() || bytes > limits.waitingBytes();
         return !overflown;

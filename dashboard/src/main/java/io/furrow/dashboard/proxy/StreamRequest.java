@@ -36,7 +36,10 @@ record StreamRequest(String topic, Mode mode, boolean prime, Format format) {
     static StreamRequest read(HttpServletRequest request, TopicRules rules, Format defaultValue) {
         String topic = topic(request, rules);
         return new StreamRequest(
-                topic, choice(request, "mode", Mode.ALL), flag(request, "prime"), choice(request, "format", defaultValue));
+                topic,
+                choice(request, "mode", Mode.ALL),
+                flag(request, "prime"),
+                choice(request, "format", defaultValue));
     }
 
     /**
