@@ -15,8 +15,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 @Tag("soak")
 class BadAmongGoodIT {
     @Test
-    void writesEveryGoodEventOnceAndEveryBadRecordToTheDeadLetters(@TempDir Path directory)
-            throws Exception {
+    void writesEveryGoodEventOnceAndEveryBadRecordToTheDeadLetters(@TempDir Path directory) throws Exception {
         assertThat(BadRecord.all()).hasSizeGreaterThanOrEqualTo(20);
         try (BadAmongGood run = BadAmongGood.start(directory)) {
             run.write(10_000, 240);

@@ -26,8 +26,7 @@ final class ListeningPorts {
     static Set<Integer> ofThisJvm() throws IOException, InterruptedException {
         Set<Integer> ports = Files.isDirectory(PROC.resolve("fd")) ? fromProc() : fromLsof();
         if (ports.isEmpty()) {
-            throw new IllegalStateException(
-                    "this JVM listens on no TCP port; were they listed before a server ran?");
+            throw new IllegalStateException("this JVM listens on no TCP port; were they listed before a server ran?");
         }
         return ports;
     }

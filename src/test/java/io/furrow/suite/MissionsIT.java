@@ -151,8 +151,8 @@ class MissionsIT {
         String port = Integer.toString(broker.getPort());
         var arguments = List.of("mosquitto_pub", "-h", broker.getHost(), "-p", port, "-u", user, "-P", password);
         List<String> content = List.of("-q", "1", "-t", topic, "-m", message);
-        try (Command publisher =
-                Command.start(Stream.concat(arguments.stream(), content.stream()).toArray(String[]::new))) {
+        try (Command publisher = Command.start(
+                Stream.concat(arguments.stream(), content.stream()).toArray(String[]::new))) {
             publisher.exitCode();
             return publisher.printed();
         }

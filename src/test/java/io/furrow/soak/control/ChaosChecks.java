@@ -53,7 +53,8 @@ record ChaosChecks(ChaosFarm farm, List<MissionActor> actors) {
             for (MissionActor each : actors) {
                 compare(control.name(), each, shown.remove(each.mission()), faults);
             }
-            shown.keySet().forEach(other -> faults.add(control.name() + " has a mission that was not requested: " + other));
+            shown.keySet()
+                    .forEach(other -> faults.add(control.name() + " has a mission that was not requested: " + other));
         }
         return faults;
     }

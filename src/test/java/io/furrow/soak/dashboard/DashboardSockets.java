@@ -284,7 +284,11 @@ public final class DashboardSockets implements AutoCloseable {
         print("%s: %.1f MB live, %d threads, %d of the pools"
                 .formatted(when, bytes / 1e6, threads(), dashboard.pooledThreads()));
         check(bytes <= bytesBefore * MAX_GROWTH, "%s %d bytes are live, before it were %d", when, bytes, bytesBefore);
-        check(dashboard.pooledThreads() <= MAX_POOLED_THREADS, "%s the pools have %d threads", when, dashboard.pooledThreads());
+        check(
+                dashboard.pooledThreads() <= MAX_POOLED_THREADS,
+                "%s the pools have %d threads",
+                when,
+                dashboard.pooledThreads());
         check(fewThreads, "%s there are %d threads, before there were %d", when, threads(), threadsBefore);
         check(dashboard.isAlive(), "%s the dashboard is gone", when);
     }

@@ -27,7 +27,8 @@ record MeasureChecks(String kafka, ProgramPlan plan, CheckResults verdicts) {
      * Each measure sent in the period is on the topic of its mission, and on no other: once, or at least once if
      * devices received commands meanwhile, because the status of a command is an event that repeats the measures.
      */
-    void checkArrivals(String when, List<ProgramEvent> events, long from, long to, boolean once) throws UnreadableException {
+    void checkArrivals(String when, List<ProgramEvent> events, long from, long to, boolean once)
+            throws UnreadableException {
         List<String> differences = new ArrayList<>();
         int sent = 0;
         for (ProgramPlan.Mission mission : plan.missions()) {

@@ -37,7 +37,8 @@ final class Programs implements AutoCloseable {
     /** Writes the credentials of a mission's devices, which running programs reload. */
     void setCredentials(String mission, String csv) throws IOException {
         Path temporary = Files.writeString(folder.resolve(mission + ".csv.new"), csv);
-        Files.move(temporary, credentials(mission), StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
+        Files.move(
+                temporary, credentials(mission), StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
     }
 
     private Path credentials(String mission) {

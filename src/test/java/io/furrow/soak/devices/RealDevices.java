@@ -167,12 +167,14 @@ public final class RealDevices {
         checkRecovery("the broker's end", before, killedAt, true);
     }
 
-    private void checkRecovery(String after, Map<String, String> before, long since, boolean mayBeCut) throws Exception {
+    private void checkRecovery(String after, Map<String, String> before, long since, boolean mayBeCut)
+            throws Exception {
         logins.checkUnchanged(after, before, since, mayBeCut);
         long requested = System.currentTimeMillis();
         logins.checkCommands("after " + after, commanded());
         Thread.sleep(SETTLE_TIME.toMillis());
-        measures.checkArrivals("after " + after, programs.events(), requested, System.currentTimeMillis() - 5_000, false);
+        measures.checkArrivals(
+                "after " + after, programs.events(), requested, System.currentTimeMillis() - 5_000, false);
     }
 
     /** Devices with a period of 15 min that receive no command until the end. */

@@ -82,8 +82,8 @@ public final class ReplaySteering {
             }
             System.out.println("steering");
             while (!Files.exists(endFile)) {
-                LockSupport.parkNanos(
-                        Duration.ofMillis(random.nextInt(MIN_MILLIS, MAX_MILLIS)).toNanos());
+                LockSupport.parkNanos(Duration.ofMillis(random.nextInt(MIN_MILLIS, MAX_MILLIS))
+                        .toNanos());
                 SteeredReplay replay = replays.get(random.nextInt(replays.size()));
                 commands.merge(replay.steer(random), 1, Integer::sum);
                 write(replay, producer);

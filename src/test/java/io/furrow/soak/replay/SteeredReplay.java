@@ -63,8 +63,8 @@ final class SteeredReplay {
             ObjectNode entity =
                     JsonNodeFactory.instance.objectNode().put("id", id).put("type", "Robot");
             entity.putObject(NUMBER).put("type", "Integer").put("value", i).putObject("metadata");
-            StoredEvent event =
-                    new StoredEvent("e%05d".formatted(i), TIME + i * INTERVAL_MS, id, Map.of("ce_source", "/soak"), entity);
+            StoredEvent event = new StoredEvent(
+                    "e%05d".formatted(i), TIME + i * INTERVAL_MS, id, Map.of("ce_source", "/soak"), entity);
             events.add(new RawBsonDocument(EventDocumentCodec.write(event)));
         }
         missions.prepared(MissionCollections.nameOf(mission(index))).insertMany(events);

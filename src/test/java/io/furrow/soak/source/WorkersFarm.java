@@ -94,7 +94,8 @@ final class WorkersFarm implements AutoCloseable {
         Until.isTrue("every journal is drained", TIMEOUT, () -> {
             var shown = group.shown().values();
             return shown.stream().mapToInt(Shown::tasks).sum() == SourceGroup.TASKS
-                    && shown.stream().allMatch(each -> each.onDisk() == 0 && each.adopted() == 0 && each.orphaned() == 0);
+                    && shown.stream()
+                            .allMatch(each -> each.onDisk() == 0 && each.adopted() == 0 && each.orphaned() == 0);
         });
         List<NumberedChange> newest = changes.newest();
         Until.within(REPAIR_TIMEOUT, () -> {

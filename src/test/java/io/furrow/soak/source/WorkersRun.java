@@ -175,7 +175,8 @@ final class WorkersRun implements AutoCloseable {
             return same;
         });
         unshown += Math.max(0, undelivered - previous[0]);
-        System.out.printf("  %s: %d notified records are not in Kafka, %d in all are shown%n", when, undelivered, previous[0]);
+        System.out.printf(
+                "  %s: %d notified records are not in Kafka, %d in all are shown%n", when, undelivered, previous[0]);
     }
 
     /** While the other journals are drained, missing changes must be on the removed disk, as shown. */

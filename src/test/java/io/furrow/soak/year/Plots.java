@@ -110,10 +110,13 @@ final class Plots {
                 farm.up.get("/api/fields?domain=" + FarmYear.DOMAIN).path("features")) {
             double south = south(each.at("/geometry/coordinates/0"));
             found.put(
-                    each.path("id").asText(), describe(each.at("/properties/name").asText(), south));
+                    each.path("id").asText(),
+                    describe(each.at("/properties/name").asText(), south));
         }
         return new YearCheck(
-                "fields, " + when, String.join(", ", List.copyOf(found.values())), YearCheck.differences(current, found));
+                "fields, " + when,
+                String.join(", ", List.copyOf(found.values())),
+                YearCheck.differences(current, found));
     }
 
     private static double south(JsonNode ring) {

@@ -53,7 +53,9 @@ final class ReportLog implements AutoCloseable {
                 Report report = record.value() == null
                         ? null
                         : Report.of(Entity.parse(record.value()).json());
-                if (report != null && report.time() > 0 && !report.entity().startsWith(END_OF_REPLAY)) { // a report of a device
+                if (report != null
+                        && report.time() > 0
+                        && !report.entity().startsWith(END_OF_REPLAY)) { // a report of a device
                     into.get(record.topic()).merge(report, 1, Integer::sum);
                 }
             }

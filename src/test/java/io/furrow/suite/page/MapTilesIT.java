@@ -111,9 +111,10 @@ class MapTilesIT {
                     List.of(1, 1, 0), 4L,
                     List.of(2, 0, 0), 5L,
                     List.of(12, 3423, 1763), 19_078_479L);
-            ids.forEach((position, id) -> assertThat(((Number) evaluate(farm, "tileId(...argument)", position)).longValue())
-                    .as("%s", position)
-                    .isEqualTo(id));
+            ids.forEach(
+                    (position, id) -> assertThat(((Number) evaluate(farm, "tileId(...argument)", position)).longValue())
+                            .as("%s", position)
+                            .isEqualTo(id));
             farm.close();
         }
     }

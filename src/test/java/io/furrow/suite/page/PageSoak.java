@@ -97,7 +97,7 @@ public final class PageSoak {
                     Marks.Delays.percentile(millis, 0.5),
                     high,
                     millis.get(millis.size() - 1));
-                    passed &= high <= HALF_A_SECOND && (!canvas || millis.size() > events * 9 / 10);
+            passed &= high <= HALF_A_SECOND && (!canvas || millis.size() > events * 9 / 10);
         }
         return passed;
     }

@@ -38,7 +38,9 @@ final class Pictures {
 
     private static void replay(PageSuite suite, Path folder) {
         FarmPage farm = suite.open("#/replays", WindowStyle.DESKTOP_LIGHT);
-        for (int millis = 30_000; millis <= 90_000; millis += 30_000) { // the list of recordings is updated every half minute
+        for (int millis = 30_000;
+                millis <= 90_000;
+                millis += 30_000) { // the list of recordings is updated every half minute
             farm.untilStore(
                     "store.recordings.get('weeding')?.last - store.recordings.get('weeding')?.first > " + millis);
         }

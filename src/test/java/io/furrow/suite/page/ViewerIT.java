@@ -36,8 +36,7 @@ class ViewerIT {
     private static final String ROBOT = "urn:ngsi-ld:Robot:1";
 
     @Test
-    void waitsForTheControlPlaneSignsInAndOffersNoCommand(PageSuite suite, @TempDir Path folder)
-            throws Exception {
+    void waitsForTheControlPlaneSignsInAndOffersNoCommand(PageSuite suite, @TempDir Path folder) throws Exception {
         Properties client = suite.running().suite().kafka().clientProperties();
         int port = FreePort.orFree(0);
         RestSettings settings = RestSettings.on(port)
