@@ -133,7 +133,7 @@ class PageRulesIT {
                 }
                 report('pb-13', 'Valve', 'pbfarm', at(10));
                 report('pb-13', 'Pump', 'pbfarm', at(11));
-                const summary = () => [...store.entities.values()].filter(({ identity }) => identity.id.startsWith('pb-'))
+                const summary = () => [...store.entities.values()].filter(({ identity }) => ['pb-13', 'pb-14'].includes(identity.id))
                   .map(({ name, position, trail }) => `${name} at ${position[0]}, ${trail.length} places`);
                 const both = summary();
                 store.applyEncounter({ time, headers: { 'fiware-service': 'pbother' }, value: { type: 'Analytics:Collision',
