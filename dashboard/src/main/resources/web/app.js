@@ -1,13 +1,13 @@
-/** The frame of the page: who asks, where one is, and whether live or recorded things are shown. */
+/** The frame of the page: navigation, search, scope, mode (live or replay) and notices; starts the page. */
 import { api } from './core/api.js';
-import { feeds, introduce } from './core/feeds.js';
+import { feeds, loadUser } from './core/feeds.js';
 import { clock, day, duration, zone } from './core/format.js';
 import { h, replace, setText } from './core/dom.js';
 import { icon } from './core/icons.js';
 import { linkTo, navigate, onRoute, route } from './core/router.js';
 import { store } from './core/store.js';
 import { settingsMenu } from './settings.js';
-import { mayLeave, signIn, signInAgain, signOut, signedIn, readTokenFromLink } from './sign-in.js';
+import { canSignOut, signIn, signInAgain, signOut, signedIn, readTokenFromLink } from './sign-in.js';
 import { t } from './texts.js';
 
 const PLACES = [
@@ -24,9 +24,9 @@ const MODULES = {
   'furrow-topics': './views/topics.js',
   'furrow-platform': './views/platform.js',
 };
-/** How long it is said that the connection was away, ms. */
-const BACK_SHOWN = 10_000;
-/** Views beside which the timeline stays. */
+/** Time for which a restored connection is reported, ms. */
+const RESTORED_SHOWN = 10_000;
+/** Views with the timeline below. */
 const WITH_TIMELINE = new Set(['map', 'replays', 'analyses']);
 
 class App extends HTMLElement {
@@ -42,9 +42,9 @@ class App extends HTMLElement {
       on: { input: () => this.findChanged(), keydown: (event) => this.findKey(event) },
     });
     const narrow = matchMedia('(max-width: 560px)');
-    const place = () => (this.find.placeholder = t(narrow.matches ? 'app.findShort' : 'app.find'));
-    narrow.addEventListener('change', place);
-    place();
+    const setPlaceholder = () => (this.find.placeholder = t(narrow.matches ? 'app.findShort' : 'app.find'));
+    narrow.addEventListener('change', setPlaceholder);
+    setPlaceholder();
     this.rail = h('nav.rail', { 'aria-label': t('app.places') }, PLACES.map(([name, symbol]) =>
       h('a', { href: linkTo(name), 'aria-label': t(`views.${name}`), data: { view: name } }, icon(symbol, 22), h('span', { 'aria-hidden': 'true' }, t(`views.${name}`)))));
     this.viewPlace = h('div.view-place', { hidden: true, tabindex: '0' });
@@ -64,7 +64,7 @@ class App extends HTMLElement {
         this.time, this.alarms, settingsMenu()),
       this.notice, this.rail, this.middle, this.side, this.timelinePlace, this.announcer);
 
-    this.offs = [
+    this.subscriptions = [
       onRoute(() => this.show()),
       store.on('mode', () => this.showMode()),
       store.on('clock', () => this.showTime()),
@@ -82,10 +82,10 @@ class App extends HTMLElement {
   }
 
   disconnectedCallback() {
-    this.offs.forEach((off) => off());
+    this.subscriptions.forEach((unsubscribe) => unsubscribe());
   }
 
-  /** An element of a module that is loaded when it is needed; one that fails takes no other with it. */
+  /** Creates an element and loads its module; a module that fails does not affect others. */
   load(name) {
     const element = document.createElement(name);
     if (!customElements.get(name)) {
@@ -119,7 +119,7 @@ class App extends HTMLElement {
     this.followLink();
   }
 
-  /** A link to a moment of a replay: `#/map?replay=R&at=ISO`. */
+  /** Follows a link to a moment of a replay: `#/map?replay=R&at=ISO`. */
   async followLink() {
     const { replay, at } = route.query;
     const existing = replay && store.replays.get(replay);
@@ -178,18 +178,18 @@ class App extends HTMLElement {
   }
 
   showConnection() {
-    const { state, since, lastRecord, reason, awayFrom, missed } = store.connection;
+    const { state, since, lastRecord, reason, lostSince, missed } = store.connection;
     const lost = state === 'lost';
-    const back = state === 'open' && awayFrom !== null && Date.now() - since < BACK_SHOWN;
+    const restored = state === 'open' && lostSince !== null && Date.now() - since < RESTORED_SHOWN;
     this.classList.toggle('lost', lost);
-    this.notice.hidden = !lost && !back;
-    if (back) {
-      const words = [t('app.away', { from: clock(awayFrom), to: clock(since) }), missed > 0 && t('app.gap', { count: missed })].filter(Boolean).join(' ');
+    this.notice.hidden = !lost && !restored;
+    if (restored) {
+      const words = [t('app.away', { from: clock(lostSince), to: clock(since) }), missed > 0 && t('app.gap', { count: missed })].filter(Boolean).join(' ');
       this.notice.textContent === words || replace(this.notice, icon('info'), words);
     } else if (lost) {
-      const away = duration(Date.now() - since);
+      const lostFor = duration(Date.now() - since);
       replace(this.notice, icon('warning'),
-        lastRecord ? t('app.lost', { duration: away, time: clock(lastRecord) }) : t('app.lostNever', { duration: away, reason: reason ?? '' }));
+        lastRecord ? t('app.lost', { duration: lostFor, time: clock(lastRecord) }) : t('app.lostNever', { duration: lostFor, reason: reason ?? '' }));
     }
   }
 
@@ -230,7 +230,7 @@ class App extends HTMLElement {
   }
 }
 
-/** A narrow window shows the name alone: sign and colour say that it is a replay. */
+/** Splits words around a name: a narrow window shows the name alone, since icon and color indicate a replay. */
 function aroundName(words, name) {
   const at = words.indexOf(name);
   return [h('span.mode-more', null, words.slice(0, at)), name, h('span.mode-more', null, words.slice(at + name.length))];
@@ -238,23 +238,23 @@ function aroundName(words, name) {
 
 customElements.define('furrow-app', App);
 
-// --- the start ---------------------------------------------------------------------------------------------------------
+// --- start -----------------------------------------------------------------------------------------------------------
 
 const RETRY_MILLIS = 2_000;
-const RETRY_MOST = 30_000;
+const MAX_RETRY_MILLIS = 30_000;
 const opening = document.querySelector('.opening');
 let failures = 0;
 let retrying = null;
 
-/** What the map place needs is loaded while the server is asked who this is. */
+/** Loads the modules of the map view while the server identifies the user. */
 function loadFirst() {
-  ['furrow-map', 'furrow-alarms', 'furrow-cards', 'furrow-timeline'].forEach((name) => import(MODULES[name]).catch(() => {})); // said where it is shown
+  ['furrow-map', 'furrow-alarms', 'furrow-cards', 'furrow-timeline'].forEach((name) => import(MODULES[name]).catch(() => {})); // reported where it is shown
 }
 
 async function start() {
   clearTimeout(retrying);
   try {
-    await introduce();
+    await loadUser();
   } catch (error) {
     return error.status === 401 ? signIn(start) : unreachable(error);
   }
@@ -264,7 +264,7 @@ async function start() {
   api.onSignedOut(signInAgain);
 }
 
-/** Tried again by itself, each time after a longer while; the frame that index.html draws stays. */
+/** Shows the reason and retries with increasing delays; the frame of index.html stays visible. */
 function unreachable(error) {
   failures++;
   const words = h('div.opening-words', null, h('div.stack', null,
@@ -272,11 +272,11 @@ function unreachable(error) {
     h('p.small.muted', null, t('opening.again')),
     h('div.row', null,
       h('button.button.primary', { type: 'button', on: { click: start } }, t('opening.retry')),
-      error.status === 403 && mayLeave() && h('button.button', { type: 'button', on: { click: signOut } }, t('app.signOut')))));
+      error.status === 403 && canSignOut() && h('button.button', { type: 'button', on: { click: signOut } }, t('app.signOut')))));
   const shown = document.querySelector('.opening-words');
   shown?.textContent === words.textContent || replace(opening.querySelector('.middle'), words);
   opening.isConnected || replace(document.body, opening);
-  retrying = setTimeout(start, Math.min(RETRY_MOST, RETRY_MILLIS * 2 ** (failures - 1)));
+  retrying = setTimeout(start, Math.min(MAX_RETRY_MILLIS, RETRY_MILLIS * 2 ** (failures - 1)));
 }
 
 readTokenFromLink();

@@ -1,4 +1,4 @@
-// Before the first paint, so that a chosen scheme does not flash in the other one.
+// Runs before the first paint, so that the page does not flash in another color scheme.
 (() => {
   const chosen = localStorage.getItem('furrow-scheme');
   if (chosen) {

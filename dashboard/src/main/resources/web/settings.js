@@ -1,8 +1,8 @@
-/** Who one is, how to leave, and the colours. */
+/** The menu with the user, the color scheme and signing out. */
 import { h, replace } from './core/dom.js';
 import { icon } from './core/icons.js';
 import { store } from './core/store.js';
-import { mayLeave, signOut } from './sign-in.js';
+import { canSignOut, signOut } from './sign-in.js';
 import { t, texts } from './texts.js';
 
 export function settingsMenu() {
@@ -11,7 +11,7 @@ export function settingsMenu() {
   const list = h('div.scheme-menu', { id: 'settings', popover: 'auto' },
     user && h('p.me.small', null, h('strong', null, user), h('span.muted', null, ` · ${role}`)),
     schemes,
-    mayLeave() && h('button.button.quiet', { type: 'button', on: { click: signOut } }, icon('leave', 18), t('app.signOut')));
+    canSignOut() && h('button.button.quiet', { type: 'button', on: { click: signOut } }, icon('leave', 18), t('app.signOut')));
   const symbols = { system: 'contrast', dark: 'moon', light: 'sun', sunlight: 'sun' };
   const draw = () => replace(schemes, Object.entries(texts.app.schemes).map(([name, words]) => {
     const chosen = (localStorage.getItem('furrow-scheme') ?? 'system') === name;

@@ -1,14 +1,14 @@
-/** How one comes in and leaves: with a token, or by the pages of a proxy that signs users in. */
+/** Signs users in and out: with a token, or by the pages of a proxy. */
 import { api } from './core/api.js';
 import { h, replace } from './core/dom.js';
 import { icon } from './core/icons.js';
 import { store } from './core/store.js';
 import { t } from './texts.js';
 
-/** Set while one is at the proxy: who comes back and is not signed in is not sent there over and over. */
-const AWAY = 'furrow-signing-in';
+/** Set while the user is at the proxy, so that a user who returns without being signed in is not redirected again. */
+const AT_PROXY = 'furrow-signing-in';
 
-/** A link with `#token=…` signs in; the token leaves the address bar at once. */
+/** Signs in by a link with `#token=…`, and removes the token from the address bar. */
 export function readTokenFromLink() {
   const found = /^#token=([^&]+)/.exec(location.hash);
   if (found) {
@@ -18,15 +18,15 @@ export function readTokenFromLink() {
 }
 
 export function signedIn() {
-  sessionStorage.removeItem(AWAY);
+  sessionStorage.removeItem(AT_PROXY);
 }
 
-/** @param {function()} start goes on with a token */
+/** Shows the form, or redirects to the proxy. @param {function()} start continues with a token */
 export function signIn(start) {
   const wrong = Boolean(api.token);
   api.token = null;
   const { signIn: url } = store.config;
-  if (url && !wrong && !sessionStorage.getItem(AWAY)) {
+  if (url && !wrong && !sessionStorage.getItem(AT_PROXY)) {
     return goTo(url);
   }
   const token = h('input', { type: 'password', id: 'token', name: 'token', autocomplete: 'current-password', required: true, 'aria-describedby': 'token-hint' });
@@ -46,12 +46,12 @@ export function signIn(start) {
   url || token.focus();
 }
 
-/** In the middle of a session. */
+/** Signs in during a session. */
 export function signInAgain() {
   store.config.signIn && !api.token ? goTo(store.config.signIn) : location.reload();
 }
 
-export function mayLeave() {
+export function canSignOut() {
   return Boolean(api.token || store.config.signOut);
 }
 
@@ -65,11 +65,11 @@ export function signOut() {
 }
 
 function goTo(url) {
-  sessionStorage.setItem(AWAY, 'yes');
+  sessionStorage.setItem(AT_PROXY, 'yes');
   location.assign(withPage(url, `${location.pathname}${location.search}${location.hash}`));
 }
 
-/** A proxy at the page's own address leads back by a path, another one needs to know where. */
+/** Fills in the address to return to: a path for a proxy with the page's own origin, else a URL. */
 function withPage(url, path) {
   const page = new URL(url, location.href).origin === location.origin ? path : new URL(path, location.href).href;
   return url.replaceAll('{page}', encodeURIComponent(page));

@@ -1,4 +1,4 @@
-/** All words of the page, for translation: `t('section.name', {count: 3})`. */
+/** All texts of the page, for translation: `t('section.name', {count: 3})`. */
 
 export const texts = {
   app: {
@@ -83,7 +83,7 @@ export const texts = {
   cards: {
     title: 'Devices', count: '{count} · {reporting} reporting', filter: 'Show only', loading: 'Devices are being read',
     state: 'State', fieldMean: 'Field mean', suspect: 'suspect', noPosition: 'no position', details: 'All attributes of {name}',
-    line: '{label}: now {now} {unit}, between {least} and {most} {unit}',
+    line: '{label}: now {now} {unit}, between {min} and {max} {unit}',
     lineConstant: '{label}: {now} {unit} all the time',
     tooLarge: 'Too large to show', omitted: '{count} more attributes are not shown.',
     noPicture: 'No picture stored yet', pictureOf: 'Picture of {age}', pictureAlt: 'Newest picture of {name}', pictureFailed: 'No picture: {reason}',
@@ -265,8 +265,10 @@ export const texts = {
 };
 
 /**
+ * The text of a key.
+ *
  * @param {string} key `section.name`
- * @param {Object<string, *>=} values put in the place of `{name}`
+ * @param {Object<string, *>=} values replace `{name}`
  */
 export function t(key, values = {}) {
   const text = key.split('.').reduce((section, name) => (section && Object.hasOwn(section, name) ? section[name] : undefined), texts);

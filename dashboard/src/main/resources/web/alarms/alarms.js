@@ -1,4 +1,4 @@
-/** Alarms: what somebody ought to look at, before all else. */
+/** The list of alarms, with commands, announcements and notifications. */
 import { api } from '../core/api.js';
 import { age, clock, label, readable } from '../core/format.js';
 import { h, replace, setText } from '../core/dom.js';
@@ -25,12 +25,12 @@ class FurrowAlarms extends HTMLElement {
     this.notify = h('button.button.quiet.small', { type: 'button', hidden: true, on: { click: () => this.requestPermission() } }, icon('bell', 16), t('alarms.notify'));
     replace(this, h('h2.section-title', null, h('span', null, t('alarms.title')), this.count), this.liveNote, this.none, this.list, this.fold, this.notify, this.polite, this.assertive);
     this.rows = new Map();
-    this.offs = [...['alarms', 'filter', 'fields'].map((name) => store.on(name, () => this.draw())), store.on('clock', () => this.drawAges()), store.on('mode', () => this.draw()), store.on('me', () => this.draw())];
+    this.subscriptions = [...['alarms', 'filter', 'fields'].map((name) => store.on(name, () => this.draw())), store.on('clock', () => this.drawAges()), store.on('mode', () => this.draw()), store.on('me', () => this.draw())];
     this.draw();
   }
 
   disconnectedCallback() {
-    this.offs.forEach((off) => off());
+    this.subscriptions.forEach((unsubscribe) => unsubscribe());
   }
 
   draw() {
@@ -54,7 +54,7 @@ class FurrowAlarms extends HTMLElement {
     this.announce(all.open);
   }
 
-  /** Rows stay the elements that they are, so that a focused button is not taken away. */
+  /** Updates a list. Rows retain their elements, so that a focused button is not removed. */
   fill(list, alarms, used) {
     const elements = alarms.map((alarm) => {
       used.add(alarm.alarm);
@@ -62,7 +62,7 @@ class FurrowAlarms extends HTMLElement {
       row.draw(alarm);
       return row.element;
     });
-    // First those that go: a row that is moved loses its open menu.
+    // Removes first: a row that is moved closes its open menu.
     [...list.children].filter((each) => !elements.includes(each)).forEach((each) => each.remove());
     elements.forEach((element, index) => list.children[index] !== element && list.insertBefore(element, list.children[index] ?? null));
   }
@@ -116,7 +116,7 @@ class FurrowAlarms extends HTMLElement {
     }
   }
 
-  /** Those that are new since the page was opened. */
+  /** Announces alarms raised since the page was opened. */
   announce(open) {
     if (!store.alarmsLoaded) {
       return;
@@ -138,7 +138,7 @@ class FurrowAlarms extends HTMLElement {
   }
 }
 
-/** With the names of devices and fields. */
+/** The text with the names of devices and fields. */
 function textOf(alarm) {
   return readable(alarm.text).replace(/\bfield ([\w-]+)/g, (words, id) => store.fields.get(id)?.name ?? words);
 }
@@ -159,7 +159,7 @@ function lineOf(alarm) {
   return parts.join(' · ');
 }
 
-/** Those of its devices that are known here. An alarm of an older control plane names neither tenant nor path. */
+/** The entities of an alarm's devices. Alarms of an older control plane name neither tenant nor path. */
 function entitiesOf(alarm) {
   return (alarm.devices ?? []).map(({ id, type, service, servicePath }) => {
     const of = scope(service, servicePath);
@@ -168,13 +168,13 @@ function entitiesOf(alarm) {
   }).filter(Boolean);
 }
 
-/** Leads to the first of its devices on the map. */
+/** Shows the first device of an alarm on the map. */
 function show(alarm) {
   const device = entitiesOf(alarm)[0]?.id ?? (!alarm.identity && store.entities.has(alarm.subject) ? alarm.subject : null);
   device && store.select(device, { reveal: true });
 }
 
-/** Who sees the page needs no notification. */
+/** Shows a notification while the page is hidden. */
 function showNotification(alarm) {
   if (document.hidden && 'Notification' in window && Notification.permission === 'granted' && (alarm.severity === 'critical' || alarm.severity === 'major')) {
     const shown = new Notification(t('alarms.notification', { severity: alarm.severity }), { body: textOf(alarm), tag: alarm.alarm });

@@ -1,12 +1,13 @@
-/** Which alarms are shown, and in which order. */
+/** Selects and sorts alarms. */
 
 const SEVERITY = { __proto__: null, critical: 0, major: 1, minor: 2, warning: 3 };
 
 /**
+ * Divides alarms and sorts them by severity, then the newest first.
+ *
  * @param {Iterable<Object>} alarms records of `service.alarms`
  * @param {number} now epoch ms
- * @returns {{open: Object[], quiet: Object[]}} the most severe first, of these the newest; quiet are those that somebody acknowledged or muted, and those
- *     of which another alarm says more
+ * @returns {{open: Object[], quiet: Object[]}} quiet alarms are acknowledged, muted or inhibited by another one
  */
 export function arrange(alarms, now) {
   const open = [];

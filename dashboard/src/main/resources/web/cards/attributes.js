@@ -1,8 +1,8 @@
-/** Which of an entity's attributes a card shows. */
+/** Selects the attributes that a card shows. */
 import { plain, quantity } from '../core/format.js';
 
-/** Frame of the entity, positions and times: told by the card itself. */
-const SILENT = new Set([
+/** Id, positions, times and states, which the card shows elsewhere. */
+const SHOWN_ELSEWHERE = new Set([
   'Time', 'TimeInstant', 'dateModified', 'dateCreated', 'Latitude', 'Longitude', 'latitude', 'longitude', 'location', 'gnss', 'pose',
   'Domain', 'Mission', 'name', 'Name', 'Image', 'cmd', 'heading', 'Heading', 'state', 'status', 'State', 'Status',
 ]);
@@ -12,19 +12,21 @@ const FIRST = [
 const COMMAND = /_(status|info)$/;
 
 /**
+ * The most important attributes.
+ *
  * @param {import('../core/entity.js').Entity} entity
- * @returns {{name: string, label: string, value: string, unit: string}[]} those that tell most, at most three
+ * @returns {{name: string, label: string, value: string, unit: string}[]} at most `max`
  */
-export function keyAttributes(entity, most = 3) {
+export function keyAttributes(entity, max = 3) {
   const found = [];
   for (const [name, attribute] of Object.entries(entity.attributes)) {
-    if (SILENT.has(name) || COMMAND.test(name) || attribute.value === '' || attribute.value === null || typeof attribute.value === 'object') {
+    if (SHOWN_ELSEWHERE.has(name) || COMMAND.test(name) || attribute.value === '' || attribute.value === null || typeof attribute.value === 'object') {
       continue;
     }
     found.push({ name, rank: rankOf(name, attribute), ...quantity(name, attribute) });
   }
   found.sort((a, b) => a.rank - b.rank || (a.name < b.name ? -1 : 1));
-  return found.slice(0, most);
+  return found.slice(0, max);
 }
 
 function rankOf(name, attribute) {
@@ -32,14 +34,14 @@ function rankOf(name, attribute) {
   return rank >= 0 ? rank : typeof attribute.value === 'number' ? 100 : 200;
 }
 
-/** All attributes, as texts. @returns {{name: string, type: string, value: string}[]} */
+/** All attributes as texts. @returns {{name: string, type: string, value: string}[]} */
 export function allAttributes(entity) {
   return Object.entries(entity.attributes)
     .map(([name, attribute]) => ({ name, type: attribute.type, value: plain(attribute.value, 2_000) }))
     .sort((a, b) => (a.name < b.name ? -1 : 1));
 }
 
-/** Of which numbers a card has a line: the most telling one that changes. */
+/** Selects the series that a card draws: the most important one that changes. */
 export function lineOf(entity) {
   let best = null;
   for (const [name, points] of entity.series) {

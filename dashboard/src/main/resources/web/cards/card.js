@@ -1,4 +1,4 @@
-/** The card of one entity. */
+/** The card of one entity: attributes, series, image, commands and details. */
 import { api } from '../core/api.js';
 import { age, bytes, duration, temperature } from '../core/format.js';
 import { h, replace, setText } from '../core/dom.js';
@@ -11,7 +11,7 @@ import { commandsOf, infoOf, isPointless, outcomeOf } from './commands.js';
 import { Picture } from './picture.js';
 import { Sparkline } from './sparkline.js';
 
-/** How often the control plane is asked how a device is connected while its details are open. */
+/** Interval at which the connection of a device is read while its details are shown. */
 const REQUEST_INTERVAL = 10_000;
 
 export class Card {
@@ -174,7 +174,7 @@ export class Card {
       entity.omitted > 0 && h('p.small.muted', null, t('cards.omitted', { count: entity.omitted })));
   }
 
-  /** Of what is on no mission the control plane knows nothing. */
+  /** Reads the connection of a device. The control plane knows only devices of missions. */
   async loadConnection() {
     if (store.isReplay || !this.entity.mission || Date.now() - this.requestedAt < REQUEST_INTERVAL) {
       return;
@@ -196,6 +196,6 @@ export class Card {
 Card.count = 0;
 
 /** The device of an entity in the REST API. */
-function deviceAt({ type, identity: { id, service, servicePath } }, what = '') {
-  return `/api/devices/${encodeURIComponent(id)}${what}?${new URLSearchParams({ service, servicePath, type })}`;
+function deviceAt({ type, identity: { id, service, servicePath } }, command = '') {
+  return `/api/devices/${encodeURIComponent(id)}${command}?${new URLSearchParams({ service, servicePath, type })}`;
 }

@@ -1,10 +1,10 @@
-/** The devices of the side panel: what needs a look first, then robots, cameras and all others, by name. */
+/** The cards of the devices: those that need attention first, then robots, cameras and all others, by name. */
 import { h, replace, setText } from '../core/dom.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { Card } from './card.js';
 
-/** Cards that are made at once; more as one scrolls to them. */
+/** Number of cards created at once; scrolling creates more. */
 const PORTION = 40;
 const REDRAW_MILLIS = 250;
 const ORDER_MILLIS = 1_000;
@@ -26,12 +26,12 @@ class FurrowCards extends HTMLElement {
     this.loading = h('div.stack', { 'aria-label': t('cards.loading'), role: 'status' }, [0, 1, 2].map(() =>
       h('div.card', null, h('div.skeleton.line', null, '…'), h('div.skeleton.block', null, '…'))));
     replace(this, h('h2.section-title', null, h('span', null, t('cards.title')), this.count), this.chips, this.loading, this.empty, this.list, this.end);
-    this.watcher = new IntersectionObserver((seen) => this.seen(seen), { rootMargin: '200px' });
+    this.watcher = new IntersectionObserver((intersected) => this.intersected(intersected), { rootMargin: '200px' });
     this.watcher.observe(this.end);
-    for (const moved of ['wheel', 'touchmove', 'keydown', 'pointerdown']) {
-      this.addEventListener(moved, () => { this.following = false; }, { passive: true });
+    for (const event of ['wheel', 'touchmove', 'keydown', 'pointerdown']) {
+      this.addEventListener(event, () => { this.following = false; }, { passive: true });
     }
-    this.offs = [
+    this.subscriptions = [
       store.on('entities', (ids, all) => this.changed(ids, all)),
       store.on('clock', () => this.redraw(this.visible)),
       store.on('cursor', () => this.visible.forEach((card) => card.spark.cursor())),
@@ -48,7 +48,7 @@ class FurrowCards extends HTMLElement {
   }
 
   disconnectedCallback() {
-    this.offs.forEach((off) => off());
+    this.subscriptions.forEach((unsubscribe) => unsubscribe());
     this.watcher.disconnect();
     this.cards.forEach((card) => card.release());
     clearTimeout(this.drawing);
@@ -63,7 +63,7 @@ class FurrowCards extends HTMLElement {
     if (all) {
       this.order(true);
     } else if (!this.ordering) {
-      // The first ones come soon.
+      // The first cards are shown sooner.
       this.ordering = setTimeout(() => { this.ordering = null; this.order(false); }, this.cards.size ? ORDER_MILLIS : REDRAW_MILLIS);
     }
   }
@@ -81,15 +81,15 @@ class FurrowCards extends HTMLElement {
     cards.forEach((card) => card.draw());
   }
 
-  /** Under a pointer nothing moves: an order that changed waits until it has gone. */
+  /** Sorts the cards. While the pointer or focus is on the list, nothing moves: sorting waits. */
   order(now) {
     if (!now && this.list.matches(':hover, :focus-within') && this.cards.size) {
-      // What is new moves nothing at the end.
-      this.wanted().slice(0, this.limit).filter((each) => !this.cards.has(each.id)).forEach((each) => this.list.append(this.make(each).element));
+      // Appended cards do not move others.
+      this.matching().slice(0, this.limit).filter((each) => !this.cards.has(each.id)).forEach((each) => this.list.append(this.make(each).element));
       return this.drawCounts();
     }
-    const wanted = this.wanted();
-    const shown = wanted.slice(0, this.limit);
+    const matching = this.matching();
+    const shown = matching.slice(0, this.limit);
     const ids = new Set(shown.map((each) => each.id));
     for (const [id, card] of this.cards) {
       if (!ids.has(id) || store.entities.get(id) !== card.entity) {
@@ -103,12 +103,12 @@ class FurrowCards extends HTMLElement {
       card.element !== place && this.list.insertBefore(card.element, place);
       previous = card.element;
     }
-    this.end.hidden = wanted.length <= this.limit;
+    this.end.hidden = matching.length <= this.limit;
     this.drawCounts();
     this.following && this.reveal('auto');
   }
 
-  wanted() {
+  matching() {
     const found = [];
     for (const entity of store.entities.values()) {
       if (store.inScope(entity) && store.matches(entity) && (this.kind === null || entity.kind === this.kind || entity.state === this.kind)) {
@@ -135,7 +135,7 @@ class FurrowCards extends HTMLElement {
     this.cards.delete(id);
   }
 
-  seen(entries) {
+  intersected(entries) {
     for (const { target, isIntersecting } of entries) {
       if (target === this.end) {
         if (isIntersecting && !this.end.hidden) {
@@ -155,7 +155,7 @@ class FurrowCards extends HTMLElement {
     const id = store.selection;
     const existing = id && store.entities.get(id);
     if (existing && !this.cards.has(id)) {
-      this.limit = Math.max(this.limit, this.wanted().indexOf(existing) + PORTION);
+      this.limit = Math.max(this.limit, this.matching().indexOf(existing) + PORTION);
       this.order(true);
     }
     this.redraw(this.visible);
@@ -167,7 +167,7 @@ class FurrowCards extends HTMLElement {
     }
   }
 
-  /** Until somebody scrolls, the selected card stays in view, also where others come before it. */
+  /** Scrolls to the selected card until the user scrolls, also when other cards are added before it. */
   reveal(behavior) {
     this.cards.get(store.selection)?.element.scrollIntoView({ block: 'nearest', behavior });
   }

@@ -1,14 +1,16 @@
-/** Commands of a device, and how the last ones went. */
+/** Commands of a device and their outcomes. */
 import { store } from '../core/store.js';
 
 const ROBOT = ['Stop', 'Resume'];
 const DEVICE = ['on', 'off', 'restart'];
-/** Asked about before they are sent. */
+/** Commands that require a confirmation. */
 const RISKY = new Set(['restart', 'off', 'Running']);
-/** An answer that has not come by then is said to be missing, ms. */
-const PATIENCE = 30_000;
+/** Time after which a missing answer is reported, ms. */
+const ANSWER_TIMEOUT = 30_000;
 
 /**
+ * The commands of a device, at most 6.
+ *
  * @param {import('../core/entity.js').Entity} entity
  * @returns {{name: string, primary: boolean, risky: boolean}[]}
  */
@@ -33,17 +35,17 @@ function isStopped(entity) {
   return /stop/i.test(entity.word ?? '');
 }
 
-/** Whether the device would do nothing new. */
+/** Whether the command would have no effect. */
 export function isPointless(entity, command) {
   return (command === 'Stop' && isStopped(entity)) || (command === 'Resume' && /^running$/i.test(entity.word ?? ''));
 }
 
 /**
- * How a command went that was sent from here. The status may stay PENDING while the info has the answer already.
+ * The outcome of a command sent from this page. The status may stay PENDING although the info has the answer.
  *
  * @param {import('../core/entity.js').Entity} entity
- * @param {{command: string, at: number, info: *, waiting: boolean}} sent `info`: what the attribute said before; `waiting`: for the server to take it
- * @param {number} now epoch ms, of the clock
+ * @param {{command: string, at: number, info: *, waiting: boolean}} sent `info`: the attribute's previous value; `waiting`: for the server's response
+ * @param {number} now epoch ms of the clock, also in a replay
  * @returns {{state: 'pending'|'ok'|'failed'|'unanswered', info: string|null}}
  */
 export function outcomeOf(entity, sent, now) {
@@ -58,10 +60,10 @@ export function outcomeOf(entity, sent, now) {
   if (answered) {
     return { state: 'ok', info: text(info) };
   }
-  return now - sent.at > PATIENCE ? { state: 'unanswered', info: null } : { state: 'pending', info: null };
+  return now - sent.at > ANSWER_TIMEOUT ? { state: 'unanswered', info: null } : { state: 'pending', info: null };
 }
 
-/** What the info says now, to tell a new one from it. */
+/** The current info, to detect a new one. */
 export function infoOf(entity, command) {
   return (entity.attributes[`${command}_info`] ?? entity.attributes.cmd_info)?.value;
 }

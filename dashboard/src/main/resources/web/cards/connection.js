@@ -1,8 +1,8 @@
-/** How a device is connected, in sentences. */
+/** Describes the connection of a device in sentences. */
 import { dateTime, duration } from '../core/format.js';
 import { t } from '../texts.js';
 
-/** @param {object} connection as the REST API has it @returns {string[]} */
+/** @param {object} connection of the REST API @returns {string[]} */
 export function sentencesOf({ since, loggedIn, refusedLogin, foreignTopic, unreadablePayload, registered, lastReport } = {}) {
   const sentences = [];
   const add = (name, values) => sentences.push(t(`cards.connection.${name}`, values));

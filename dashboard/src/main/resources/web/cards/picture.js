@@ -1,4 +1,4 @@
-/** The newest stored picture of a camera. */
+/** The newest stored image of a camera. */
 import { api } from '../core/api.js';
 import { age } from '../core/format.js';
 import { h, setText } from '../core/dom.js';
@@ -23,8 +23,8 @@ export class Picture {
     if (this.shown !== stored.sha256 && !this.loading) {
       await this.load(stored, entity);
     }
-    if (this.taken) {
-      setText(this.caption, t('cards.pictureOf', { age: age(store.now() - this.taken) }));
+    if (this.takenAt) {
+      setText(this.caption, t('cards.pictureOf', { age: age(store.now() - this.takenAt) }));
     }
   }
 
@@ -39,9 +39,9 @@ export class Picture {
       this.image.src = url;
       this.image.alt = t('cards.pictureAlt', { name: entity.name });
       this.image.hidden = false;
-      this.taken = stored.time;
+      this.takenAt = stored.time;
     } catch (error) {
-      this.taken = null;
+      this.takenAt = null;
       this.image.hidden = true;
       setText(this.caption, t('cards.pictureFailed', { reason: error.message }));
     } finally {

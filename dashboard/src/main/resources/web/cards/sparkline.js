@@ -1,4 +1,4 @@
-/** The last values of an attribute as a line, with a cursor that all charts share. */
+/** Draws the last values of an attribute as a line, with the cursor that all charts share. */
 import { clock, number } from '../core/format.js';
 import { h, setText } from '../core/dom.js';
 import { store } from '../core/store.js';
@@ -26,19 +26,19 @@ export class Sparkline {
     }
     const times = line.points.of('times');
     const values = line.points.of('values');
-    const [least, most] = [Math.min(...values), Math.max(...values)];
-    const height = Math.max(most - least, Math.abs(most) * 0.02, 1e-9);
+    const [min, max] = [Math.min(...values), Math.max(...values)];
+    const height = Math.max(max - min, Math.abs(max) * 0.02, 1e-9);
     const from = times[0];
     const length = Math.max(1, times.at(-1) - from);
     this.shown = { times, values, from, length, unit };
     const steps = Array.from(times, (time, index) => {
       const x = (time - from) / length * WIDTH;
-      const y = most === least ? HEIGHT / 2 : HEIGHT - 3 - (values[index] - least) / height * (HEIGHT - 6);
+      const y = max === min ? HEIGHT / 2 : HEIGHT - 3 - (values[index] - min) / height * (HEIGHT - 6);
       return `${x.toFixed(1)} ${y.toFixed(1)}`;
     });
-    this.path.classList.toggle('constant', most === least);
+    this.path.classList.toggle('constant', max === min);
     this.path.setAttribute('d', `M${steps.join('L')}`);
-    this.svg.setAttribute('aria-label', t(most === least ? 'cards.lineConstant' : 'cards.line', { label, least: number(least), most: number(most), unit, now: number(values.at(-1)) }));
+    this.svg.setAttribute('aria-label', t(max === min ? 'cards.lineConstant' : 'cards.line', { label, min: number(min), max: number(max), unit, now: number(values.at(-1)) }));
     this.cursor();
   }
 
@@ -49,7 +49,7 @@ export class Sparkline {
     }
   }
 
-  /** Where the shared cursor is. */
+  /** Draws the shared cursor. */
   cursor() {
     const time = store.cursor;
     const inside = this.shown && time !== null && time >= this.shown.from && time <= this.shown.from + this.shown.length;

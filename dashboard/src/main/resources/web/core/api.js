@@ -1,12 +1,12 @@
-/** The REST API: JSON in, JSON out, with the user's token. */
+/** Calls the REST API with the user's token; requests and responses are JSON. */
 import { t } from '../texts.js';
 import { parse } from './json.js';
 
 const TOKEN = 'furrow-token';
 
-/** A refusal, or no answer; its message is for people. */
+/** A rejected request, or one without a response; its message is for users. */
 export class ApiError extends Error {
-  /** @param {number} status of HTTP, 0 where nothing answered */
+  /** @param {number} status HTTP status, 0 without a response */
   constructor(status, code, message) {
     super(message);
     this.status = status;
@@ -22,7 +22,7 @@ export const api = {
   post: (path, body, options) => request('POST', path, body ?? {}, options),
   patch: (path, body, options) => request('PATCH', path, body, options),
   del: (path, options) => request('DELETE', path, undefined, options),
-  /** The bare response, for pictures and streams. @throws {ApiError} */
+  /** The response itself, for images and streams. @throws {ApiError} */
   fetch: send,
   get token() {
     return token;
@@ -31,7 +31,7 @@ export const api = {
     token = value || null;
     token ? sessionStorage.setItem(TOKEN, token) : sessionStorage.removeItem(TOKEN);
   },
-  /** Calls back when a request was refused for want of a token. */
+  /** Adds a handler for requests that are rejected because the token is missing or invalid. */
   onSignedOut(handler) {
     signedOut.add(handler);
     return () => signedOut.delete(handler);
@@ -53,7 +53,7 @@ async function send(path, { method = 'GET', body, headers = {}, signal } = {}) {
       signal,
       cache: 'no-store',
       headers: {
-        // a proxy that signs users in answers 401 to who asks for JSON, and leads others to another page
+        // for JSON a proxy that signs users in answers 401; other requests it redirects to its page
         Accept: 'application/json, */*',
         ...(token ? { Authorization: `Bearer ${token}` } : {}),
         ...(isJson ? { 'Content-Type': 'application/json' } : {}),
@@ -68,17 +68,17 @@ async function send(path, { method = 'GET', body, headers = {}, signal } = {}) {
     throw new ApiError(0, 'no-answer', t('errors.noAnswer'));
   }
   if (!response.ok) {
-    throw await refusal(response);
+    throw await errorOf(response);
   }
   return response;
 }
 
-async function refusal(response) {
+async function errorOf(response) {
   let problem = {};
   try {
     problem = await response.json();
   } catch {
-    // whatever stands between answered in its own words
+    // a server in between answered without JSON
   }
   if (response.status === 401) {
     signedOut.forEach((handler) => handler());

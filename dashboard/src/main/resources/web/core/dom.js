@@ -1,12 +1,19 @@
-/** Builds elements. Texts become text nodes, never markup. */
+/** Creates DOM elements. Texts become text nodes, never markup. */
 
 const SVG = 'http://www.w3.org/2000/svg';
 const PROPERTIES = new Set(['value', 'checked', 'disabled', 'hidden', 'indeterminate', 'selected']);
 
 /**
+ * Creates an element.
+ *
  * @param {string} tag `name`, `name.class.class` or `svg:name`
- * @param {Object=} props `on: {event: handler}`, `data: {name: value}`, properties and attributes; null and false leave one out
- * @param {...(Node|string|number|Array|null|false)} children
+ * @param {Object=} props `on: {event: handler}`, `data: {name: value}`, properties and attributes; null and false are omitted
+ * @param {...(Node
+ * string
+ * number
+ * Array
+ * null
+ * false)} children
  * @returns {Element}
  */
 export function h(tag, props, ...children) {
@@ -48,14 +55,14 @@ function append(element, children) {
   }
 }
 
-/** Puts children in the place of all that an element has. */
+/** Replaces all children of an element. */
 export function replace(element, ...children) {
   element.replaceChildren();
   append(element, children);
   return element;
 }
 
-/** Sets a text only where it differs, so that nothing is laid out again for nothing. */
+/** Sets a text only if it differs, to avoid needless layout. */
 export function setText(element, text) {
   if (element.textContent !== text) {
     element.textContent = text;

@@ -1,17 +1,17 @@
-/** What the page makes of an NGSI-v2 entity, whatever its attributes are. */
+/** Interprets NGSI-v2 entities, whatever their attributes are. */
 import { hasUnit, shortId } from './format.js';
 import { parse } from './json.js';
 import { Line } from './line.js';
 import { finite, isPercent, positionOf, quantityOf } from './readings.js';
 
-/** Points that are kept of a trail and of a number. */
+/** Points stored of a trail or a series. */
 const POINTS = 120;
-/** Numbers of an entity that are kept. */
+/** Series stored of an entity. */
 const MAX_SERIES = 24;
-/** Of an entity with more attributes, or longer values, the rest is left out. */
+/** Further attributes and longer values are omitted. */
 const MAX_ATTRIBUTES = 200;
 const MAX_VALUE = 4_000;
-/** Without a known period an entity is stale after this, ms. */
+/** Time after which an entity without a known period is stale, ms. */
 const STALE_AFTER = 60_000;
 const FRAME = new Set(['id', 'type']);
 const NOT_A_SERIES = new Set(['Time', 'TimeInstant', 'Latitude', 'Longitude', 'latitude', 'longitude']);
@@ -21,31 +21,33 @@ const COMMAND_STATE = /_(status|info)$/;
 const ATTENTION_WORDS = new Set(['error', 'fault', 'faulty', 'failed', 'blocked', 'emergency', 'alarm']);
 
 /**
+ * The state of an entity.
+ *
  * @typedef {Object} Entity
- * @property {string} id under which the page has it: that of its identity, unless another entity has the same
- * @property {{key: string, id: string, service: string, servicePath: string, type: string}} identity as the context broker has it
- * @property {string} difference from other entities of its id, in words; empty where there are none
+ * @property {string} id key in the page: the id of its identity, unless another entity has the same
+ * @property {{key: string, id: string, service: string, servicePath: string, type: string}} identity in the context broker
+ * @property {string} difference from other entities with its id, in words; empty if there are none
  * @property {string} type
  * @property {'robot'|'sensor'|'camera'|'other'} kind
  * @property {string} name
- * @property {Object<string, {type: string, value: *, metadata: Object, percent: boolean, time: number}>} attributes values of FIROS are read;
- *     `percent` where a number without a unit was once more than 1
+ * @property {Object<string, {type: string, value: *, metadata: Object, percent: boolean, time: number}>} attributes values of FIROS are parsed;
+ *     `percent` if a number without a unit once exceeded 1
  * @property {number} time of its newest report, event time, epoch ms
  * @property {[number, number]|null} position degrees, longitude first
- * @property {string|null} positionFault why there is none
- * @property {number} positionTime of the report that said either, epoch ms
+ * @property {string|null} positionFault why there is no position
+ * @property {number} positionTime time of the report with the position or fault, epoch ms
  * @property {number|null} heading degrees clockwise from north
  * @property {number|null} speed m/s
- * @property {number|null} period ms between reports, as seen
- * @property {{lon: number, lat: number, time: number}|null} place where it came to last
- * @property {Line} trail columns `lon`, `lat`, `time`, and for the map `x` and `y`; empty for one that never moved
- * @property {Map<string, Line>} series numbers as they were, columns `times` and `values`
+ * @property {number|null} period observed, ms between reports
+ * @property {{lon: number, lat: number, time: number}|null} place its newest distinct position
+ * @property {Line} trail columns `lon`, `lat`, `time`, and for the map `x` and `y`; empty if it never moved
+ * @property {Map<string, Line>} series numeric attributes, columns `times` and `values`
  * @property {string|null} domain
  * @property {string|null} mission
- * @property {string|null} word what the entity says of its state
+ * @property {string|null} word its state as reported
  * @property {'ok'|'attention'|'stale'|'off'} state
  * @property {boolean} suspect
- * @property {number} omitted attributes that were left out
+ * @property {number} omitted number of omitted attributes
  */
 
 const NO_TRAIL = new Line(['lon', 'lat', 'time'], 0);
@@ -59,7 +61,7 @@ export function newEntity(identity) {
 }
 
 /**
- * Takes a report into an entity: its attributes in the place of those of the same names that are not newer.
+ * Merges a report into an entity: its attributes replace those with the same names that are not newer.
  *
  * @param {Entity} entity
  * @param {import('./stream.js').TopicRecord} record
@@ -91,23 +93,23 @@ export function applyReport(entity, record) {
   }
   describe(entity, reported, record.time);
   if (newer) {
-    remember(entity, reported, record.time);
+    appendPoints(entity, reported, record.time);
   }
 }
 
 function readAttribute(name, reported) {
   if (reported === null || typeof reported !== 'object' || Array.isArray(reported) || !('value' in reported)) {
-    return { type: '', value: cut(reported), metadata: {} };
+    return { type: '', value: truncated(reported), metadata: {} };
   }
   const attribute = { type: text(reported.type), value: readValue(reported.value), metadata: reported.metadata ?? {} };
-  // of any other text nobody says that it is a number: it may be one with zeros in front
+  // without a unit a text is not known to be a number: it may be a code with leading zeros
   return typeof attribute.value === 'string' && hasUnit(name, attribute) ? { ...attribute, value: finite(attribute.value) ?? attribute.value } : attribute;
 }
 
-/** Values of FIROS are messages of ROS as text, whose quotes are written `%27`. */
+/** Parses values of FIROS: ROS messages as text with `%27` for quotes. */
 function readValue(value) {
   if (typeof value !== 'string') {
-    return cut(value);
+    return truncated(value);
   }
   if (value.startsWith('{%27') && value.length < MAX_VALUE) {
     try {
@@ -118,13 +120,13 @@ function readValue(value) {
       }
       return names.length === 1 && typeof message[names[0]] === 'number' ? message[names[0]] : message;
     } catch {
-      return cut(value);
+      return truncated(value);
     }
   }
-  return cut(value);
+  return truncated(value);
 }
 
-function cut(value) {
+function truncated(value) {
   if (typeof value === 'string') {
     return value.length > MAX_VALUE ? `${value.slice(0, MAX_VALUE)}…` : value;
   }
@@ -137,7 +139,7 @@ function cut(value) {
 
 function describe(entity, reported, time) {
   const attributes = entity.attributes;
-  entity.name = named(entity);
+  entity.name = nameOf(entity);
   entity.kind = kindOf(entity);
   entity.domain = text(attributes.Domain?.value) || null;
   entity.mission = text(attributes.Mission?.value) || null;
@@ -152,10 +154,10 @@ function describe(entity, reported, time) {
   }
 }
 
-/** What people call it. */
-export function named({ attributes, identity, difference }) {
-  const given = text(attributes.name?.value) || text(attributes.Name?.value);
-  const name = given ? given.slice(0, 80) : shortId(identity.id);
+/** The display name of an entity. */
+export function nameOf({ attributes, identity, difference }) {
+  const reported = text(attributes.name?.value) || text(attributes.Name?.value);
+  const name = reported ? reported.slice(0, 80) : shortId(identity.id);
   return difference ? `${name} (${difference.slice(0, 80)})` : name;
 }
 
@@ -185,7 +187,7 @@ function wordOf(attributes) {
   return null;
 }
 
-function remember(entity, reported, time) {
+function appendPoints(entity, reported, time) {
   if (entity.position) {
     addPlace(entity, ...entity.position, time);
   }
@@ -198,17 +200,17 @@ function remember(entity, reported, time) {
 }
 
 function addPlace(entity, lon, lat, time) {
-  const before = entity.place;
-  if (before && before.lon === lon && before.lat === lat) {
+  const previous = entity.place;
+  if (previous && previous.lon === lon && previous.lat === lat) {
     return;
   }
   entity.place = { lon, lat, time };
-  if (!before) {
+  if (!previous) {
     return;
   }
   if (entity.trail === NO_TRAIL) {
     entity.trail = new Line(['lon', 'lat', 'time', 'x', 'y'], POINTS);
-    entity.trail.push(before.lon, before.lat, before.time, NaN, NaN);
+    entity.trail.push(previous.lon, previous.lat, previous.time, NaN, NaN);
   }
   entity.trail.push(lon, lat, time, NaN, NaN);
 }
@@ -222,7 +224,7 @@ function addNumber(series, name, time, value) {
 }
 
 /**
- * Takes what was reported before all that an entity holds of its trail and its series: in front of them. Its attributes stay.
+ * Prepends earlier reports to the trail and series of an entity, and leaves its attributes unchanged.
  *
  * @param {Entity} entity
  * @param {import('./stream.js').TopicRecord[]} records of the entity, oldest first
@@ -237,7 +239,7 @@ export function applyPast(entity, records) {
       !FRAME.has(name) && name in entity.attributes && (past.attributes[name] = readAttribute(name, value[name]));
     }
     past.position = positionOf(value).position ?? past.position;
-    remember(past, value, time);
+    appendPoints(past, value, time);
   }
   entity.trail === NO_TRAIL ? (entity.trail = past.trail) : entity.trail.prepend(past.trail, 'time');
   for (const [name, line] of past.series) {
@@ -249,9 +251,11 @@ export function applyPast(entity, records) {
 }
 
 /**
+ * The state of an entity.
+ *
  * @param {Entity} entity
- * @param {number} now of what is shown, epoch ms
- * @param {string|null} period as its mission says, ISO 8601; null if it does not
+ * @param {number} now the page's time, epoch ms
+ * @param {string|null} period configured by its mission, ISO 8601; null if there is none
  * @returns {'ok'|'attention'|'stale'|'off'}
  */
 export function stateOf(entity, now, period = null) {
@@ -259,16 +263,16 @@ export function stateOf(entity, now, period = null) {
   if (OFF_WORDS.has(word)) {
     return 'off';
   }
-  const desired = millisOf(period);
-  const seen = entity.period === null ? STALE_AFTER : Math.min(10 * STALE_AFTER, 3 * entity.period);
-  const timeout = Math.max(10_000, desired === null ? seen : 3 * desired);
+  const configured = millisOf(period);
+  const observed = entity.period === null ? STALE_AFTER : Math.min(10 * STALE_AFTER, 3 * entity.period);
+  const timeout = Math.max(10_000, configured === null ? observed : 3 * configured);
   if (now - entity.time > timeout) {
     return 'stale';
   }
   return entity.suspect || entity.positionFault || ATTENTION_WORDS.has(word) ? 'attention' : 'ok';
 }
 
-/** Of a duration as the control plane writes it, for instance PT1H30M or PT0.5S; else null. */
+/** Parses durations as the control plane writes them, such as PT1H30M or PT0.5S; null for others. */
 function millisOf(duration) {
   const parts = /^PT(?:(\d+)H)?(?:(\d+)M)?(?:([\d.]+)S)?$/.exec(duration ?? '');
   return parts && 1000 * (3600 * (parts[1] ?? 0) + 60 * (parts[2] ?? 0) + Number(parts[3] ?? 0));

@@ -1,4 +1,4 @@
-/** Brings topics into the store: what is live, or what a replay plays. */
+/** Feeds the store from topics: live, or from a replay. */
 import { api } from './api.js';
 import { ANALYTICS } from './jobs.js';
 import { resource } from './resource.js';
@@ -11,15 +11,15 @@ const LISTS = {
   devices: { path: '/api/devices', key: (each, existing) => (existing.has(each.id) ? deviceKey(each) : each.id), topics: ['service.devices'] },
   recordings: { path: '/api/recordings', key: (each) => each.mission, topics: ['service.recordings'] },
 };
-/** How often a replay looks for newer pictures. */
+/** Interval at which a replay reads newer images. */
 const IMAGES_MILLIS = 5_000;
-/** How far back lines and trails reach when the page is opened, and from how many reports at most. */
+/** How far trails and series reach back when the page is opened, and the maximum number of reports. */
 const PAST_MILLIS = 300_000;
 const PAST_REPORTS = 3_000;
 const OVER = new Set(['ended', 'stopped', 'failed']);
 
-/** The longest that the known state of entities is behind what was reported: a checkpoint of ingest, and some. */
-const MERGED_MILLIS = 60_000;
+/** Maximum delay of the entities' initial state: an interval between checkpoints of ingest, and a margin. */
+const MAX_STATE_DELAY = 60_000;
 
 class Feeds {
   start() {
@@ -37,12 +37,12 @@ class Feeds {
   }
 
   /**
-   * A topic whose records one function takes, with its figures in `store.topics`. A known state has no deletions: `forget` gets each key
-   * that an earlier stream had and the known state lacks, with the time of the newest record that it has, and when the key came last.
-   * `apply` returns keys where they are not that of the record.
+   * Subscribes to a topic whose records `apply` processes, with statistics in `store.topics`. `apply` returns keys if they are not the key of the
+   * record. An initial state has no deletions: `forget` is called for each key that an earlier connection had and the initial state lacks, with the
+   * time of its newest record, and the time when the key was last received.
    */
   feed(topic, mode, apply, { main = false, forget = (key) => apply({ key, headers: {}, value: null }), loaded = null, whileHidden } = {}) {
-    const before = new Map();
+    const previous = new Map();
     let [keys, newest] = [new Map(), -Infinity];
     const figures = { name: topic, count: 0, rate: 0, gap: 0, state: 'connecting', since: Date.now() };
     store.topics.set(topic, figures);
@@ -59,8 +59,8 @@ class Feeds {
         store.notify('topics');
       },
       primed: () => {
-        before.forEach((came, key) => keys.has(key) || forget(key, newest, came));
-        before.clear();
+        previous.forEach((receivedAt, key) => keys.has(key) || forget(key, newest, receivedAt));
+        previous.clear();
         loaded?.();
         if (main) {
           store.primed = true;
@@ -75,7 +75,7 @@ class Feeds {
       },
       state: (state, reason) => {
         if (state === 'open') {
-          keys.forEach((came, key) => before.set(key, came));
+          keys.forEach((receivedAt, key) => previous.set(key, receivedAt));
           [keys, newest] = [new Map(), -Infinity];
         }
         Object.assign(figures, { state, reason });
@@ -89,15 +89,15 @@ class Feeds {
   connection(state, reason) {
     const next = state === 'open' || state === 'paused' ? 'open' : state === 'connecting' && store.connection.state !== 'lost' ? 'connecting' : 'lost';
     if (next !== store.connection.state) {
-      const { state: before, since, lastRecord, missed } = store.connection;
-      const isBack = state === 'open' && before === 'lost' && lastRecord !== null;
-      Object.assign(store.connection, { state: next, since: Date.now(), awayFrom: isBack ? since : null, missed: next === 'lost' ? 0 : missed });
+      const { state: previous, since, lastRecord, missed } = store.connection;
+      const isRestored = state === 'open' && previous === 'lost' && lastRecord !== null;
+      Object.assign(store.connection, { state: next, since: Date.now(), lostSince: isRestored ? since : null, missed: next === 'lost' ? 0 : missed });
     }
     store.connection.reason = reason;
     store.notify('connection');
   }
 
-  /** A list of the REST API in the store. */
+  /** Keeps a list of the REST API up to date in the store. */
   syncList(name, { path, key, topics }) {
     const list = resource(path, { topics });
     list.on(() => {
@@ -115,8 +115,8 @@ class Feeds {
     this.shown = [
       this.feed('data.raw', 'latest', (record) => store.applyEntity(record), {
         main: true,
-        // what came a moment ago and is newer than the known state is not merged yet
-        forget: (key, newest, came) => (store.entities.get(key)?.time <= newest || Date.now() - came > MERGED_MILLIS) && store.forgetEntity(key),
+        // a recent record that is newer than the initial state is not part of it yet
+        forget: (key, newest, receivedAt) => (store.entities.get(key)?.time <= newest || Date.now() - receivedAt > MAX_STATE_DELAY) && store.forgetEntity(key),
       }),
       this.feed('data.collision', 'all', (record) => store.applyEncounter(record)),
       this.feed('data.temperature', 'all', (record) => store.applyTemperature(record)),
@@ -124,7 +124,7 @@ class Feeds {
     ];
   }
 
-  /** Once: after a lost connection lines go on where they ended. */
+  /** Reads recent reports, once: after a lost connection trails and series continue where they ended. */
   async readPast() {
     if (this.pastRead) {
       return;
@@ -134,7 +134,7 @@ class Feeds {
       const { records } = await api.get(`/api/history/data.raw?${new URLSearchParams({ from: Date.now() - PAST_MILLIS, limit: PAST_REPORTS })}`);
       store.isReplay || store.applyPast(records);
     } catch {
-      // lines and trails begin now
+      // trails and series begin now
     }
     store.pastLoaded = true;
   }
@@ -165,7 +165,7 @@ class Feeds {
     this.follow(record.key);
   }
 
-  /** Takes what is said of the replay that is shown. */
+  /** Applies the state of a replay if it is the one that is shown. */
   follow(name) {
     const mode = store.mode;
     if (mode.kind !== 'replay' || mode.replay !== name) {
@@ -176,7 +176,7 @@ class Feeds {
     const progress = status?.progress ?? {};
     store.setProgress({
       state: status?.state ?? 'starting', reason: status?.reason, over: OVER.has(status?.state),
-      speed: replay?.speed ?? mode.speed, range: replay?.range ?? null, group: replay?.group ?? mode.group, wanted: replay?.wanted,
+      speed: replay?.speed ?? mode.speed, range: replay?.range ?? null, group: replay?.group ?? mode.group,
       position: progress.position ?? mode.position, from: progress.from ?? mode.from, to: endOf(progress) ?? mode.to,
       at: status?.time ?? Date.now(), progress, waiting: progress.waiting,
     });
@@ -188,7 +188,7 @@ class Feeds {
     const existing = store.replays.get(replay.replay);
     const mission = replay.mission ?? existing?.mission;
     if (!topic || !mission) {
-      return; // only its status is known yet; it is entered when the rest is
+      return; // only its status is known yet; it is entered once the rest is
     }
     const group = replay.group ?? existing?.group;
     const members = group ? [...store.replays.values()].filter((each) => each.group === group) : [{ ...existing, ...replay, topic }];
@@ -209,7 +209,7 @@ class Feeds {
     this.readImages();
   }
 
-  /** A jump begins an epoch: nothing of the one before is shown any more. */
+  /** Applies a record of a replay. A seek begins a new epoch, and clears what is shown of the previous one. */
   applyReplayed(record) {
     const epoch = Number(record.headers['replay-epoch'] ?? 0);
     const current = this.epochs.get(record.topic) ?? -1;
@@ -237,7 +237,7 @@ class Feeds {
     }
   }
 
-  /** Pictures are stored once, and not played: a replay shows those that were the newest at its moment. */
+  /** Reads the images that are the newest at the position of a replay; images are stored and not replayed. */
   async readImages() {
     const { kind, from, replay } = store.mode;
     if (kind !== 'replay' || !from || this.readingImages) {
@@ -251,7 +251,7 @@ class Feeds {
         found.records.forEach((record) => store.applyImage(record));
       }
     } catch {
-      // the cards say that there is no picture
+      // the cards show that there is no image
     } finally {
       this.readingImages = false;
     }
@@ -264,15 +264,15 @@ class Feeds {
   }
 }
 
-/** Alarms that the browser shows while the page is hidden have to arrive then. */
+/** Whether alarms must be received while the page is hidden, for notifications of the browser. */
 function mayNotify() {
   return 'Notification' in window && Notification.permission === 'granted';
 }
 
 export const feeds = new Feeds();
 
-/** Who asks, and what the server says of itself. @throws {import('./api.js').ApiError} */
-export async function introduce() {
+/** Reads the configuration of the server and the user. @throws {import('./api.js').ApiError} */
+export async function loadUser() {
   store.config = await api.get('/config.json').catch(() => ({}));
   store.me = await api.get('/api/me');
   store.notify('me');

@@ -1,4 +1,4 @@
-/** How numbers, times and names are written on the page. */
+/** Formats numbers, times and names. */
 import { t } from '../texts.js';
 import { unitOf } from './readings.js';
 
@@ -36,7 +36,7 @@ export function duration(ms) {
   return ms < 2 * DAY ? inUnit(Math.floor(ms / HOUR), 'hour') : inUnit(Math.floor(ms / DAY), 'day');
 }
 
-/** "1:02:03" or "2:03": of a length on a time axis. */
+/** "1:02:03" or "2:03": a length on a time axis. */
 export function span(ms) {
   const seconds = Math.max(0, Math.floor(ms / SECOND));
   const [hours, minutes, rest] = [Math.floor(seconds / 3600), Math.floor(seconds / 60) % 60, seconds % 60];
@@ -65,7 +65,7 @@ export function zone(epochMs) {
   return part.replace('GMT', 'UTC');
 }
 
-/** At most three significant decimals, and no more digits than help. */
+/** At most two decimals, fewer for larger numbers; thousands are separated by spaces. */
 export function number(value) {
   if (!Number.isFinite(value)) {
     return '–';
@@ -108,29 +108,29 @@ function inUnit(value, unit) {
   return `${value} ${t(`units.${unit}`)}`;
 }
 
-/** Units of UN/CEFACT that FIWARE's data models use, and those of attributes that say none. */
+/** UN/CEFACT units of FIWARE's data models, and the units of common attributes that name none. */
 const UNIT_CODES = {
   __proto__: null,
   CEL: 'celsius', MTS: 'meterPerSecond', KMH: 'kilometerPerHour', P1: 'percent', MTR: 'meter', DD: 'degree', HPA: 'hectopascal', A97: 'hectopascal', LUX: 'lux',
   VLT: 'volt', AMP: 'ampere', WTT: 'watt', MMT: 'millimeter', D54: 'wattPerSquareMeter',
 };
-const KNOWN_UNITS = {
+const DEFAULT_UNITS = {
   __proto__: null,
   temperature: 'celsius', soiltemperature: 'celsius', dewpoint: 'celsius', speed: 'meterPerSecond', windspeed: 'meterPerSecond', heading: 'degree', winddirection: 'degree',
   humidity: 'percent', relativehumidity: 'percent', soilmoisture: 'percent', battery: 'percent', batterylevel: 'percent', pressure: 'hectopascal', atmosphericpressure: 'hectopascal', altitude: 'meter',
   illuminance: 'lux', voltage: 'volt', precipitation: 'millimeter', rainfall: 'millimeter', solarradiation: 'wattPerSquareMeter',
 };
-/** Of a part of a whole, 0 to 1. */
+/** A share of a whole, 0 to 1. */
 const SHARE_CODE = 'C62';
-/** They are told without a fraction. */
+/** Units shown without decimals. */
 const WHOLE = new Set(['percent', 'degree']);
 const SHARES = new Set(['battery', 'relativehumidity', 'humidity', 'batterylevel']);
 
 /**
- * What an attribute says, in words.
+ * Formats an attribute.
  *
  * @param {string} name
- * @param {{value: *, metadata: Object=}} attribute its value read by `core/entity.js`
+ * @param {{value: *, metadata: Object=}} attribute as parsed by `core/entity.js`
  * @returns {{label: string, value: string, unit: string, numeric: boolean}}
  */
 export function quantity(name, attribute) {
@@ -146,16 +146,16 @@ export function quantity(name, attribute) {
   return { label: label(name), value: plain(value), unit: '', numeric: false };
 }
 
-/** Whether an attribute measures something: by its metadata or by its name. */
+/** Whether an attribute is a quantity, by its metadata or its name. */
 export function hasUnit(name, attribute) {
   return unitOf(attribute) !== '' || unitNamed(name, '') !== undefined;
 }
 
 function unitNamed(name, code) {
-  return code ? UNIT_CODES[code] : KNOWN_UNITS[name.toLowerCase()];
+  return code ? UNIT_CODES[code] : DEFAULT_UNITS[name.toLowerCase()];
 }
 
-/** A value as one line of text, cut to what a line can show. */
+/** A value as one line of text, truncated to `limit` characters. */
 export function plain(value, limit = 120) {
   if (value === null || value === undefined || value === '') {
     return '–';
@@ -181,7 +181,7 @@ export function shortId(id) {
   return text.startsWith('urn:ngsi-ld:') && parts.length >= 4 ? `${parts[2]} ${parts.slice(3).join(':')}` : text;
 }
 
-/** Ids inside a sentence in their readable form. */
+/** Replaces the ids in a sentence by readable ones. */
 export function readable(sentence) {
   return String(sentence).slice(0, 500).replace(/urn:ngsi-ld:[A-Za-z]+:[\w-]+/g, (id) => shortId(id));
 }

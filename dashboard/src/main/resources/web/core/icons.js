@@ -49,7 +49,7 @@ const PATHS = {
   'chevron-left': ['M15 6l-6 6 6 6'],
 };
 
-/** @returns {SVGElement} hidden from screen readers: whoever uses it says in words what it means */
+/** @returns {SVGElement} hidden from screen readers: the element around it needs a text */
 export function icon(name, size = 20) {
   return h(
     'svg:svg',

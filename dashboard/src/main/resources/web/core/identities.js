@@ -1,25 +1,28 @@
-/** Under which key the page has an entity: tenant, service path, type and id tell entities apart, not the id alone. */
+/** Assigns keys to entities: they are distinguished by tenant, service path, type and id, not by id alone. */
 
-/** Where an entity lives in the context broker, as the headers of its records name it. */
+/** The tenant and service path of an entity, from the headers of its records. */
 export function scopeOf(headers) {
   return scope(headers?.['fiware-service'], headers?.['fiware-servicepath']);
 }
 
-/** @returns {{service: string, servicePath: string}} as the server compares them */
+/** @returns {{service: string, servicePath: string}} normalized as on the server */
 export function scope(service, servicePath) {
   return { service: (service ?? '').trim().toLowerCase(), servicePath: (servicePath ?? '').trim() || '/' };
 }
 
 /**
- * The entities of each id. The first of them has the id as its key, each other one a key that holds all of its identity: links, alarms and
- * whatever else names an entity by its id alone lead to the first.
+ * Indexes entities by id. The key of the first entity with an id is that id; the key of each further one is its whole identity. Links, alarms and
+ * others that name only an id thus lead to the first.
  */
 export class Identities {
   constructor() {
     this.byId = new Map();
   }
 
-  /** @param {import('./stream.js').TopicRecord} record of an entity @returns {{key: string, id: string, service: string, servicePath: string, type: string}|null} */
+  /**
+   * Finds or adds the entity of a record. @param {import('./stream.js').TopicRecord} record @returns {{key: string, id: string, service: string,
+   * servicePath: string, type: string}|null}
+   */
   identify(record) {
     const { id, type, of } = identityOf(record);
     if (!id) {
@@ -27,7 +30,7 @@ export class Identities {
     }
     const all = this.all(id);
     const find = (isType) => all.find((each) => isIn(each, of) && isType(each));
-    // one that was too large to be sent may have come without its type
+    // a record whose value was too large to be sent may lack the type
     let found = find((each) => each.type === type) ?? find((each) => type === '' || each.type === '');
     if (!found) {
       const key = all.some((each) => each.key === id) ? fullKey(of, type, id) : id;
@@ -38,26 +41,29 @@ export class Identities {
     return found;
   }
 
-  /** @param {import('./stream.js').TopicRecord} record a deletion; without a type it is one of all entities of its id @returns {string[]} their keys */
+  /**
+   * The keys of the entities that a record deletes. @param {import('./stream.js').TopicRecord} record a deletion; without a type it deletes all
+   * entities with its id @returns {string[]}
+   */
   deletedBy(record) {
     const { id, type, of } = identityOf(record);
     return this.all(id).filter((each) => isIn(each, of) && (type === '' || each.type === type)).map((each) => each.key);
   }
 
-  /** The key of an entity that is named by its id: in the scope if there is one, else in any. With a type it is that of no other entity. */
+  /** The key of an entity by its id: in the scope if there is one, else in any. With a type, never the key of an entity with another type. */
   keyOf(id, of, type = '') {
     const all = this.all(id);
     const found = type ? all.find((each) => isIn(each, of) && (each.type === type || each.type === '')) : all.find((each) => isIn(each, of)) ?? all[0];
     return found?.key ?? (all.length ? fullKey(of, type, id) : id);
   }
 
-  /** The key of the first entity that has an id and a type; one of any type where none has. */
+  /** The key of the first entity with an id and type, else of the first with that id. */
   keyOfType(id, type) {
     const all = this.all(id);
     return (all.find((each) => each.type === type) ?? all[0])?.key;
   }
 
-  /** How an entity differs from others of its id; empty where there are none. */
+  /** How an entity differs from others with its id; empty if there are none. */
   difference({ key, id }) {
     const all = this.all(id);
     const own = all.find((each) => each.key === key);
@@ -75,7 +81,7 @@ export class Identities {
   }
 }
 
-/** All that tells an entity from others. */
+/** The whole identity of an entity as a key. */
 export function fullKey({ service, servicePath }, type, id) {
   return [service, servicePath, type, id].join('|');
 }
@@ -84,7 +90,7 @@ export function isIn(identity, { service, servicePath }) {
   return identity.service === service && identity.servicePath === servicePath;
 }
 
-/** A record without a value has its id in its key only, which may hold the rest of its identity too. */
+/** The identity of a record. A record without a value has its id only in its key, which may contain the rest of the identity too. */
 function identityOf({ key, value, headers }) {
   const of = scopeOf(headers);
   const type = text(value?.type) || text(headers?.['entity-type']);

@@ -1,6 +1,6 @@
-/** The newest points of a line: a number per column and point. Its memory is taken with the first point and does not grow. */
+/** A ring of the newest points, with one number per column and point. Allocates its memory with the first point. */
 export class Line {
-  /** @param {string[]} names of the columns, each a `Float64Array` of which the first `length` numbers count, oldest first */
+  /** @param {string[]} names of the columns, each a `Float64Array` of which the first `length` numbers are used, oldest first */
   constructor(names, capacity) {
     this.names = names;
     this.capacity = capacity;
@@ -8,7 +8,7 @@ export class Line {
     names.forEach((name) => (this[name] = new Float64Array(capacity)));
   }
 
-  /** A number for each column; the oldest point goes where there is no room. */
+  /** Adds a point, a number for each column; removes the oldest point if it is full. */
   push(...point) {
     if (this.length === this.capacity) {
       this.names.forEach((name) => this[name].copyWithin(0, 1));
@@ -18,7 +18,9 @@ export class Line {
     this.length++;
   }
 
-  /** @param {Line} older of the same columns; of it those points come in front, as many as there is room for, whose number in `column` is less than the first */
+  /**
+   * Prepends older points whose number in `column` is less than the first, as many as there is room for. @param {Line} older with the same columns
+   */
   prepend(older, column) {
     const first = this.length === 0 ? Infinity : this[column][0];
     let count = 0;
@@ -33,7 +35,7 @@ export class Line {
     this.length += room;
   }
 
-  /** A column's numbers. */
+  /** The numbers of a column. */
   of(name) {
     return this[name].subarray(0, this.length);
   }

@@ -1,24 +1,24 @@
-/** Times of the local clock, as people write them: without an offset, so the hour at the end of summer time comes twice. */
+/** Converts between epoch time and local time without an offset; the hour at the end of summer time occurs twice. */
 
 const MINUTE = 60_000;
-/** No change of the clock is longer, and no two of them are as close. */
+/** Longer than any change of the clock, and shorter than the time between two changes. */
 const AFTER_A_CHANGE = 180 * MINUTE;
 
-/** What the local clock shows, counted as epoch ms of UTC. */
+/** The local time, expressed as epoch ms of UTC. */
 export function wallClock(time) {
   return time - new Date(time).getTimezoneOffset() * MINUTE;
 }
 
-/** The time at which the local clock shows this, the first of two; where it skips it, as much later. @param {number} wall of `wallClock` */
+/**
+ * The time at which the local clock shows `wall`: the first of two; shifted by the change if the clock skips it. @param {number} wall see `wallClock`
+ */
 export function ofWallClock(wall) {
   return Date.parse(new Date(wall).toISOString().slice(0, -1));
 }
 
-/**
- * A time in an input for the local date and time. It is exact, to the ms and in its offset, until another one is chosen in the input.
- */
+/** Shows a time in an input for local date and time, and retains its ms and offset until the user changes the input. */
 export class TimeInput {
-  /** @param {HTMLInputElement} element of type `datetime-local` @param {boolean} last of two times that are written alike, whether the last is meant */
+  /** @param {HTMLInputElement} element of type `datetime-local` @param {boolean} last whether an ambiguous local time means the last of two */
   constructor(element, last) {
     this.element = element;
     this.last = last;
@@ -31,18 +31,18 @@ export class TimeInput {
     this.shown = this.element.value;
   }
 
-  /** Whether what is in the input is not what was shown in it. */
+  /** Whether the user changed the input. */
   get isChosen() {
     return this.element.value !== this.shown;
   }
 
-  /** Epoch ms; NaN where the input holds none. */
+  /** Epoch ms; NaN if the input is empty. */
   get time() {
     return this.isChosen ? ofLocal(this.element.value, this.last) : this.exact;
   }
 }
 
-/** @param {string} text of `datetime-local` @param {boolean} last of two times that are written alike, whether the last is meant */
+/** Parses a `datetime-local` value. @param {boolean} last whether an ambiguous local time means the last of two */
 export function ofLocal(text, last) {
   const first = Date.parse(text);
   const other = first + wallClock(first) - wallClock(first + AFTER_A_CHANGE) + AFTER_A_CHANGE;

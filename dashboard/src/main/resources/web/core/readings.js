@@ -1,6 +1,6 @@
 /**
- * Positions, numbers and their units as the jobs read them: `PositionReading`, `Numbers` and `Quantity` of the model, `Battery` of the
- * control plane. The tables of cases that these are held to, in the tests of the model, hold for this file too.
+ * Reads positions, numbers and units exactly as the jobs do: `PositionReading`, `Numbers` and `Quantity` of the model, `Battery` of the control
+ * plane. The tables of cases in the tests of the model apply to this file too.
  */
 
 const DECIMAL = /^[+-]?(\d{1,40}(\.\d{0,40})?|\.\d{1,40})([eE][+-]?\d{1,3})?$/;
@@ -9,7 +9,7 @@ const PAIRS = [['Latitude', 'Longitude'], ['latitude', 'longitude']];
 const BATTERIES = ['battery', 'batteryLevel'];
 const QUOTE = '%27';
 
-/** From a unit to that in which a quantity is read; a unit that is not listed is none of it, but for temperatures. */
+/** Conversions to the unit of each quantity; other units are rejected, except for temperatures. */
 const QUANTITIES = {
   SPEED: { __proto__: null, MTS: (value) => value, KMH: (value) => value / 3.6, HM: (value) => value * 0.44704, KNT: (value) => (value * 1852) / 3600 },
   HEADING: { __proto__: null, DD: (value) => value, C81: (value) => (value * 180) / Math.PI },
@@ -17,14 +17,14 @@ const QUANTITIES = {
   SHARE: { __proto__: null, C62: (value) => value, P1: (value) => value / 100 },
 };
 
-/** A finite number, also as a text; null for everything else. */
+/** A finite number, also given as text; null for everything else. */
 export function finite(value) {
   const text = typeof value === 'string' ? trimmed(value) : '';
   const number = DECIMAL.test(text) ? Number(text) : value;
   return typeof number === 'number' && Number.isFinite(number) ? number : null;
 }
 
-/** As Java has it: without what is not a sign, up to the space, at both ends. */
+/** Trims as Java does: removes characters up to U+0020 at both ends. */
 function trimmed(text) {
   let [from, to] = [0, text.length];
   while (from < to && text.charCodeAt(from) <= SPACE) {
@@ -44,9 +44,11 @@ export function unitOf(attribute) {
 }
 
 /**
+ * Reads a quantity in its unit.
+ *
  * @param {{value: *, metadata: Object=}|undefined} attribute
- * @param {'SPEED'|'HEADING'|'TEMPERATURE'|'SHARE'} quantity m/s, degrees, °C, 0 to 1
- * @returns {number|null} null for what is not a number, or in another unit
+ * @param {'SPEED'|'HEADING'|'TEMPERATURE'|'SHARE'} quantity in m/s, degrees, °C, 0 to 1
+ * @returns {number|null} null for values that are not numbers or have another unit
  */
 export function quantityOf(attribute, quantity) {
   const number = finite(attribute?.value);
@@ -58,12 +60,12 @@ export function quantityOf(attribute, quantity) {
   return read ? read(number) : quantity === 'TEMPERATURE' ? number : null;
 }
 
-/** Whether an attribute that is a share shows that its device reports in percent, though it names no unit. */
+/** Whether the value of a share shows that the device reports percent without naming a unit. */
 export function isPercent(attribute) {
   return unitOf(attribute) === '' && finite(attribute.value) > 1;
 }
 
-/** The charge of a battery, 0 to 1. @param {Object<string, Object>} attributes as `core/entity.js` has them @returns {number|null} */
+/** The charge of a battery, 0 to 1. @param {Object<string, Object>} attributes as parsed by `core/entity.js` @returns {number|null} */
 export function chargeOf(attributes) {
   const attribute = attributes[BATTERIES.find((name) => isPresent(attributes[name]?.value))];
   const number = finite(attribute?.value);
@@ -74,10 +76,11 @@ export function chargeOf(attributes) {
 }
 
 /**
- * Where a report says that its entity is.
+ * The position in a report.
  *
  * @param {Object<string, {value: *}>} reported attributes of one record
- * @returns {{position: [number, number]}|{fault: 'no-number'|'no-point'|'out-of-range'|'no-fix'}|{}} degrees, longitude first; nothing if it does not say
+ * @returns {{position: [number, number]}|{fault: 'no-number'|'no-point'|'out-of-range'|'no-fix'}|{}} degrees, longitude first; empty if the report
+ *     has none
  */
 export function positionOf(reported) {
   const value = (name) => (Object.hasOwn(reported, name) ? reported[name]?.value ?? undefined : undefined);
@@ -118,7 +121,7 @@ function checked(longitude, latitude) {
   return lat === 0 && lon === 0 ? { fault: 'no-fix' } : { position: [lon, lat] };
 }
 
-/** A message of ROS, which FIROS writes as text whose quotes are `%27`. */
+/** Parses a ROS message, which FIROS writes as text with `%27` for quotes. */
 function messageOf(value) {
   if (typeof value !== 'string') {
     return value;

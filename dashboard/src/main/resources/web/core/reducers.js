@@ -1,13 +1,13 @@
-/** What the records of each topic change in the store. */
-import { named, newEntity, applyPast, applyReport } from './entity.js';
+/** Applies the records of each topic to the store. */
+import { applyPast, applyReport, nameOf, newEntity } from './entity.js';
 import { fullKey, scopeOf } from './identities.js';
 
-/** Entities in the store at most; beyond it the ones that have not reported for longest are removed. */
+/** Maximum number of entities; beyond it the one with the oldest report is removed. */
 const MAX_ENTITIES = 5_000;
 
-/** @template T @param {T} Base @returns {T} whose `apply…` methods change the store by a record */
+/** @template T @param {T} Base @returns {T} with `apply…` methods that change the store by a record */
 export const Reducers = (Base) => class extends Base {
-  /** @param {import('./stream.js').TopicRecord} record of an entity @returns {string[]} the keys of the entities that it changes */
+  /** Applies a record of an entity. @returns {string[]} the keys of the changed entities */
   applyEntity(record) {
     if (record.value === null && !record.cut) {
       const deleted = this.identities.deletedBy(record);
@@ -49,20 +49,20 @@ export const Reducers = (Base) => class extends Base {
     }
   }
 
-  /** Entities of one id say in their names how they differ. */
+  /** Updates the names of all entities with the same id, which contain how they differ. */
   nameAll(identity) {
     for (const { key } of this.identities.all(identity.id)) {
       const entity = this.entities.get(key);
       if (entity) {
         entity.difference = this.identities.difference(entity.identity);
-        entity.name = named(entity);
+        entity.name = nameOf(entity);
         this.notify('entities', key);
       }
     }
   }
 
   /**
-   * What was reported before the page was opened: lines and trails, and what `data.latest` did not have yet.
+   * Applies reports from before the page was opened: for trails and series, and those that `data.latest` lacks.
    *
    * @param {import('./stream.js').TopicRecord[]} records oldest first
    */
@@ -74,14 +74,14 @@ export const Reducers = (Base) => class extends Base {
       keys.forEach((key) => reports.has(key) ? reports.get(key).push(record) : reports.set(key, [record]));
     }
     reports.delete(null);
-    for (const [key, of] of reports) {
+    for (const [key, history] of reports) {
       const latest = this.entities.get(key)?.time ?? -Infinity;
-      const newer = of.filter((each) => each.time > latest);
+      const newer = history.filter((each) => each.time > latest);
       const deleted = newer.findLastIndex((each) => each.value === null && !each.cut);
       newer.slice(Math.max(0, deleted)).forEach((each) => this.applyEntity(each));
       const entity = this.entities.get(key);
       if (entity && latest > -Infinity) {
-        applyPast(entity, of.filter((each) => each.time <= latest));
+        applyPast(entity, history.filter((each) => each.time <= latest));
         entity.state = this.stateOf(entity);
         this.notify('entities', key);
       }
@@ -96,7 +96,7 @@ export const Reducers = (Base) => class extends Base {
     this.forgetEntity(oldest.id);
   }
 
-  /** @param {{headers: Object=}} record that names entities by their ids, and by their types where they are known @returns {string[]} under which keys they are here */
+  /** The keys of entities that a record names by id, and by type if known. @param {{headers: Object=}} record @returns {string[]} */
   keysOf({ headers }, ids, types) {
     return ids.map((id, i) => this.identities.keyOf(id, scopeOf(headers), types?.[i]));
   }
@@ -133,7 +133,7 @@ export const Reducers = (Base) => class extends Base {
     const value = record.value;
     const of = (name) => value?.[name]?.value;
     const field = of('field');
-    // the field itself may come later: its topic is another one
+    // the field may arrive later, from another topic
     if (value?.type !== 'Analytics:FieldTemperature' || this.averages.get(field)?.time > record.time) {
       return;
     }
@@ -145,18 +145,18 @@ export const Reducers = (Base) => class extends Base {
     for (const [device, suspect] of this.suspects) {
       if (suspect.field === field && !suspects.includes(device)) {
         this.suspects.delete(device);
-        this.remark(device);
+        this.updateSuspect(device);
       }
     }
     for (const device of suspects) {
       this.suspects.set(device, { field, mean: of('averageTemperature'), time: record.time });
-      this.remark(device);
+      this.updateSuspect(device);
     }
     this.notify('suspects');
     this.notify('fields');
   }
 
-  remark(id) {
+  updateSuspect(id) {
     const entity = this.entities.get(id);
     if (entity) {
       entity.suspect = this.suspects.has(id);
@@ -165,7 +165,7 @@ export const Reducers = (Base) => class extends Base {
     }
   }
 
-  /** A version of a field, or that it is taken back; a key without a time stands for all of them. */
+  /** Applies a version of a field, or its deletion; a key without a time stands for all versions. */
   applyField({ key, value }) {
     const [, id, time] = /^(.+)@([^@]*)$/s.exec(key) ?? [null, key, null];
     const versions = this.fieldVersions.get(id) ?? new Map();
@@ -178,7 +178,7 @@ export const Reducers = (Base) => class extends Base {
     this.showField(id);
   }
 
-  /** Of the versions of a field the one that holds at the time of what is shown. */
+  /** Selects the version of a field that is valid at the page's time. */
   showField(id) {
     const now = this.now();
     const versions = this.fieldVersions.get(id);
@@ -202,13 +202,13 @@ export const Reducers = (Base) => class extends Base {
   applyImage(record) {
     const image = record.value;
     if (image?.entity) {
-      // the camera itself may come later, while another one has its id
+      // the camera's entity may arrive later, and another entity may have its id
       this.images.set(fullKey(scopeOf(record.headers), image.type ?? '', image.entity), { ...image, time: record.time });
       this.keysOf(record, [image.entity], [image.type]).forEach((key) => this.notify('images', key));
     }
   }
 
-  /** The newest picture of an entity; those of an older job do not say its type. */
+  /** The newest image of an entity; images of an older job lack its type. */
   imageOf({ identity }) {
     return this.images.get(fullKey(identity, identity.type, identity.id)) ?? this.images.get(fullKey(identity, '', identity.id));
   }
@@ -218,7 +218,7 @@ export const Reducers = (Base) => class extends Base {
     this.notify('alarms');
   }
 
-  /** All alarms that there were are known. */
+  /** Notes that the initial state of all alarms was read. */
   alarmsRead() {
     this.alarmsLoaded = true;
     this.notify('alarms');

@@ -1,15 +1,17 @@
-/** Answers of the REST API that are kept fresh while somebody looks at them. */
+/** Resources of the REST API that are refreshed while they are shown. */
 import { api } from './api.js';
 import { streams } from './stream.js';
 
 const DEBOUNCE = 250;
-/** A list that takes long to fetch is fetched less often: at most this share of the time. */
+/** Maximum share of the time spent on fetching: a slow resource is fetched less often. */
 const BUSY_SHARE = 0.2;
 
 /**
+ * Fetches a resource, again after each record of the topics and every `interval` ms.
+ *
  * @param {string} path
- * @param {{topics: string[]=, interval: number=, read: (function(string): Promise)=}} options asked again when a record comes on one of the topics, and every `interval` ms;
- *   `read` makes the value of the path, else it is the JSON
+ * @param {{topics: string[]=, interval: number=, read: (function(string): Promise)=}} options `read` fetches the value of the path, by default as
+ *     JSON
  * @returns {{value: *, error: Error|null, loading: boolean, on: function(function()): function(), refresh: function(): Promise, close: function()}}
  */
 export function resource(path, { topics = [], interval = 0, read = api.get } = {}) {
@@ -47,39 +49,39 @@ export function resource(path, { topics = [], interval = 0, read = api.get } = {
       running = null;
       if (again && !closed) {
         again = false;
-        refreshIfSeen();
+        refreshIfVisible();
       }
     });
     return running;
   }
 
   async function load() {
-    const begun = performance.now();
+    const startedAt = performance.now();
     try {
       self.value = await read(path);
       self.error = null;
     } catch (error) {
       self.error = error;
     }
-    took = performance.now() - begun;
+    took = performance.now() - startedAt;
     self.loading = false;
     if (!closed) {
       handlers.forEach((handler) => handler(self));
     }
   }
 
-  /** What a hidden page leaves out is fetched when it is seen again. */
-  const refreshIfSeen = () => document.hidden || refresh();
-  const soon = () => {
+  /** Refreshes unless the page is hidden; then it refreshes once it is visible again. */
+  const refreshIfVisible = () => document.hidden || refresh();
+  const schedule = () => {
     pending ??= setTimeout(() => {
       pending = null;
-      refreshIfSeen();
+      refreshIfVisible();
     }, Math.max(DEBOUNCE, took / BUSY_SHARE));
   };
-  const visible = () => document.hidden || soon();
+  const visible = () => document.hidden || schedule();
   const subscriptions = topics.map((topic) =>
-    streams.subscribe(topic, { mode: 'latest', prime: false }, { records: soon, state: (state) => state === 'open' && soon() }));
-  const ticking = interval ? setInterval(refreshIfSeen, interval) : undefined;
+    streams.subscribe(topic, { mode: 'latest', prime: false }, { records: schedule, state: (state) => state === 'open' && schedule() }));
+  const ticking = interval ? setInterval(refreshIfVisible, interval) : undefined;
   document.addEventListener('visibilitychange', visible);
   refresh();
   return self;

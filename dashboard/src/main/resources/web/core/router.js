@@ -1,4 +1,4 @@
-/** Places of the page, in the hash: `#/map?select=urn:…`. */
+/** Routes views of the page by the hash: `#/map?select=urn:…`. */
 
 const VIEWS = ['map', 'missions', 'replays', 'analyses', 'topics', 'platform'];
 const handlers = new Set();
@@ -11,10 +11,10 @@ function read() {
   return { view: VIEWS.includes(path) ? path : 'map', query: Object.fromEntries(new URLSearchParams(query)) };
 }
 
-/** The hash of a place. */
+/** The hash of a view. */
 export function linkTo(view, query = {}) {
-  const given = Object.entries(query).filter(([, value]) => value !== null && value !== undefined);
-  const text = new URLSearchParams(given).toString();
+  const present = Object.entries(query).filter(([, value]) => value !== null && value !== undefined);
+  const text = new URLSearchParams(present).toString();
   return `#/${view}${text ? `?${text}` : ''}`;
 }
 

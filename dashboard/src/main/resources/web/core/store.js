@@ -1,9 +1,9 @@
-/** All that the page shows. Feeds write it, elements listen to it. */
+/** The state of the page. Feeds write it, elements subscribe to its changes. */
 import { stateOf } from './entity.js';
 import { Identities, scope } from './identities.js';
 import { Reducers } from './reducers.js';
 
-/** How long an encounter that ended stays to be seen, ms of what is shown. */
+/** Time for which an encounter that ended is shown, in the page's time, ms. */
 const ENDED_SHOWN = 10_000;
 
 class Store extends Reducers(Object) {
@@ -21,7 +21,7 @@ class Store extends Reducers(Object) {
     this.topics = new Map();
     this.me = { user: null, role: null };
     this.config = {};
-    this.connection = { state: 'connecting', since: Date.now(), lastRecord: null, awayFrom: null, missed: 0 };
+    this.connection = { state: 'connecting', since: Date.now(), lastRecord: null, lostSince: null, missed: 0 };
     this.mode = { kind: 'live' };
     this.scope = { domain: null, mission: null };
     this.selection = null;
@@ -29,16 +29,16 @@ class Store extends Reducers(Object) {
     this.cursor = null;
     this.filter = '';
     this.primed = false;
-    /** What was reported before the page was opened has been read. */
+    /** Whether the reports from before the page was opened were read. */
     this.pastLoaded = false;
     this.fields = new Map();
     this.fieldVersions = new Map();
     this.clearShown();
-    // the frame that was waited for is not drawn in a hidden tab
+    // a hidden tab does not draw the frame that was scheduled
     document.addEventListener('visibilitychange', () => document.hidden && this.scheduled && setTimeout(() => this.flush(), 1000));
   }
 
-  /** What belongs to one run of time: all goes when a replay begins, jumps or ends. */
+  /** Clears the state that belongs to one timeline: when a replay begins, seeks or ends. */
   clearShown() {
     this.entities = new Map();
     this.identities = new Identities();
@@ -50,9 +50,9 @@ class Store extends Reducers(Object) {
     ['entities', 'encounters', 'suspects', 'images', 'fields'].forEach((name) => this.notify(name));
   }
 
-  // --- who listens -------------------------------------------------------------------------------------------------
+  // --- subscriptions -----------------------------------------------------------------------------------------------
 
-  /** @returns {function()} ends it. Handlers are called once per name and animation frame at most. */
+  /** Adds a handler, which is called at most once per animation frame. @returns {function()} removes it */
   on(name, handler) {
     if (!this.handlers.has(name)) {
       this.handlers.set(name, new Set());
@@ -61,7 +61,7 @@ class Store extends Reducers(Object) {
     return () => this.handlers.get(name).delete(handler);
   }
 
-  /** Says that something changed. @param {string=} id of the entity, for `entities` */
+  /** Schedules the handlers of a change. @param {string=} id of the entity, for `entities` */
   notify(name, id) {
     if (!this.changed.has(name)) {
       this.changed.set(name, new Set());
@@ -69,7 +69,7 @@ class Store extends Reducers(Object) {
     id !== undefined && this.changed.get(name).add(id);
     if (!this.scheduled) {
       this.scheduled = true;
-      // a hidden tab draws no frames, but has to let go of what it remembers
+      // a hidden tab draws no frames, but still has to release memory
       document.hidden ? setTimeout(() => this.flush(), 1000) : requestAnimationFrame(() => this.flush());
     }
   }
@@ -93,7 +93,7 @@ class Store extends Reducers(Object) {
 
   // --- time --------------------------------------------------------------------------------------------------------
 
-  /** Of what is shown, epoch ms: the clock, or where the replay is. */
+  /** The page's time, epoch ms: now, or the position of the replay. */
   now() {
     if (this.mode.kind === 'live') {
       return Date.now();
@@ -107,7 +107,7 @@ class Store extends Reducers(Object) {
     return stateOf(entity, this.now(), this.deviceOf(entity)?.period);
   }
 
-  /** What the REST API lists of an entity: robots of FIROS write their type in upper case. @returns {Object|undefined} */
+  /** The device of an entity in the REST API; robots of FIROS write their type in upper case. @returns {Object|undefined} */
   deviceOf({ type, identity }) {
     const key = deviceKey(identity);
     const first = this.devices.get(identity.id);
@@ -115,12 +115,12 @@ class Store extends Reducers(Object) {
     return device?.type && device.type.toLowerCase() !== type.toLowerCase() ? undefined : device;
   }
 
-  /** The entity of a device that the REST API lists. @returns {import('./entity.js').Entity|undefined} */
+  /** The entity of a device of the REST API. @returns {import('./entity.js').Entity|undefined} */
   entityOf(device) {
     return this.entities.get(this.identities.keyOf(device.id, scope(device.service, device.servicePath)));
   }
 
-  /** Whether what is shown stands for now, or was recorded. */
+  /** Whether a replay is shown. */
   get isReplay() {
     return this.mode.kind === 'replay';
   }
@@ -136,14 +136,14 @@ class Store extends Reducers(Object) {
     this.notify('clock');
   }
 
-  /** Where a replay is. @param {Object} progress */
+  /** Updates the position and state of the replay. @param {Object} progress */
   setProgress(progress) {
     Object.assign(this.mode, progress);
     this.notify('mode');
     this.notify('clock');
   }
 
-  /** Shows a replay instead of what is live. @param {{replay: string, mission: string, topic: string}} replay of `/api/replays` */
+  /** Shows a replay instead of live data. @param {{replay: string, mission: string, topic: string}} replay of `/api/replays` */
   enterReplay(replay) {
     this.feeds?.enterReplay(replay);
   }
@@ -152,7 +152,7 @@ class Store extends Reducers(Object) {
     this.feeds?.leaveReplay();
   }
 
-  /** States that change by time alone. */
+  /** Updates states that depend on the time. */
   tick() {
     for (const entity of this.entities.values()) {
       const state = this.stateOf(entity);
@@ -173,23 +173,23 @@ class Store extends Reducers(Object) {
     this.notify('clock');
   }
 
-  // --- what is looked at -------------------------------------------------------------------------------------------
+  // --- selection, filter and scope ---------------------------------------------------------------------------------
 
-  /** Entities of the chosen domain and mission; what belongs to none is always in it. */
+  /** Whether an entity belongs to the chosen domain and mission, if any. */
   inScope(entity) {
     const { domain, mission } = this.scope;
     return (domain === null || entity.domain === domain) && (mission === null || entity.mission === mission);
   }
 
-  /** Whether a name, type or attribute holds what is searched for. */
+  /** Whether the name, id, type or mission contains the search text. */
   matches(entity) {
     return this.isFound(entity.name, entity.identity.id, entity.type, entity.mission ?? '');
   }
 
-  /** Whether one of the texts holds what is searched for. */
+  /** Whether one of the texts contains the search text. */
   isFound(...texts) {
-    const wanted = this.filter.trim().toLowerCase();
-    return texts.some((each) => each.toLowerCase().includes(wanted));
+    const needle = this.filter.trim().toLowerCase();
+    return texts.some((each) => each.toLowerCase().includes(needle));
   }
 
   select(id, { reveal = false } = {}) {
@@ -222,19 +222,19 @@ class Store extends Reducers(Object) {
     this.notify('entities');
   }
 
-  /** @param {'operate'|'administer'} what */
-  may(what) {
-    return this.me.role === 'admin' || (what === 'operate' && this.me.role === 'operator');
+  /** Whether the user may perform an action. @param {'operate'|'administer'} action */
+  may(action) {
+    return this.me.role === 'admin' || (action === 'operate' && this.me.role === 'operator');
   }
 }
 
-/** Of a device as the REST API lists it, by which the store has it where another one has its id. @param {{id: string, service: string=, servicePath: string=}} device */
+/** The store's key of a device of the REST API if another device has its id. @param {{id: string, service: string=, servicePath: string=}} device */
 export function deviceKey({ id, service, servicePath }) {
-  const of = scope(service, servicePath);
-  return [of.service, of.servicePath, id].join('|');
+  const { service: tenant, servicePath: path } = scope(service, servicePath);
+  return [tenant, path, id].join('|');
 }
 
-/** Where a replay ends, as far as that is known: a mission that is recorded meanwhile goes on. @returns {number|undefined} */
+/** The end of a replay as far as it is known: a mission may still be recorded. @returns {number|undefined} */
 export function endOf({ position, to }) {
   return to > 0 ? Math.max(to, position ?? 0) : to;
 }

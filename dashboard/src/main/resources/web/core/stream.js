@@ -1,19 +1,21 @@
-/** Topics as streams of records, over WebSockets. */
+/** Streams the records of topics over WebSockets. */
 import { api } from './api.js';
 import { parse } from './json.js';
 
-const FIRST_WAIT = 500;
-const MAX_WAIT = 15_000;
-/** A hidden tab keeps its streams for as long, since many are only looked away from; those that are needed `whileHidden` stay. */
+const MIN_BACKOFF = 500;
+const MAX_BACKOFF = 15_000;
+/** Time for which a hidden tab retains its streams, in case the user returns; streams needed `whileHidden` stay open. */
 const HIDDEN_AFTER = 10_000;
 
 /**
+ * A record of a topic.
+ *
  * @typedef {Object} TopicRecord
  * @property {string} topic
- * @property {'event'|'prime'} kind `prime`: known before the stream began
+ * @property {'event'|'prime'} kind `prime`: part of the initial state
  * @property {string|null} key
  * @property {number} time the record's timestamp: event time, epoch ms
- * @property {number=} sequence counts the records of the topic; a jump is a gap
+ * @property {number=} sequence number within the topic; a jump is a gap
  * @property {Object<string, string>} headers
  * @property {*} value null for a deletion
  * @property {number=} cut bytes of a value that was too large to be sent
@@ -25,7 +27,7 @@ class Stream {
     this.query = new URLSearchParams({ mode: options.mode ?? 'all', prime: String(options.prime ?? true), format: 'record' });
     this.handlers = handlers;
     this.state = 'connecting';
-    this.wait = FIRST_WAIT;
+    this.backoff = MIN_BACKOFF;
     this.sequence = null;
     this.whileHidden = options.whileHidden ?? (() => false);
     this.hidden = document.hidden && !this.whileHidden();
@@ -80,7 +82,7 @@ class Stream {
     url.protocol = url.protocol.replace('http', 'ws');
     const socket = (this.socket = new WebSocket(url));
     socket.onopen = () => {
-      this.wait = FIRST_WAIT;
+      this.backoff = MIN_BACKOFF;
       this.isFirst = true;
       this.report('open');
     };
@@ -100,12 +102,10 @@ class Stream {
       this.handlers.records?.(frame.records, frame.merged ?? 0);
     } else if (frame.primed) {
       this.handlers.primed?.();
-    } else if (frame.status === 'error') {
-      this.handlers.refused?.(frame.reason ?? frame.error);
     }
   }
 
-  /** How many records are missing between the one before and this. After a lost connection the server may count anew, then that is not known. */
+  /** The number of records missing before this one. After a lost connection it is unknown, as the server may restart its sequence. */
   missedBefore({ sequence }) {
     if (sequence === undefined) {
       return 0;
@@ -120,12 +120,12 @@ class Stream {
     if (this.closed || this.hidden) {
       return;
     }
-    // what is refused for good is asked for again rarely: a topic may come, a role may change
-    const forGood = error?.status === 403 || error?.status === 404;
-    this.report(forGood ? 'refused' : 'waiting', error?.message);
-    const wait = forGood ? MAX_WAIT : this.wait;
-    this.wait = Math.min(MAX_WAIT, this.wait * 2);
-    this.retry = setTimeout(() => this.connect(), wait * (0.75 + Math.random() / 2));
+    // retries a rejected request rarely: the topic may be created, or the role may change
+    const rejected = error?.status === 403 || error?.status === 404;
+    this.report(rejected ? 'refused' : 'waiting', error?.message);
+    const backoff = rejected ? MAX_BACKOFF : this.backoff;
+    this.backoff = Math.min(MAX_BACKOFF, this.backoff * 2);
+    this.retry = setTimeout(() => this.connect(), backoff * (0.75 + Math.random() / 2));
   }
 
   report(state, reason) {
@@ -151,11 +151,13 @@ class Stream {
 
 export const streams = {
   /**
+   * Subscribes to a topic. Reconnects by itself, and then receives the initial state again.
+   *
    * @param {string} topic
    * @param {{mode: ('all'|'latest')=, prime: boolean=, whileHidden: (function(): boolean)=}} options
-   * @param {{records: function(TopicRecord[], number)=, primed: function()=, state: function(string, string=)=,
-   *     gap: function(number)=, refused: function(string)=}} handlers state is `connecting`, `open`, `waiting` (for the next attempt), `refused` or `paused`
-   * @returns {{close: function(), state: string}} connects again by itself, and then tells once more what is known
+   * @param {{records: function(TopicRecord[], number)=, primed: function()=, state: function(string, string=)=, gap: function(number)=}} handlers
+   *     state is `connecting`, `open`, `waiting` (for the next attempt), `refused` or `paused`
+   * @returns {{close: function(), state: string}}
    */
   subscribe(topic, options, handlers) {
     return new Stream(topic, options, handlers);

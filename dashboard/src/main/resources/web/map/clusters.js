@@ -1,20 +1,22 @@
-/** Many devices in one spot become one symbol with their number. */
+/** Combines many devices at one spot into one symbol with their number. */
 
-/** Up to so many in view are drawn one by one. */
-const DRAWN_SINGLY = 60;
-/** Px; symbols in one cell lie on each other. */
+/** Up to this number of devices in view, each is drawn individually. */
+const MAX_INDIVIDUAL = 60;
+/** Cell size, px; symbols in one cell overlap. */
 export const CELL = 40;
-const FEWEST = 4;
+const MIN_MEMBERS = 4;
 const RANK = { attention: 3, stale: 2, off: 1, ok: 0 };
 
 /**
+ * Clusters the devices in view.
+ *
  * @param {{entity: Object, x: number, y: number}[]} spots in view
- * @param {function(Object): boolean} isSingle which entities are drawn one by one in any case
- * @param {{x: number, y: number}} origin a place that moves with the map, so that clusters stay when it does
+ * @param {function(Object): boolean} isSingle whether an entity is drawn individually in any case
+ * @param {{x: number, y: number}} origin a point that moves with the map, so that panning does not change clusters
  * @returns {{single: Object[], clusters: {x: number, y: number, count: number, state: string, spots: Object[]}[]}}
  */
 export function cluster(spots, isSingle, origin) {
-  if (spots.length <= DRAWN_SINGLY) {
+  if (spots.length <= MAX_INDIVIDUAL) {
     return { single: spots, clusters: [] };
   }
   const cells = new Map();
@@ -30,7 +32,7 @@ export function cluster(spots, isSingle, origin) {
   }
   const clusters = [];
   for (const members of cells.values()) {
-    members.length < FEWEST ? single.push(...members) : clusters.push(summary(members));
+    members.length < MIN_MEMBERS ? single.push(...members) : clusters.push(summary(members));
   }
   return { single, clusters };
 }

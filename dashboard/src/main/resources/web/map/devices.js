@@ -1,29 +1,29 @@
-/** Devices with trails and names, drawn anew in each frame in which something changed. */
+/** Draws devices with trails and names in each frame in which something changed. */
 import { age } from '../core/format.js';
 import { store } from '../core/store.js';
 import { cluster, drawCluster } from './clusters.js';
 import { drawEncounter, isOver, placeEncounters } from './encounters.js';
 import { FieldLabels } from './field-labels.js';
 import { LabelPlaces, drawText, widthOf } from './labels.js';
-import { colourOf } from './palette.js';
+import { colorOf } from './palette.js';
 import { isOnMap, project, projectPoint } from './projection.js';
 import { SIZE, drawSymbol, shapeOf } from './symbols.js';
 
-/** Points of trails in one frame; the more devices move, the shorter their trails. */
+/** Maximum points of all trails; the more devices move, the shorter their trails. */
 const TRAIL_POINTS = 6_000;
-/** Trails of more than so many points are drawn anew only after this, ms, while the map stands still. */
+/** With more points than this, trails are redrawn only every `TRAIL_INTERVAL` ms while the map does not move. */
 const FEW_POINTS = 1_500;
-const TRAIL_PAUSE = 500;
-/** So many names at most; beyond it only those that matter have one. */
+const TRAIL_INTERVAL = 500;
+/** Maximum number of names; those that matter most are drawn. */
 const MAX_LABELS = 60;
-const REACH = 14;
-/** From a symbol to the ring around the one that is selected, px. */
+const HIT_RADIUS = 14;
+/** Distance of the ring around a selected symbol, px. */
 const RING = 7;
-/** Px; nearer to each other than so, devices cannot be told apart. */
+/** Devices closer than this cannot be distinguished, px. */
 const SAME_SPOT = 4;
-/** Px; on a narrower map only those that matter have a name. */
+/** Width below which only the names that matter are drawn, px. */
 const NARROW = 560;
-/** The corners in which the map's buttons lie, and its scale, with the legend where there is room for one, px. */
+/** Sizes of the corners with the map's buttons and the scale, and of the legend if there is room for it, px. */
 const CONTROLS = { width: 62, height: 244 };
 const SCALE = { width: 170, height: 42 };
 const LEGEND = { width: 600, height: 54, from: 690 };
@@ -45,8 +45,8 @@ export class DeviceDrawing {
     const foot = frame.width < LEGEND.from ? SCALE : LEGEND;
     places.block(0, frame.height - foot.height, foot.width, frame.height);
     const inView = this.collect(frame);
-    const close = devicesOfEncounters();
-    const { single, clusters } = cluster(inView, (entity) => entity.id === store.selection || entity.state === 'attention' || close.has(entity.id), { x: frame.x(0, 0), y: frame.y(0, 0) });
+    const inEncounter = devicesOfEncounters();
+    const { single, clusters } = cluster(inView, (entity) => entity.id === store.selection || entity.state === 'attention' || inEncounter.has(entity.id), { x: frame.x(0, 0), y: frame.y(0, 0) });
     this.spots = single;
     this.clusters = clusters;
     const [moving, standing] = [single.filter(isRobot), single.filter((spot) => !isRobot(spot))];
@@ -60,10 +60,10 @@ export class DeviceDrawing {
       places.block(each.x - each.radius, each.y - each.radius, each.x + each.radius, each.y + each.radius);
     }
     this.drawSymbols(context, single, palette, ratio);
-    options.labels && this.drawLabels(frame, single, places, palette, close);
+    options.labels && this.drawLabels(frame, single, places, palette, inEncounter);
   }
 
-  /** Which devices of the scope are in view of this frame, and where. */
+  /** Returns the devices of the scope that are in view, with their pixels. */
   collect(frame) {
     const inView = [];
     this.byId.clear();
@@ -87,7 +87,7 @@ export class DeviceDrawing {
     return inView;
   }
 
-  /** Trails lie below and change slowly: those of many are not drawn in each frame. */
+  /** Draws trails on a layer of their own; many trails are not redrawn in each frame. */
   drawTrails(frame, frameState, palette, options) {
     const key = `${frameState.coordinateToPixelTransform.join()} ${frame.width} ${frame.height} ${frame.ratio} ${palette.background} ${options.trails} ${store.selection} ${store.filter} ${store.scope.domain} ${store.scope.mission}`;
     const now = performance.now();
@@ -110,13 +110,13 @@ export class DeviceDrawing {
       const chosen = entity.id === store.selection;
       const begin = chosen ? 0 : Math.max(0, entity.trail.length - length);
       this.trailPoints += entity.trail.length - begin;
-      drawTrail(frame, entity.trail, begin, colourOf(entity, palette), chosen ? 3 : 2.5, dimmed(entity) ? 0.12 : 0.55);
+      drawTrail(frame, entity.trail, begin, colorOf(entity, palette), chosen ? 3 : 2.5, dimmed(entity) ? 0.12 : 0.55);
     }
     context.globalAlpha = 1;
   }
 
   drawSymbols(context, spots, palette, ratio) {
-    // those that need a look last, so that none hides them
+    // draws devices that need attention last, so that none covers them
     const order = { ok: 0, off: 1, stale: 2, attention: 3 };
     spots.sort((a, b) => (a.entity.kind === 'robot') - (b.entity.kind === 'robot') || order[a.entity.state] - order[b.entity.state]);
     for (const { entity, x, y } of spots) {
@@ -124,17 +124,17 @@ export class DeviceDrawing {
       if (chosen || entity.id === store.hovered) {
         drawRing(context, x, y, SIZE[shapeOf(entity)] + RING, chosen ? palette.accent : palette.muted);
       }
-      drawSymbol(context, entity, x, y, colourOf(entity, palette), palette, { ratio, alpha: dimmed(entity) ? 0.25 : 1 });
+      drawSymbol(context, entity, x, y, colorOf(entity, palette), palette, { ratio, alpha: dimmed(entity) ? 0.25 : 1 });
     }
   }
 
-  drawLabels(frame, spots, places, palette, close) {
+  drawLabels(frame, spots, places, palette, inEncounter) {
     const { context } = frame;
     const rank = ({ entity }) =>
-      (entity.id === store.selection) * 32 + (entity.id === store.hovered) * 16 + close.has(entity.id) * 8 + (entity.state === 'attention') * 4 + (entity.kind === 'robot') * 2 + (entity.state !== 'stale');
+      (entity.id === store.selection) * 32 + (entity.id === store.hovered) * 16 + inEncounter.has(entity.id) * 8 + (entity.state === 'attention') * 4 + (entity.kind === 'robot') * 2 + (entity.state !== 'stale');
     const narrow = frame.width < NARROW;
-    const wanted = spots.filter(({ entity }) => !dimmed(entity) && (!narrow || rank({ entity }) > 1)).sort((a, b) => rank(b) - rank(a) || (a.entity.id < b.entity.id ? -1 : 1)).slice(0, MAX_LABELS);
-    for (const { entity, x, y } of wanted) {
+    const labeled = spots.filter(({ entity }) => !dimmed(entity) && (!narrow || rank({ entity }) > 1)).sort((a, b) => rank(b) - rank(a) || (a.entity.id < b.entity.id ? -1 : 1)).slice(0, MAX_LABELS);
+    for (const { entity, x, y } of labeled) {
       const needsAttention = entity.state === 'attention';
       const stale = entity.state === 'stale';
       const text = stale ? `${entity.name} · ${age(store.now() - entity.time)}` : entity.name;
@@ -147,7 +147,7 @@ export class DeviceDrawing {
     }
   }
 
-  /** What is at a point: a device, several on one spot, or a cluster of them; of several `spots`. */
+  /** The device at a point, or a cluster, or several devices on one spot as `spots`. */
   at(x, y) {
     const nearest = this.nearest(x, y);
     if (!nearest) {
@@ -159,11 +159,11 @@ export class DeviceDrawing {
 
   nearest(x, y) {
     let nearest = null;
-    let least = REACH * REACH;
+    let minSquare = HIT_RADIUS * HIT_RADIUS;
     for (const spot of this.spots) {
       const square = (spot.x - x) ** 2 + (spot.y - y) ** 2;
-      if (square <= least) {
-        least = square;
+      if (square <= minSquare) {
+        minSquare = square;
         nearest = spot;
       }
     }
@@ -171,7 +171,7 @@ export class DeviceDrawing {
   }
 }
 
-/** Those that are close to another must be seen, however many there are. */
+/** Devices in current encounters, which are always drawn individually. */
 function devicesOfEncounters() {
   const found = new Set();
   for (const { a, b, phase } of store.encounters.values()) {
@@ -193,10 +193,10 @@ function dimmed(entity) {
   return store.filter !== '' && !store.matches(entity);
 }
 
-/** The older a part, the fainter: in four parts, which is enough to be seen. */
-function drawTrail(frame, trail, begin, colour, width, alpha) {
+/** Draws a trail in up to four parts, the older the fainter. */
+function drawTrail(frame, trail, begin, color, width, alpha) {
   const { context } = frame;
-  context.strokeStyle = colour;
+  context.strokeStyle = color;
   context.lineWidth = width;
   const steps = trail.length - 1 - begin;
   const parts = steps > 7 ? 4 : 1;
@@ -214,10 +214,10 @@ function drawTrail(frame, trail, begin, colour, width, alpha) {
   }
 }
 
-function drawRing(context, x, y, radius, colour) {
+function drawRing(context, x, y, radius, color) {
   context.beginPath();
   context.arc(x, y, radius, 0, 2 * Math.PI);
   context.lineWidth = 2;
-  context.strokeStyle = colour;
+  context.strokeStyle = color;
   context.stroke();
 }

@@ -1,19 +1,21 @@
-/** Encounters: who is too close to whom, and by how much. */
+/** Draws encounters: which devices are too close, and their distance. */
 import { distance } from '../core/format.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { isOnMap, project } from './projection.js';
 
-const FADING = 10_000;
-/** Height of what is written above a ring, with its gap, and half of its width, px. */
+const FADE_MILLIS = 10_000;
+/** Height of the text above a ring with its gap, and half of its width, px. */
 const PILL = 26;
 const HALF_PILL = 64;
-/** How long after its moment a prediction that did not come true stays, ms: nothing says that it is over. */
-const PREDICTION_STAYS = 3_000;
+/** Time for which a prediction that did not come true is shown after its time, ms: no record ends it. */
+const PREDICTION_SHOWN = 3_000;
 
 /**
+ * Computes where and how encounters are drawn.
+ *
  * @param {function(string): ({x: number, y: number}|undefined)} spotOf where a device is drawn
- * @returns {Object[]} the encounters that are drawn: where, how large, and how they look
+ * @returns {Object[]} position, size and style of each encounter
  */
 export function placeEncounters(frame, palette, spotOf) {
   const placed = [];
@@ -29,13 +31,13 @@ export function placeEncounters(frame, palette, spotOf) {
   return placed;
 }
 
-/** Whether the ring, or the pill above it, covers a part of a box. */
+/** Whether the ring, or the text above it, covers a part of a box. */
 export function covers({ x, y, radius }, left, top, right, bottom) {
   const half = top < y - radius ? Math.max(radius, HALF_PILL) : radius;
   return left < x + half && right > x - half && top < y + radius && bottom > y - radius - PILL;
 }
 
-/** What is over only fades: it takes no place from what is known of a field. */
+/** Whether an encounter has ended; it fades, and labels of fields may cover it. */
 export function isOver({ phase }) {
   return phase === 'ended' || phase === 'crossed';
 }
@@ -51,7 +53,7 @@ function reported(frame, [lon, lat]) {
 export function drawEncounter(frame, { encounter, from, to, x, y, radius, style }, palette, places) {
   const { context } = frame;
   context.globalAlpha = style.alpha;
-  context.strokeStyle = style.colour;
+  context.strokeStyle = style.color;
   context.lineWidth = 3;
   context.setLineDash(style.dash);
   context.beginPath();
@@ -70,16 +72,16 @@ export function drawEncounter(frame, { encounter, from, to, x, y, radius, style 
 }
 
 function styleOf(encounter, palette) {
-  if (encounter.phase === 'predicted' && store.now() - encounter.time > (encounter.tcpa ?? 0) * 1000 + PREDICTION_STAYS) {
+  if (encounter.phase === 'predicted' && store.now() - encounter.time > (encounter.tcpa ?? 0) * 1000 + PREDICTION_SHOWN) {
     return { alpha: 0 };
   }
   if (isOver(encounter)) {
-    const alpha = 0.9 * (1 - (store.now() - encounter.time) / FADING);
-    return { colour: palette.muted, ink: palette.background, dash: [], alpha: Math.min(0.9, alpha) };
+    const alpha = 0.9 * (1 - (store.now() - encounter.time) / FADE_MILLIS);
+    return { color: palette.muted, ink: palette.background, dash: [], alpha: Math.min(0.9, alpha) };
   }
   return encounter.phase === 'predicted'
-    ? { colour: palette.warning, ink: palette.background, dash: [7, 5], alpha: 1 }
-    : { colour: palette.critical, ink: palette['on-critical'], dash: [], alpha: 1 };
+    ? { color: palette.warning, ink: palette.background, dash: [7, 5], alpha: 1 }
+    : { color: palette.critical, ink: palette['on-critical'], dash: [], alpha: 1 };
 }
 
 function textOf(encounter) {
@@ -89,12 +91,12 @@ function textOf(encounter) {
   if (isOver(encounter)) {
     return t('map.ended', { distance: distance(encounter.minDistance) });
   }
-  // once they move apart, how near they were says more than how far they are
+  // once the devices move apart, the smallest distance matters more than the current one
   const current = currentDistance(encounter);
   return current > encounter.distance ? t('map.closest', { distance: distance(encounter.minDistance) }) : distance(current);
 }
 
-/** Between the newest positions, which are newer than what was told of the encounter. */
+/** The distance between the newest positions, which are newer than the encounter's record. */
 function currentDistance(encounter) {
   const [a, b] = [store.entities.get(encounter.a), store.entities.get(encounter.b)];
   if (!a?.position || !b?.position) {
@@ -105,12 +107,12 @@ function currentDistance(encounter) {
   return Math.hypot(x, b.position[1] - a.position[1]) * radians * 6_371_008.8;
 }
 
-/** At the edge of the map it stays on the map. Of several places it takes the first that is free, or none. */
-function drawPill(frame, text, wanted, style, palette, places) {
+/** Draws a text, moved into view at the edge of the map. Draws it at the first of several positions that is free, or not at all. */
+function drawPill(frame, text, positions, style, palette, places) {
   const { context } = frame;
   context.font = `700 13px ${palette.family}`;
   const half = context.measureText(text).width / 2 + 12;
-  const boxes = wanted.map((place) => {
+  const boxes = positions.map((place) => {
     const isInView = place.x > 0 && place.x < frame.width && place.y > -2 * PILL && place.y < frame.height;
     const x = isInView ? Math.max(half + 2, Math.min(frame.width - half - 2, place.x)) : place.x;
     const y = isInView ? Math.max(14, place.y) : place.y;
@@ -122,7 +124,7 @@ function drawPill(frame, text, wanted, style, palette, places) {
   }
   context.beginPath();
   context.roundRect(place.box[0], place.box[1], 2 * half, 24, 12);
-  context.fillStyle = style.colour;
+  context.fillStyle = style.color;
   context.fill();
   context.fillStyle = style.ink;
   context.textAlign = 'center';

@@ -1,4 +1,4 @@
-/** Names of fields with what is known of them: inside their outline or beside it, where they cover no symbol, and where they were before. */
+/** Draws names of fields with their averages inside or beside the outline, without covering symbols, and where they were before if possible. */
 import { age, temperature } from '../core/format.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
@@ -6,29 +6,31 @@ import { covers, isOver } from './encounters.js';
 import { boxOf, isFound } from './fields.js';
 import { LabelPlaces, drawText, widthOf } from './labels.js';
 
-/** From one place that is tried to the next, px. */
+/** Distance between candidate positions, px. */
 const STEP = { x: 20, y: 6 };
-/** From the middle of the name to the upper and lower edge of the text, px. */
+/** Distance from the middle of the name to the upper and lower edge of the text, px. */
 const ABOVE = 9;
 const BELOW = { one: 9, two: 25 };
-/** A text that is not where it is said in full is placed anew after so many ms: to look everywhere takes time. */
-const SEARCH_PAUSE = 500;
-/** Px; on a narrower map texts are smaller and go nearer to the borders of fields. */
+/** Interval at which a better position is searched for a shortened or missing text, ms: a search takes time. */
+const SEARCH_INTERVAL = 500;
+/** Width below which texts are smaller and closer to the borders of fields, px. */
 const NARROW = 560;
-/** Px; a smaller field has no text beside it. */
-const LEAST = 40;
+/** Minimum size of a field with a text beside it, px. */
+const MIN_SIZE = 40;
 
 export class FieldLabels {
   /** @param {import('./fields.js').FieldDrawing} fields */
   constructor(fields) {
     this.fields = fields;
     this.cached = new Map();
-    /** The texts of the last frame: of which field, its line below the name, and where. */
+    /** The texts of the last frame, with field, second line and box. */
     this.drawn = [];
   }
 
   /**
-   * @param {import('./labels.js').LabelPlaces} places of what stands still; the texts are added
+   * Draws the labels.
+   *
+   * @param {import('./labels.js').LabelPlaces} places of static symbols; the texts are added
    * @param {number[][]} moving boxes of the symbols that move
    * @param {Object[]} encounters as they are drawn
    */
@@ -41,10 +43,10 @@ export class FieldLabels {
     }
     const narrow = frame.width < NARROW;
     const fonts = { name: `600 ${narrow ? 13 : 14}px ${palette.family}`, line: `400 12px ${palette.family}` };
-    const driving = new LabelPlaces();
-    moving.forEach((box) => driving.block(...box));
-    const isStill = (...box) => places.isFree(...box) && !encounters.some((each) => !isOver(each.encounter) && covers(each, ...box));
-    const isFree = (...box) => isStill(...box) && !encounters.some((each) => covers(each, ...box)) && driving.isFree(...box);
+    const movingPlaces = new LabelPlaces();
+    moving.forEach((box) => movingPlaces.block(...box));
+    const isFreeOfStatic = (...box) => places.isFree(...box) && !encounters.some((each) => !isOver(each.encounter) && covers(each, ...box));
+    const isFree = (...box) => isFreeOfStatic(...box) && !encounters.some((each) => covers(each, ...box)) && movingPlaces.isFree(...box);
     const now = store.now();
     this.drawn = [];
     const all = this.fields.inView(frame).map(({ field, rings }) => ({ field, ring: rings[0], box: boxOf(rings[0]) }));
@@ -55,7 +57,7 @@ export class FieldLabels {
         context.font = fonts.line;
         return { line, name, below: line ? BELOW.two : BELOW.one, width: Math.max(name, widthOf(context, line)) };
       };
-      const place = this.placeOf(field.id, { ring, box, all, frame, margin: narrow ? 4 : 8 }, linesOf(field, now, narrow).map(measure), isFree, isStill);
+      const place = this.placeOf(field.id, { ring, box, all, frame, margin: narrow ? 4 : 8 }, linesOf(field, now, narrow).map(measure), isFree, isFreeOfStatic);
       if (place) {
         this.drawn.push({ id: field.id, line: place.line, box: boxAt(place, place) });
         drawLabel(context, field, place, fonts, palette, places);
@@ -64,27 +66,27 @@ export class FieldLabels {
     context.globalAlpha = 1;
   }
 
-  placeOf(id, area, texts, isFree, isStill) {
+  placeOf(id, area, texts, isFree, isFreeOfStatic) {
     const [x, y] = area.ring[0];
     const cached = this.cached.get(id);
     const previous = cached?.spot && { ...cached.spot, x: x + cached.spot.x, y: y + cached.spot.y };
-    const here = previous && texts.find((text) => fits(area, previous, text, isFree));
+    const current = previous && texts.find((text) => fits(area, previous, text, isFree));
     const now = performance.now();
-    if (cached && (here === texts[0] || now - cached.searched < SEARCH_PAUSE)) {
-      const text = here ?? (previous && texts.find((each) => fits(area, previous, each, isStill)));
+    if (cached && (current === texts[0] || now - cached.searched < SEARCH_INTERVAL)) {
+      const text = current ?? (previous && texts.find((each) => fits(area, previous, each, isFreeOfStatic)));
       return text ? { ...text, ...previous } : null;
     }
-    const found = search(area, texts, previous, isFree, isStill);
+    const found = search(area, texts, previous, isFree, isFreeOfStatic);
     this.cached.set(id, { searched: now, spot: found && { x: found.x - x, y: found.y - y, beside: found.beside } });
     return found;
   }
 }
 
-/** The longest text that has a place; the name alone only where nothing has one, and over what moves rather than not at all. */
-function search(area, texts, previous, isFree, isStill) {
+/** Finds a position for the longest possible text; the name alone only if no other fits, and over moving symbols rather than none. */
+function search(area, texts, previous, isFree, isFreeOfStatic) {
   const shortened = texts.length > 1 ? texts.slice(0, -1) : texts;
   const within = (free) => (text) => (previous && fits(area, previous, text, free) ? previous : inside(area, text, free));
-  return first(shortened, within(isFree)) ?? first(shortened, (text) => beside(area, text, isFree)) ?? first(texts.slice(-1), within(isFree)) ?? first(texts, within(isStill));
+  return first(shortened, within(isFree)) ?? first(shortened, (text) => beside(area, text, isFree)) ?? first(texts.slice(-1), within(isFree)) ?? first(texts, within(isFreeOfStatic));
 }
 
 function first(texts, find) {
@@ -97,7 +99,7 @@ function first(texts, find) {
   return null;
 }
 
-/** What is written below the name, the longest first: where there is no room for it less, or nothing. */
+/** Candidates for the second line, the longest first. */
 function linesOf(field, now, narrow) {
   const average = store.averages.get(field.id);
   if (field.exclusion) {
@@ -130,7 +132,7 @@ function boxAt({ x, y }, { width, below }) {
   return [x - 4, y - ABOVE, x + width + 4, y + below];
 }
 
-function isShown([left, top, right, bottom], { frame }) {
+function isInView([left, top, right, bottom], { frame }) {
   return left >= 0 && top >= 0 && right <= frame.width && bottom <= frame.height;
 }
 
@@ -138,10 +140,10 @@ function fits(area, spot, text, isFree) {
   const box = boxAt(spot, text);
   const isWithin = spot.beside ? isApart(box, area)
     : [box[1], box[3]].every((y) => spansAt(area.ring, y).some(([left, right]) => left <= box[0] && right >= box[2]));
-  return isWithin && isShown(box, area) && isFree(...box);
+  return isWithin && isInView(box, area) && isFree(...box);
 }
 
-/** Near the top of an outline, where a line of it is wide enough. */
+/** Finds a position near the top of the outline where it is wide enough. */
 function inside({ ring, box: [, top, , bottom], frame, margin }, { width, below }, isFree) {
   const to = Math.min(bottom, frame.height) - below;
   for (let y = Math.max(top, 0) + ABOVE + 4; y < to; y += STEP.y) {
@@ -159,10 +161,10 @@ function inside({ ring, box: [, top, , bottom], frame, margin }, { width, below 
   return null;
 }
 
-/** Below, above, right or left of an outline that is too small, where no other field is. */
+/** Finds a position below, above, right or left of an outline that is too small, outside of all fields. */
 function beside(area, text, isFree) {
   const { box: [left, top, right, bottom], frame } = area;
-  if (right - left < LEAST || bottom - top < LEAST || !isShown(area.box, area)) {
+  if (right - left < MIN_SIZE || bottom - top < MIN_SIZE || !isInView(area.box, area)) {
     return null;
   }
   const columns = [(left + right - text.width) / 2, left, right - text.width].map((x) => Math.max(8, Math.min(frame.width - 8 - text.width, x)));
@@ -172,17 +174,17 @@ function beside(area, text, isFree) {
   ];
   const spot = spots.find((each) => {
     const box = boxAt(each, text);
-    return isShown(box, area) && isApart(box, area) && isFree(...box);
+    return isInView(box, area) && isApart(box, area) && isFree(...box);
   });
   return spot ? { ...spot, beside: true } : null;
 }
 
-/** Whether a box is in no field. */
+/** Whether a box is outside of all fields. */
 function isApart([left, top, right, bottom], { all }) {
   return all.every(({ box }) => right < box[0] || left > box[2] || bottom < box[1] || top > box[3]);
 }
 
-/** Stretches of a horizontal line that are inside a ring. */
+/** Segments of a horizontal line that are inside a ring. */
 function spansAt(ring, y) {
   const crossings = [];
   for (let i = 0; i < ring.length; i++) {

@@ -1,8 +1,8 @@
-/** Fields with their rows, and zones without alarms. */
+/** Draws fields with their rows, and zones without alarms. */
 import { store } from '../core/store.js';
 import { groundScale, isOnMap, project } from './projection.js';
 
-const NARROWEST_ROW = 7;
+const MIN_ROW_WIDTH = 7;
 
 export class FieldDrawing {
   constructor() {
@@ -10,7 +10,7 @@ export class FieldDrawing {
     this.outlines = new Map();
   }
 
-  /** Outlines in meters of the projection, made once for each version of a field. */
+  /** The outline in meters of the projection, computed once per version of a field. */
   outlineOf(field) {
     let outline = this.outlines.get(field.id);
     if (!outline || outline.geometry !== field.geometry) {
@@ -36,7 +36,7 @@ export class FieldDrawing {
     return box[0] < box[2] ? box : null;
   }
 
-  /** Nothing is drawn again where neither fields nor view changed. */
+  /** Redraws only if the fields or the view changed. */
   draw(frame, frameState, palette, options, version) {
     const key = `${frameState.coordinateToPixelTransform.join()} ${frame.width} ${frame.height} ${frame.ratio} ${version} ${options.rows}`;
     if (key === this.key) {
@@ -51,7 +51,7 @@ export class FieldDrawing {
     }
   }
 
-  /** Those of which something is on the map, with their rings in pixels of the frame. */
+  /** The fields in view, with their rings in pixels of the frame. */
   inView(frame) {
     return [...store.fields.values()]
       .map((field) => ({ field, rings: this.outlineOf(field).rings.map((ring) => ring.map(([x, y]) => [frame.x(x, y), frame.y(x, y)])) }))
@@ -59,14 +59,14 @@ export class FieldDrawing {
   }
 }
 
-/** Whether the search is for this field. */
+/** Whether the field matches the search. */
 export function isFound(field) {
   return store.isFound(field.name, field.id);
 }
 
 function ringsOf(geometry) {
   const polygons = geometry?.type === 'Polygon' ? [geometry.coordinates] : geometry?.type === 'MultiPolygon' ? geometry.coordinates : [];
-  // a ring with a corner off the map has no shape that could be drawn
+  // skips rings with a corner outside of the projection
   return polygons.flat().filter((ring) => Array.isArray(ring) && ring.length > 2 && ring.every((point) => Array.isArray(point) && isOnMap(point[0], point[1])))
     .map((ring) => ring.map(([lon, lat]) => project(lon, lat)));
 }
@@ -113,18 +113,18 @@ function drawField(context, field, rings, frame, palette, options) {
   context.stroke();
 }
 
-/** Pixels from row to row; of narrow ones each second, fourth, … is drawn. */
+/** Distance of rows in pixels; of narrow rows only each second, fourth, … is drawn. */
 function rowWidth(field, frame) {
   const spacing = Number(field.properties.rowSpacing) > 0 ? Number(field.properties.rowSpacing) : 1;
   const lat = field.geometry.coordinates.flat(2).find((each) => Array.isArray(each))?.[1] ?? field.geometry.coordinates[0]?.[0]?.[1] ?? 0;
   let pixels = spacing / (frame.resolution * groundScale(lat));
-  while (pixels < NARROWEST_ROW) {
+  while (pixels < MIN_ROW_WIDTH) {
     pixels *= 2;
   }
   return pixels;
 }
 
-function drawRows(context, ring, direction, width, colour) {
+function drawRows(context, ring, direction, width, color) {
   const [left, top, right, bottom] = boxOf(ring);
   const radius = Math.hypot(right - left, bottom - top) / 2;
   context.translate((left + right) / 2, (top + bottom) / 2);
@@ -135,7 +135,7 @@ function drawRows(context, ring, direction, width, colour) {
     context.lineTo(x, radius);
   }
   context.lineWidth = Math.min(width * 0.55, 8);
-  context.strokeStyle = colour;
+  context.strokeStyle = color;
   context.stroke();
 }
 

@@ -1,4 +1,4 @@
-/** Places texts so that they cover neither symbols nor each other. */
+/** Finds positions for texts so that they cover neither symbols nor each other. */
 
 const LINE = 15;
 
@@ -7,7 +7,7 @@ export class LabelPlaces {
     this.cells = new Map();
   }
 
-  /** A box that no text may cover. */
+  /** Reserves a box that no text may cover. */
   block(left, top, right, bottom) {
     this.each(left, top, right, bottom, (key) => {
       const boxes = this.cells.get(key) ?? [];
@@ -34,7 +34,7 @@ export class LabelPlaces {
   }
 
   /**
-   * A place for a text beside a symbol: right, left, below or above it.
+   * Finds a position for a text right, left, below or above a symbol.
    *
    * @returns {{x: number, y: number}|null} the left end of its middle line
    */
@@ -54,7 +54,7 @@ export class LabelPlaces {
 
 const widths = new Map();
 
-/** Widths of texts, which are the same in every frame. */
+/** The width of a text, cached because it is the same in every frame. */
 export function widthOf(context, text) {
   const key = `${context.font}|${text}`;
   let width = widths.get(key);
@@ -66,14 +66,14 @@ export function widthOf(context, text) {
   return width;
 }
 
-/** A text with an edge of the background, readable on anything. */
-export function drawText(context, text, x, y, colour, edge) {
+/** Draws a text with an outline in the background color, readable on anything. */
+export function drawText(context, text, x, y, color, edge) {
   context.textAlign = 'left';
   context.textBaseline = 'middle';
   context.lineJoin = 'round';
   context.lineWidth = 3;
   context.strokeStyle = edge;
   context.strokeText(text, x, y);
-  context.fillStyle = colour;
+  context.fillStyle = color;
   context.fillText(text, x, y);
 }

@@ -1,4 +1,4 @@
-/** What the symbols mean, and how long a stretch on the map is. */
+/** The legend of symbols, and the scale bar. */
 import { distance } from '../core/format.js';
 import { h, replace } from '../core/dom.js';
 import { t } from '../texts.js';
@@ -6,7 +6,7 @@ import { readPalette } from './palette.js';
 import { trace } from './symbols.js';
 import { groundScale } from './projection.js';
 
-const WIDEST_BAR = 90;
+const MAX_BAR_WIDTH = 90;
 
 export function legend() {
   const items = h('ul.legend-items');
@@ -27,21 +27,21 @@ export function legend() {
     },
     scale(view) {
       const center = ol.proj.toLonLat(view.getCenter());
-      const meters = view.getResolution() * groundScale(center[1]) * WIDEST_BAR;
+      const meters = view.getResolution() * groundScale(center[1]) * MAX_BAR_WIDTH;
       const power = 10 ** Math.floor(Math.log10(meters));
       const round = [5, 2, 1].map((each) => each * power).find((each) => each <= meters) ?? power;
-      bar.style.width = `${Math.round(WIDEST_BAR * round / meters)}px`;
+      bar.style.width = `${Math.round(MAX_BAR_WIDTH * round / meters)}px`;
       length.textContent = distance(round).replace('.0', '');
     },
   };
 }
 
-function symbol(shape, colour) {
+function symbol(shape, color) {
   const canvas = h('canvas', { width: 40, height: 40, 'aria-hidden': 'true' });
   const context = canvas.getContext('2d');
   context.translate(20, 20);
   trace(context, shape, shape === 'robot' || shape === 'attention' ? 1.3 : 1.5);
-  context.fillStyle = colour;
+  context.fillStyle = color;
   context.fill();
   return canvas;
 }

@@ -1,4 +1,4 @@
-/** The map: fields, devices, encounters. */
+/** The map with fields, devices and encounters. */
 import { age } from '../core/format.js';
 import { h, replace } from '../core/dom.js';
 import { icon } from '../core/icons.js';
@@ -15,11 +15,14 @@ import { mapTables } from './table.js';
 import { tiles } from './tiles.js';
 
 const OPTIONS = ['trails', 'labels', 'rows'];
-/** Devices farther from the median than so many times the spread of the middle half, and at least so many meters, do not widen the first view. */
-const FAR = 8;
-const NEIGHBOURHOOD = 250;
-/** As near as one comes to a cluster. */
-const CLOSEST = 22;
+/**
+ * Devices farther from the median than `OUTLIER_SPREADS` times the interquartile range, and at least `MIN_SPREAD` meters, do not widen the first
+ * view.
+ */
+const OUTLIER_SPREADS = 8;
+const MIN_SPREAD = 250;
+/** Maximum zoom when opening a cluster. */
+const MAX_CLUSTER_ZOOM = 22;
 const MAX_LISTED = 100;
 const reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
 
@@ -42,11 +45,11 @@ class FurrowMap extends HTMLElement {
     replace(this, this.target, this.controls(), this.legend.element, this.tiles.attribution, this.tooltip, this.list, this.empty, this.table.element);
     this.createMap();
     this.legend.draw();
-    this.offs = this.listen();
+    this.subscriptions = this.listen();
   }
 
   disconnectedCallback() {
-    this.offs.forEach((off) => off());
+    this.subscriptions.forEach((unsubscribe) => unsubscribe());
     this.table.close();
     this.map.setTarget(null);
     this.map = null;
@@ -60,7 +63,7 @@ class FurrowMap extends HTMLElement {
     }
   }
 
-  /** Behind another view nothing is drawn. */
+  /** Draws unless another view covers the map. */
   draw() {
     this.hidden || this.map?.render();
   }
@@ -86,7 +89,7 @@ class FurrowMap extends HTMLElement {
     this.addEventListener('keydown', (event) => event.key === 'Escape' && (this.tooltip.hidden = true));
   }
 
-  /** @returns {(function())[]} that end it */
+  /** @returns {(function())[]} functions that unsubscribe */
   listen() {
     const draw = () => this.draw();
     const fieldsChanged = () => {
@@ -122,11 +125,11 @@ class FurrowMap extends HTMLElement {
 
   // --- the view ----------------------------------------------------------------------------------------------------
 
-  /** The farm fills the map until somebody moves it. */
+  /** Fits the view to the farm until the user moves it. */
   fitFirst() {
-    const shown = `${store.fields.size} ${store.primed} ${this.map?.getSize()}`;
-    if (!this.hidden && !this.moved && this.fitted !== shown) {
-      this.fitted = shown;
+    const state = `${store.fields.size} ${store.primed} ${this.map?.getSize()}`;
+    if (!this.hidden && !this.moved && this.fitted !== state) {
+      this.fitted = state;
       this.fit(0);
     }
   }
@@ -143,14 +146,14 @@ class FurrowMap extends HTMLElement {
     }
   }
 
-  /** Of the devices, but for those far from the middle half of them: one that is lost does not make the farm a dot. */
+  /** The extent of the devices without outliers, so that a lost one does not shrink the farm to a dot. */
   devicesExtent() {
     const points = [...store.entities.values()].filter((each) => each.position && isOnMap(...each.position) && store.inScope(each)).map((each) => project(...each.position));
     if (!points.length) {
       return null;
     }
-    const [x, y] = [0, 1].map((axis) => middleOf(points.map((point) => point[axis])));
-    const reach = Math.max(x.spread, y.spread, NEIGHBOURHOOD) * FAR;
+    const [x, y] = [0, 1].map((axis) => distributionOf(points.map((point) => point[axis])));
+    const reach = Math.max(x.spread, y.spread, MIN_SPREAD) * OUTLIER_SPREADS;
     const near = points.filter((point) => Math.abs(point[0] - x.median) <= reach && Math.abs(point[1] - y.median) <= reach);
     return ol.extent.buffer(ol.extent.boundingExtent(near.length ? near : points), 50);
   }
@@ -165,7 +168,7 @@ class FurrowMap extends HTMLElement {
     }
   }
 
-  /** Moves to the first device that matches the search; to the first field where no device does. */
+  /** Moves to the first device that matches the search, else to the first field that does. */
   find() {
     const [device] = [...store.entities.values()].filter((each) => store.inScope(each) && store.matches(each)).sort((a, b) => (a.name < b.name ? -1 : 1));
     const extent = this.fields.extent([...store.fields.values()].filter(isFound).slice(0, 1));
@@ -207,7 +210,7 @@ class FurrowMap extends HTMLElement {
     } else if (found) {
       const extent = ol.extent.boundingExtent(found.spots.map((each) => each.entity.xy));
       const spread = Math.max(ol.extent.getWidth(extent), ol.extent.getHeight(extent));
-      spread / this.view.getResolutionForZoom(CLOSEST) < CELL ? this.openList(found) : this.open(extent);
+      spread / this.view.getResolutionForZoom(MAX_CLUSTER_ZOOM) < CELL ? this.openList(found) : this.open(extent);
     } else {
       store.select(null);
     }
@@ -215,10 +218,10 @@ class FurrowMap extends HTMLElement {
 
   open(extent) {
     this.moved = true;
-    this.view.fit(ol.extent.buffer(extent, 5), { padding: [80, 80, 80, 80], maxZoom: CLOSEST, duration: reducedMotion.matches ? 0 : 300 });
+    this.view.fit(ol.extent.buffer(extent, 5), { padding: [80, 80, 80, 80], maxZoom: MAX_CLUSTER_ZOOM, duration: reducedMotion.matches ? 0 : 300 });
   }
 
-  /** Of devices that no zoom tells apart. */
+  /** Lists devices that cannot be distinguished at any zoom. */
   openList({ x, y, spots }) {
     const names = spots.map(({ entity }) => entity).sort((a, b) => (a.name < b.name ? -1 : 1)).slice(0, MAX_LISTED);
     replace(this.list,
@@ -229,7 +232,7 @@ class FurrowMap extends HTMLElement {
     const box = this.getBoundingClientRect();
     this.list.style.left = `${Math.max(8, Math.min(box.left + x + 12, innerWidth - 268))}px`;
     this.list.style.top = `${Math.max(8, Math.min(box.top + y + 12, innerHeight - 328))}px`;
-    // after the click is over, which would close it
+    // waits for the end of the click, which would close the list
     setTimeout(() => {
       this.list.showPopover();
       this.list.querySelector('button').focus();
@@ -268,7 +271,7 @@ class FurrowMap extends HTMLElement {
   }
 }
 
-function middleOf(values) {
+function distributionOf(values) {
   const sorted = values.sort((a, b) => a - b);
   const at = (share) => sorted[Math.floor(share * (sorted.length - 1))];
   return { median: at(0.5), spread: at(0.75) - at(0.25) };

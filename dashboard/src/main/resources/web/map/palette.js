@@ -1,11 +1,11 @@
-/** The tokens' colours for what is drawn on canvases. */
+/** Reads the design tokens' colors for drawing on canvases. */
 
 const NAMES = [
   'background', 'panel', 'raised', 'line', 'text', 'muted', 'accent', 'live', 'replay', 'warning', 'critical', 'on-critical', 'information',
   'field', 'field-row', 'field-border', 'kind-robot', 'kind-robot-2', 'kind-sensor', 'kind-camera', 'kind-other',
 ];
 
-/** @returns {Object<string, string>} by the token's name */
+/** @returns {Object<string, string>} colors by the token's name */
 export function readPalette() {
   const style = getComputedStyle(document.documentElement);
   const palette = Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
@@ -13,8 +13,8 @@ export function readPalette() {
   return palette;
 }
 
-/** Robots differ in colour, so that their trails can be told apart; others are coloured by kind. */
-export function colourOf(entity, palette) {
+/** The color of an entity. Robots have different colors, so that their trails can be distinguished; others have the color of their kind. */
+export function colorOf(entity, palette) {
   if (entity.kind === 'robot') {
     return hash(entity.id) % 2 === 0 ? palette['kind-robot'] : palette['kind-robot-2'];
   }

@@ -1,17 +1,14 @@
-/**
- * Reads tiles out of a PMTiles file of version 3, with requests of its parts:
- * https://github.com/protomaps/PMTiles/blob/main/spec/v3/spec.md
- */
+/** Reads tiles of a PMTiles file of version 3 with range requests: https://github.com/protomaps/PMTiles/blob/main/spec/v3/spec.md */
 
 const HEADER_BYTES = 127;
-/** The header and the root directory lie within. */
+/** The header and the root directory are within these. */
 const FIRST_BYTES = 16_384;
-const LEAVES_KEPT = 64;
+const MAX_LEAVES = 64;
 const MAX_LEVELS = 4;
 const GZIP = 2;
 const TYPES = { 2: 'image/png', 3: 'image/jpeg', 4: 'image/webp', 5: 'image/avif' };
 
-/** @typedef {{tile: number, offset: number, length: number, run: number}} Entry of a directory; without a run it is of a further directory */
+/** @typedef {{tile: number, offset: number, length: number, run: number}} Entry of a directory; without a run it refers to a leaf directory */
 
 export class PmtilesFile {
   constructor(url) {
@@ -25,14 +22,14 @@ export class PmtilesFile {
     return (await this.opened).header;
   }
 
-  /** What the file says of itself, such as its `attribution`. */
+  /** The metadata of the file, such as its `attribution`. */
   async metadata() {
     const { header } = await (this.opened ??= this.open());
     const [offset, length] = header.metadata;
-    return length ? JSON.parse(new TextDecoder().decode(await this.part(offset, length, header.compression))) : {};
+    return length ? JSON.parse(new TextDecoder().decode(await this.range(offset, length, header.compression))) : {};
   }
 
-  /** @returns {Promise<Blob|null>} the picture; null where the file has none */
+  /** @returns {Promise<Blob|null>} the image; null if the file has none */
   async tile(z, x, y, signal) {
     const { header, root } = await (this.opened ??= this.open());
     if (z < header.minZoom || z > header.maxZoom) {
@@ -46,7 +43,7 @@ export class PmtilesFile {
         return null;
       }
       if (entry.run > 0) {
-        return new Blob([await this.part(header.tiles + entry.offset, entry.length, header.tileCompression, signal)], { type: header.type });
+        return new Blob([await this.range(header.tiles + entry.offset, entry.length, header.tileCompression, signal)], { type: header.type });
       }
       directory = await this.leaf(header, entry);
     }
@@ -54,32 +51,32 @@ export class PmtilesFile {
   }
 
   async open() {
-    const first = await this.part(0, FIRST_BYTES);
+    const first = await this.range(0, FIRST_BYTES);
     const header = readHeader(first, this.url);
     const [offset, length] = header.root;
-    const root = offset + length <= first.byteLength ? await unpacked(first.slice(offset, offset + length), header.compression) : await this.part(offset, length, header.compression);
+    const root = offset + length <= first.byteLength ? await decompressed(first.slice(offset, offset + length), header.compression) : await this.range(offset, length, header.compression);
     return { header, root: readDirectory(root) };
   }
 
-  /** Those that were asked for last are kept. */
+  /** Reads a leaf directory; caches the most recently used ones. */
   leaf(header, { offset, length }) {
-    const cached = this.leaves.get(offset) ?? this.part(header.leaves + offset, length, header.compression).then(readDirectory);
+    const cached = this.leaves.get(offset) ?? this.range(header.leaves + offset, length, header.compression).then(readDirectory);
     this.leaves.delete(offset);
     this.leaves.set(offset, cached);
     cached.catch(() => this.leaves.delete(offset));
-    if (this.leaves.size > LEAVES_KEPT) {
+    if (this.leaves.size > MAX_LEAVES) {
       this.leaves.delete(this.leaves.keys().next().value);
     }
     return cached;
   }
 
   /** @returns {Promise<ArrayBuffer>} */
-  async part(offset, length, compression, signal) {
+  async range(offset, length, compression, signal) {
     const response = await fetch(this.url, { signal, headers: { Range: `bytes=${offset}-${offset + length - 1}` } });
     if (response.status !== 206) {
-      throw new Error(`${this.url} answers ${response.status} where a part of it was asked for`);
+      throw new Error(`${this.url} answers ${response.status} to a range request`);
     }
-    return unpacked(await response.arrayBuffer(), compression);
+    return decompressed(await response.arrayBuffer(), compression);
   }
 }
 
@@ -104,11 +101,13 @@ function readHeader(buffer, url) {
   };
 }
 
-async function unpacked(buffer, compression) {
+async function decompressed(buffer, compression) {
   return compression === GZIP ? new Response(new Blob([buffer]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer() : buffer;
 }
 
-/** Columns of varints: how many, ids as differences, runs, lengths, offsets, where 0 is the place behind the one before. @returns {Entry[]} */
+/**
+ * Reads columns of varints: count, ids as differences, runs, lengths, offsets; offset 0 means directly after the previous entry. @returns {Entry[]}
+ */
 function readDirectory(buffer) {
   const bytes = new Uint8Array(buffer);
   let at = 0;
@@ -129,13 +128,13 @@ function readDirectory(buffer) {
   entries.forEach((entry) => (entry.length = varint()));
   entries.forEach((entry, index) => {
     const offset = varint();
-    const before = entries[index - 1];
-    entry.offset = offset === 0 && before ? before.offset + before.length : offset - 1;
+    const previous = entries[index - 1];
+    entry.offset = offset === 0 && previous ? previous.offset + previous.length : offset - 1;
   });
   return entries;
 }
 
-/** The last entry that is not behind the id, if the id is in its run or its directory. */
+/** The last entry that is not after the id, if its run contains the id or it refers to a directory. */
 function find(entries, id) {
   let low = 0;
   let high = entries.length;
@@ -147,7 +146,7 @@ function find(entries, id) {
   return entry && (entry.run === 0 || id - entry.tile < entry.run) ? entry : null;
 }
 
-/** How many tiles come before it: those of all lower zooms, then along the Hilbert curve of its own. */
+/** The id of a tile: the number of tiles before it, at all lower zooms and along the Hilbert curve of its own. */
 export function tileId(z, x, y) {
   const size = 2 ** z;
   let id = (size * size - 1) / 3;

@@ -1,9 +1,9 @@
-/** Web Mercator, and from it to pixels of the frame that is drawn. */
+/** Projects to Web Mercator, and from there to pixels of a frame. */
 
 const RADIUS = 6_378_137;
 const LIMIT = 85.05;
 
-/** Whether a place can be drawn: Web Mercator ends before the poles. */
+/** Whether a position can be drawn: Web Mercator ends before the poles. */
 export function isOnMap(lon, lat) {
   return Number.isFinite(lon) && Number.isFinite(lat) && Math.abs(lon) <= 180 && Math.abs(lat) <= LIMIT;
 }
@@ -14,20 +14,20 @@ export function project(lon, lat) {
   return [RADIUS * lon * Math.PI / 180, RADIUS * Math.log(Math.tan(Math.PI / 4 + bounded * Math.PI / 360))];
 }
 
-/** A point of a trail, which keeps what it comes to. @param {import('../core/line.js').Line} trail */
+/** Projects a point of a trail, which caches the result. @param {import('../core/line.js').Line} trail */
 export function projectPoint(trail, index) {
   if (Number.isNaN(trail.x[index])) {
     [trail.x[index], trail.y[index]] = project(trail.lon[index], trail.lat[index]);
   }
 }
 
-/** How many meters on the ground a meter of the projection is there. */
+/** Meters on the ground per meter of the projection. */
 export function groundScale(lat) {
   return Math.cos(lat * Math.PI / 180);
 }
 
 /**
- * A canvas of the size of the map, and how coordinates come to pixels on it.
+ * Resizes a canvas to the map, and returns how coordinates are converted to its pixels.
  *
  * @param {HTMLCanvasElement} canvas
  * @param {Object} frameState of OpenLayers
@@ -49,7 +49,7 @@ export function frameOf(canvas, frameState) {
   };
 }
 
-/** A layer that a function draws on a canvas of its own. */
+/** Creates a layer with its own canvas, drawn by a function. */
 export function canvasLayer(draw, zIndex) {
   const canvas = document.createElement('canvas');
   canvas.className = 'map-canvas';

@@ -1,7 +1,7 @@
-/** Symbols of devices: shape says what it is and whether it needs a look, colour says kind. */
+/** Draws symbols of devices: the shape shows the kind and whether attention is needed, the color shows the kind. */
 
 const sprites = new Map();
-/** Directions in which an arrow is kept: to turn its picture each time takes ten times as long as to copy it. */
+/** Number of directions for which an arrow is cached: rotating an image takes ten times as long as copying it. */
 const DIRECTIONS = 72;
 
 /** Half of a symbol's width, px. */
@@ -19,16 +19,16 @@ export function clearSymbols() {
 }
 
 /** Draws the symbol of an entity at a point. */
-export function drawSymbol(context, entity, x, y, colour, palette, { alpha = 1, ratio = 1 } = {}) {
+export function drawSymbol(context, entity, x, y, color, palette, { alpha = 1, ratio = 1 } = {}) {
   const shape = shapeOf(entity);
   const needsAttention = entity.state === 'attention';
   const hollow = entity.state === 'off';
-  const fill = needsAttention ? palette.warning : entity.state === 'stale' ? palette.muted : colour;
+  const fill = needsAttention ? palette.warning : entity.state === 'stale' ? palette.muted : color;
   const turn = shape === 'robot' ? Math.round(((((entity.heading ?? 0) % 360) + 360) % 360) * DIRECTIONS / 360) % DIRECTIONS : 0;
   const image = sprite(shape, fill, palette.background, hollow, ratio, turn);
   const side = image.width / ratio;
   context.globalAlpha = alpha * (entity.state === 'stale' ? 0.55 : 1);
-  // on whole pixels, where a picture is copied and not blended
+  // on whole pixels, so that the image is copied and not blended
   context.drawImage(image, Math.round((x - side / 2) * ratio) / ratio, Math.round((y - side / 2) * ratio) / ratio, side, side);
   if (needsAttention && shape === 'robot') {
     drawBang(context, x, y, palette);
@@ -36,7 +36,7 @@ export function drawSymbol(context, entity, x, y, colour, palette, { alpha = 1, 
   context.globalAlpha = 1;
 }
 
-/** An arrow keeps its heading where it needs a look, and says so beside it. */
+/** Draws an exclamation mark beside an arrow, which keeps its shape to show the heading. */
 function drawBang(context, x, y, palette) {
   context.fillStyle = palette.warning;
   context.font = `700 13px ${palette.family}`;
@@ -75,7 +75,7 @@ function sprite(shape, fill, edge, hollow, ratio, turn) {
   return canvas;
 }
 
-/** Shapes around 0,0; an arrow points up. */
+/** Traces a shape around 0,0; an arrow points up. */
 export function trace(context, shape, scale = 1) {
   const s = SIZE[shape] * scale;
   context.beginPath();

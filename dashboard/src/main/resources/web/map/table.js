@@ -1,4 +1,4 @@
-/** What the map shows, as tables. */
+/** Shows the content of the map as tables. */
 import { age, distance, number, shortId, temperature } from '../core/format.js';
 import { h, replace } from '../core/dom.js';
 import { icon } from '../core/icons.js';
@@ -47,7 +47,7 @@ export function mapTables(onClose) {
   drawHead();
   return {
     element,
-    /** Once a second is often enough for whoever reads. */
+    /** Redraws at most once a second. */
     changed() {
       if (!element.hidden && waiting === null) {
         waiting = setTimeout(() => { waiting = null; draw(); }, REDRAW_MILLIS);
@@ -64,7 +64,7 @@ export function mapTables(onClose) {
   };
 }
 
-/** Nothing where there is nothing to tell. */
+/** Draws a table, or nothing if it has no rows. */
 function drawTable(place, name, columns, rows) {
   replace(place, rows.length > 0 && [h('h3', null, t(`map.tables.${name}`)), h('div.table-frame', null, h('table.table', { 'aria-label': t(`map.tables.${name}`) },
     h('thead', null, h('tr', null, columns.map((each) => h('th', { scope: 'col', class: NUMBERS.has(each) ? 'numbers' : '' }, t(`map.columns.${each}`))))),

@@ -1,9 +1,9 @@
-/** Map tiles below all else, where the server has some: by a URL, or out of a PMTiles file. */
+/** Adds map tiles as the lowest layer, if the server has some: by a URL, or from a PMTiles file. */
 import { h } from '../core/dom.js';
 import { store } from '../core/store.js';
 import { PmtilesFile } from './pmtiles.js';
 
-/** In a layer of canvases of its own, which the style sheet mutes. */
+/** The class of the layer, which the style sheet mutes. */
 const CLASS = 'map-tiles';
 
 /** @returns {{layers: object[], attribution: HTMLElement}} */
@@ -15,9 +15,9 @@ export function tiles() {
 }
 
 function layer(source) {
-  const made = new ol.layer.Tile({ className: CLASS, zIndex: 0 });
-  Promise.resolve(source).then((ready) => made.setSource(ready), (error) => console.warn('map tiles cannot be drawn:', error.message));
-  return made;
+  const created = new ol.layer.Tile({ className: CLASS, zIndex: 0 });
+  Promise.resolve(source).then((ready) => created.setSource(ready), (error) => console.warn('map tiles cannot be drawn:', error.message));
+  return created;
 }
 
 async function fileSource(file, attribution) {
@@ -33,7 +33,7 @@ async function fileSource(file, attribution) {
   });
 }
 
-/** Whose data it is, as text: files have it as markup. */
+/** Shows the attribution as text; files contain it as markup. */
 function attribute(element, markup) {
   if (typeof markup === 'string' && markup) {
     element.textContent = new DOMParser().parseFromString(markup, 'text/html').body.textContent;

@@ -1,33 +1,33 @@
-/** Starts and steers replays. */
+/** Starts and controls replays. */
 import { api } from '../core/api.js';
 import { store } from '../core/store.js';
 
-/** Between two jumps while the play head is dragged, ms. */
+/** Minimum interval between two seeks while the play head is dragged, ms. */
 const SEEK_INTERVAL = 400;
-/** After which a replay that was asked for is expected to be played. */
-const START_WITHIN = 20_000;
+/** Time within which a requested replay is expected to start, ms. */
+const START_TIMEOUT = 20_000;
 
 export const SPEEDS = [0.5, 1, 2, 4, 10, 30, 60, 'max'];
 
-/** The path of a replay, or of all that follow its clock. @param {{replay: string, group: string=}} of */
+/** The path of a replay, or of its group, which shares a clock. @param {{replay: string, group: string=}} replay */
 export function pathOf({ replay, group }) {
   return group ? `/api/replays/groups/${encodeURIComponent(group)}` : `/api/replays/${encodeURIComponent(replay)}`;
 }
 
-export function steer(of, command, body = {}) {
-  return api.post(`${pathOf(of)}/${command}`, body);
+export function steer(replay, command, body = {}) {
+  return api.post(`${pathOf(replay)}/${command}`, body);
 }
 
-export function stop(of) {
-  return api.del(pathOf(of));
+export function stop(replay) {
+  return api.del(pathOf(replay));
 }
 
 /**
- * Asks for a replay and shows it as soon as it is played.
+ * Requests a replay and shows it once it is played.
  *
  * @param {Object} plan body of `POST /api/replays`
  * @returns {Promise<string>} its name
- * @throws {import('../core/api.js').ApiError|Error} where it is refused, or nothing plays it
+ * @throws {import('../core/api.js').ApiError|Error} if it is rejected, or no job plays it
  */
 export async function startReplay(plan) {
   const answer = await api.post('/api/replays', plan);
@@ -37,15 +37,15 @@ export async function startReplay(plan) {
   return record.replay;
 }
 
-/** Resolves with the first replay that is meant and has a status. */
-function played(isMeant) {
-  const find = () => [...store.replays.values()].find((each) => isMeant(each) && each.topic && each.status);
+/** Resolves with the first replay that matches and has a status. */
+function played(isRequested) {
+  const find = () => [...store.replays.values()].find((each) => isRequested(each) && each.topic && each.status);
   return new Promise((resolve, reject) => {
     let off = () => {};
     const timer = setTimeout(() => {
       off();
       reject(new Error('not-played'));
-    }, START_WITHIN);
+    }, START_TIMEOUT);
     const update = () => {
       const found = find();
       if (found) {
@@ -59,33 +59,33 @@ function played(isMeant) {
   });
 }
 
-/** Jumps to where the play head is dragged, not more often than the replay can follow; the last one counts. */
+/** Seeks to the dragged play head, no more often than the replay can follow; the last position counts. */
 export class Seeking {
   /** @param {function(Error)} failed */
   constructor(failed) {
     this.failed = failed;
-    this.wanted = null;
+    this.target = null;
     this.busy = false;
   }
 
-  /** @param {number} time epoch ms @returns {Promise} resolves when nothing is to be sought any more */
-  to(time, of) {
-    this.wanted = Math.round(time);
-    return (this.running = this.busy ? this.running : this.run(of));
+  /** @param {number} time epoch ms @returns {Promise} resolves when no seek is pending */
+  to(time, replay) {
+    this.target = Math.round(time);
+    return (this.running = this.busy ? this.running : this.run(replay));
   }
 
-  async run(of) {
+  async run(replay) {
     this.busy = true;
-    while (this.wanted !== null) {
-      const to = this.wanted;
-      this.wanted = null;
-      const begun = Date.now();
+    while (this.target !== null) {
+      const to = this.target;
+      this.target = null;
+      const startedAt = Date.now();
       try {
-        await steer(of, 'seek', { to });
+        await steer(replay, 'seek', { to });
       } catch (error) {
         this.failed(error);
       }
-      await new Promise((resolve) => setTimeout(resolve, Math.max(0, SEEK_INTERVAL - (Date.now() - begun))));
+      await new Promise((resolve) => setTimeout(resolve, Math.max(0, SEEK_INTERVAL - (Date.now() - startedAt))));
     }
     this.busy = false;
   }

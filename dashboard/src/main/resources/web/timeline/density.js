@@ -1,8 +1,8 @@
-/** How many events missions have, bucket by bucket, as the control plane counts them in what is stored. */
+/** The number of stored events of missions per bucket, as counted by the control plane. */
 import { api } from '../core/api.js';
 
 const DEBOUNCE = 120;
-const AGAIN = 1_000;
+const POLL_INTERVAL = 1_000;
 const MAX_ATTEMPTS = 60;
 
 export class Density {
@@ -18,24 +18,27 @@ export class Density {
     this.key = null;
     /** Width of a bucket, ms. */
     this.width = 0;
-    /** Start of a bucket → events; null for one that is not counted yet. */
+    /** Start of a bucket → number of events; null if not counted yet. */
     this.counts = new Map();
     this.highest = 0;
     this.complete = false;
     this.error = null;
   }
 
-  /** @param {string[]} missions @param {number} from epoch ms @param {number} to @param {number} buckets at most */
-  want(missions, from, to, buckets) {
+  /**
+   * Loads the counts of a period. @param {string[]} missions @param {number} from epoch ms @param {number} to epoch ms @param {number} buckets
+   * maximum number
+   */
+  request(missions, from, to, buckets) {
     const key = `${missions} ${from} ${to} ${buckets}`;
     if (key !== this.key) {
       this.key = key;
       this.attempts = 0;
-      this.soon(() => this.load(missions, from, to, buckets), DEBOUNCE);
+      this.schedule(() => this.load(missions, from, to, buckets), DEBOUNCE);
     }
   }
 
-  soon(task, wait) {
+  schedule(task, wait) {
     clearTimeout(this.timer);
     this.timer = setTimeout(task, wait);
   }
@@ -59,7 +62,7 @@ export class Density {
       this.complete = error.status !== 0 && error.status !== 503;
     }
     if (!this.complete && ++this.attempts < MAX_ATTEMPTS) {
-      this.soon(() => this.load(missions, from, to, buckets), this.error ? 5 * AGAIN : AGAIN);
+      this.schedule(() => this.load(missions, from, to, buckets), this.error ? 5 * POLL_INTERVAL : POLL_INTERVAL);
     }
     this.changed();
   }
@@ -71,15 +74,15 @@ export class Density {
     for (const answer of answers) {
       answer.counts.forEach((count, index) => {
         const start = answer.from + index * answer.width;
-        const before = this.counts.get(start);
-        this.counts.set(start, count === null || before === null ? null : (before ?? 0) + count);
+        const sum = this.counts.get(start);
+        this.counts.set(start, count === null || sum === null ? null : (sum ?? 0) + count);
       });
     }
     this.highest = Math.max(0, ...this.counts.values());
   }
 }
 
-/** Null where nothing of the mission is stored in that stretch. */
+/** The counts of a mission; null if nothing of it is stored in the period. */
 async function timeline(mission, query, signal) {
   try {
     return await api.get(`/api/recordings/${encodeURIComponent(mission)}/timeline?${query}`, { signal });

@@ -1,13 +1,13 @@
-/** Paints the density of events, encounters and the axis on a canvas. */
+/** Draws the density of events, encounters and the axis on a canvas. */
 import { clock, day } from '../core/format.js';
 
 export const RULER = 18;
 const DAY = 86_400_000;
-const FLOOR = 3;
-/** Encounters closer to one another than so many px are drawn short. */
-const CLOSE = 24;
+const MIN_BAR_HEIGHT = 3;
+/** Encounters closer to each other than this are drawn short, px. */
+const MIN_SPACING = 24;
 
-/** The colours of the scheme that is in use. @param {Element} element */
+/** The colors of the current scheme. @param {Element} element */
 export function palette(element) {
   const style = getComputedStyle(element);
   const of = (name) => style.getPropertyValue(name).trim();
@@ -17,7 +17,7 @@ export function palette(element) {
   };
 }
 
-/** Makes a canvas as sharp as the screen. @returns {CanvasRenderingContext2D} in CSS pixels */
+/** Sizes a canvas for the resolution of the screen. @returns {CanvasRenderingContext2D} in CSS pixels */
 export function sharp(canvas, width, height) {
   const ratio = window.devicePixelRatio || 1;
   const [pixels, lines] = [Math.round(width * ratio), Math.round(height * ratio)];
@@ -31,17 +31,19 @@ export function sharp(canvas, width, height) {
 }
 
 /**
+ * Draws the timeline.
+ *
  * @param {CanvasRenderingContext2D} g
- * @param {{scale: import('./scale.js').Scale, density: {counts: Map, width: number, highest: number}, encounters: Array, range: {from: number, to: number}|null,
- *     position: number, colors: Object, height: number, kind: 'live'|'replay', hovered: number|null}} what
+ * @param {{scale: import('./scale.js').Scale, density: {counts: Map, width: number, highest: number}, encounters: Array, range: {from: number, to:
+ *     number}|null, position: number, colors: Object, height: number, kind: 'live'|'replay'}} state
  */
-export function draw(g, what) {
-  const { scale, height } = what;
+export function draw(g, state) {
+  const { scale, height } = state;
   g.clearRect(0, 0, scale.width, height);
-  drawAxis(g, what);
-  drawBars(g, what);
-  drawRange(g, what);
-  drawEncounters(g, what);
+  drawAxis(g, state);
+  drawBars(g, state);
+  drawRange(g, state);
+  drawEncounters(g, state);
 }
 
 function drawAxis(g, { scale, colors, height }) {
@@ -66,7 +68,7 @@ function drawAxis(g, { scale, colors, height }) {
 
 function drawBars(g, { scale, density, position, colors, height, kind }) {
   const { counts, width, highest } = density;
-  const room = (height - RULER) * 0.86;
+  const maxHeight = (height - RULER) * 0.86;
   const bar = (width / scale.length) * scale.width;
   const gap = bar >= 4 ? 1 : 0;
   for (const [start, count] of counts) {
@@ -77,18 +79,18 @@ function drawBars(g, { scale, density, position, colors, height, kind }) {
     if (count === null) {
       g.globalAlpha = 1;
       g.fillStyle = colors.line;
-      g.fillRect(x, height - FLOOR, Math.max(1, bar - gap), FLOOR);
+      g.fillRect(x, height - MIN_BAR_HEIGHT, Math.max(1, bar - gap), MIN_BAR_HEIGHT);
       continue;
     }
-    const tall = Math.max(FLOOR, (count / highest) * room);
+    const barHeight = Math.max(MIN_BAR_HEIGHT, (count / highest) * maxHeight);
     g.fillStyle = colors.bar;
     g.globalAlpha = kind === 'live' || start + width <= position ? 0.72 : 0.3;
-    g.fillRect(x, height - tall, Math.max(1, bar - gap), tall);
+    g.fillRect(x, height - barHeight, Math.max(1, bar - gap), barHeight);
   }
   g.globalAlpha = 1;
 }
 
-/** What is played over and over. */
+/** Draws the loop. */
 function drawRange(g, { scale, range, colors, height }) {
   if (!range) {
     return;
@@ -103,12 +105,12 @@ function drawRange(g, { scale, range, colors, height }) {
 
 function drawEncounters(g, { scale, encounters, colors, height }) {
   const shown = encounters.filter(({ start, end }) => scale.isShown(start, end));
-  // of many the bars have to be seen between them
-  const tall = shown.length * CLOSE > scale.width ? (height - RULER) * 0.3 : height - RULER;
+  // leaves the bars visible between many encounters
+  const lineHeight = shown.length * MIN_SPACING > scale.width ? (height - RULER) * 0.3 : height - RULER;
   g.fillStyle = colors.critical;
   for (const { start, end } of shown) {
     const x = Math.round(scale.x(start));
-    g.fillRect(x - 1, RULER, 2, tall);
-    g.fillRect(x - 1, height - FLOOR, Math.max(2, scale.x(end) - x), FLOOR);
+    g.fillRect(x - 1, RULER, 2, lineHeight);
+    g.fillRect(x - 1, height - MIN_BAR_HEIGHT, Math.max(2, scale.x(end) - x), MIN_BAR_HEIGHT);
   }
 }

@@ -1,14 +1,16 @@
-/** What a key means to the timeline, wherever the focus is. */
+/** Maps keys to actions of the timeline, wherever the focus is. */
 
 const TYPING = 'input, textarea, select, [contenteditable], dialog';
-/** Where keys have a meaning already. */
+/** Elements that use some keys themselves. */
 const PRESSED = 'button, a, summary, [role="button"], [role="menuitemradio"], [role="tab"]';
 const MOVED = 'furrow-map, [role="listbox"], [role="grid"], [role="tablist"], [role="menu"], .table-frame';
 
 /**
+ * The action of a key.
+ *
  * @param {KeyboardEvent} event
  * @param {Element} timeline
- * @returns {string|null} null where the key is not for the timeline
+ * @returns {string|null} null if the key is not for the timeline
  */
 export function keyOf(event, timeline) {
   const target = event.target instanceof Element ? event.target : document.body;

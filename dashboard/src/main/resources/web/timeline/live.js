@@ -1,14 +1,14 @@
-/** How much came in during the last quarter of an hour. */
+/** Counts the records of the last quarter of an hour. */
 import { api } from '../core/api.js';
 import { store } from '../core/store.js';
 
 export const LIVE_LENGTH = 15 * 60_000;
-/** As short as it may be where little came yet: some buckets. */
-const SHORTEST = 20_000;
+/** Minimum length shown while there are few records: some buckets. */
+const MIN_LENGTH = 20_000;
 const WIDTH = 5_000;
 const TOPIC = 'data.raw';
 
-/** Buckets that are over are as Kafka counts them; the newest one grows by what the page receives. */
+/** Counts per bucket: of complete buckets as counted by Kafka; of the newest one, as received by the page. */
 export class LiveDensity {
   /** @param {function()} changed */
   constructor(changed) {
@@ -23,15 +23,15 @@ export class LiveDensity {
     this.requestedAt = 0;
   }
 
-  /** Counts what came since the last call. Called each second, and when the page is seen again. */
+  /** Counts the records received since the last call. Called each second, and when the page becomes visible again. */
   tick() {
     const now = Date.now();
     const start = Math.floor(now / WIDTH) * WIDTH;
     const count = store.topics.get(TOPIC)?.count ?? null;
-    // what came while nobody counted, as in a replay, comes with the next answer
-    const came = this.seen === null || count === null || count < this.seen ? 0 : count - this.seen;
+    // records that arrived while nothing was counted, as in a replay, are part of the next response
+    const received = this.seen === null || count === null || count < this.seen ? 0 : count - this.seen;
     this.seen = count;
-    this.counts.set(start, (this.counts.get(start) ?? 0) + came);
+    this.counts.set(start, (this.counts.get(start) ?? 0) + received);
     for (const old of this.counts.keys()) {
       old < now - LIVE_LENGTH - WIDTH && this.counts.delete(old);
     }
@@ -42,28 +42,28 @@ export class LiveDensity {
     }
   }
 
-  /** The buckets up to the newest: all at first, then those since the last answer, and two before, as records may be late. */
+  /** Requests the buckets up to the newest: all at first, then those since the last response and two before it, as records may be late. */
   async request(start) {
     const from = this.countedTo === null ? start - LIVE_LENGTH : Math.max(start - LIVE_LENGTH, this.countedTo - 2 * WIDTH);
     try {
       const { counts } = await api.get(`/api/density/${TOPIC}?${new URLSearchParams({ from, to: start + WIDTH, width: WIDTH })}`);
       this.countedTo = start;
-      const counted = this.counts.get(start) ?? 0; // may have gone on since Kafka answered
+      const counted = this.counts.get(start) ?? 0; // may have increased since Kafka answered
       counts.forEach((count, index) => this.counts.set(from + index * WIDTH, count));
       this.counts.set(start, Math.max(counted, this.counts.get(start) ?? 0));
       this.show();
     } catch {
-      // until it is asked again the page's own count stands
+      // the page's own count is used until the next request
     }
   }
 
-  /** From the first record of the last quarter of an hour to now. */
+  /** From the first counted record of the last quarter of an hour to now. */
   extent() {
     const now = Date.now();
-    return [this.countedTo === null ? now - LIVE_LENGTH : Math.max(now - LIVE_LENGTH, Math.min(now - SHORTEST, this.first)), now];
+    return [this.countedTo === null ? now - LIVE_LENGTH : Math.max(now - LIVE_LENGTH, Math.min(now - MIN_LENGTH, this.first)), now];
   }
 
-  /** When the first of what is counted came, epoch ms. */
+  /** Start of the first bucket with records, epoch ms. */
   get first() {
     let first = Infinity;
     this.counts.forEach((count, start) => count > 0 && (first = Math.min(first, start)));

@@ -1,4 +1,4 @@
-/** A note for a moment. */
+/** The dialog for a marker. */
 import { h, replace } from '../core/dom.js';
 import { dateTime } from '../core/format.js';
 import { icon } from '../core/icons.js';
@@ -6,9 +6,9 @@ import { t } from '../texts.js';
 import { addMarker } from './moments.js';
 
 /**
- * Asks for a note and marks a moment with it.
+ * Opens a dialog that adds a marker with a note.
  *
- * @param {string} mission @param {number} time epoch ms @param {{added: function(), closed: function()}} then
+ * @param {string} mission @param {number} time epoch ms @param {{added: function(), closed: function()}} callbacks
  */
 export function openMarker(mission, time, { added, closed }) {
   const note = h('input', { type: 'text', id: 'tl-marker', maxlength: 1000, required: true, autocomplete: 'off' });

@@ -1,22 +1,24 @@
-/** Encounters and markers of missions: where something happened. */
+/** Reads encounters and markers of missions. */
 import { api } from '../core/api.js';
 import { shortId } from '../core/format.js';
 import { store } from '../core/store.js';
 
-/** Encounters of a pair that begin within so many ms are one that was found twice. */
-const SAME = 2_000;
+/** Encounters of a pair whose starts differ by at most this are the same one, found twice, ms. */
+const SAME_START = 2_000;
 
 /**
+ * An encounter of two devices.
+ *
  * @typedef {Object} Encounter
- * @property {string} id @property {string} a @property {string} b the keys that the page has for the devices @property {string} phase
- * @property {number} start @property {number} end epoch ms; the end of one that is not over is what is known of it
+ * @property {string} id @property {string} a @property {string} b keys of the devices in the page @property {string} phase
+ * @property {number} start @property {number} end epoch ms; of an ongoing encounter the time of its newest record
  * @property {number} closest meters @property {string[]} missions @property {number} epoch of a replay @property {[number, number]|null} at
  */
 
 /**
- * An encounter as its newest record tells it; predictions are none.
+ * Parses an encounter from its newest record; null for predictions and other records.
  *
- * @param {import('../core/stream.js').TopicRecord} record of `data.collision`, or of what was found in a replay
+ * @param {import('../core/stream.js').TopicRecord} record of `data.collision`, or of a replay's results
  * @returns {Encounter|null}
  */
 export function readEncounter(record) {
@@ -41,17 +43,18 @@ export function readEncounter(record) {
 }
 
 /**
- * What a topic holds of a stretch of time.
+ * Reads the records of a topic in a period.
  *
- * @param {{from: number, to: number=, newest: string=, limit: number=}} range epoch ms; `newest` names an attribute of whose values only the newest record comes
- * @returns {Promise<{records: import('../core/stream.js').TopicRecord[], since: number}>} `since`: from when on it is whole
+ * @param {{from: number, to: number=, newest: string=, limit: number=}} range epoch ms; `newest` names an attribute of which only the newest record
+ *     per value is returned
+ * @returns {Promise<{records: import('../core/stream.js').TopicRecord[], since: number}>} complete from `since` on
  */
 export async function history(topic, range, options) {
-  const given = Object.entries(range).filter(([, value]) => value !== undefined);
-  return api.get(`/api/history/${encodeURIComponent(topic)}?${new URLSearchParams(given)}`, options);
+  const present = Object.entries(range).filter(([, value]) => value !== undefined);
+  return api.get(`/api/history/${encodeURIComponent(topic)}?${new URLSearchParams(present)}`, options);
 }
 
-/** As {@link history}, of a topic that comes with its first record. */
+/** Like {@link history}; empty if the topic does not exist, since some topics are created with their first record. */
 export async function historyIfAny(topic, range, options) {
   try {
     return await history(topic, range, options);
@@ -63,33 +66,33 @@ export async function historyIfAny(topic, range, options) {
   }
 }
 
-/** Those of one list, and of the other what the first does not have. */
+/** Merges two lists; of an encounter in both, that of the first list is used. */
 export function union(encounters, others) {
   return [...encounters, ...others.filter((other) =>
-    !encounters.some((each) => each.a === other.a && each.b === other.b && Math.abs(each.start - other.start) <= SAME))]
+    !encounters.some((each) => each.a === other.a && each.b === other.b && Math.abs(each.start - other.start) <= SAME_START))]
     .sort((one, other) => one.start - other.start);
 }
 
-/** Encounters that were found live while a mission was recorded, as far as the topic holds them. */
+/** Encounters found live while a mission was recorded, as far as the topic retains them. */
 export async function encountersOf(missions, from, to) {
   const { records, since } = await historyIfAny('data.collision', { from: Math.floor(from), to: Math.ceil(to) + 1, newest: 'encounter' });
   const encounters = records.map(readEncounter).filter((each) => each && each.missions.some((mission) => missions.includes(mission)));
   return { encounters: union([], encounters), since };
 }
 
-/** All encounters that were found live since a time. */
+/** All encounters found live since a time. */
 export async function encountersSince(from) {
   const { records } = await historyIfAny('data.collision', { from: Math.floor(from), newest: 'encounter' });
   return union([], records.map(readEncounter).filter(Boolean));
 }
 
-/** Encounters that were found in a replay, of all its epochs. @param {string} topic of the replay */
+/** Encounters found in a replay, of all its epochs. @param {string} topic of the replay */
 export async function encountersIn(topic) {
   const { records } = await historyIfAny(`${topic}.collision`, { from: 0, newest: 'encounter' });
   return records.map(readEncounter).filter(Boolean).sort((one, other) => other.epoch - one.epoch).reduce((all, each) => union(all, [each]), []);
 }
 
-/** @returns {Promise<{id: string, mission: string, time: number, note: string, author: string}[]>} by time; none where no MongoDB keeps them */
+/** @returns {Promise<{id: string, mission: string, time: number, note: string, author: string}[]>} sorted by time; empty without a MongoDB */
 export async function markersOf(missions) {
   const lists = await Promise.all(missions.map((mission) => api.get(`/api/missions/${encodeURIComponent(mission)}/markers`).catch((error) => {
     if (error.status === 501 || error.status === 404) {

@@ -1,4 +1,4 @@
-/** The elements of the timeline. */
+/** Creates the elements of the timeline. */
 import { h, replace } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { t } from '../texts.js';

@@ -1,10 +1,10 @@
-/** Pointer, wheel and pinch on the track of the timeline. */
+/** Handles pointer, wheel and pinch on the track of the timeline. */
 import { store } from '../core/store.js';
 import { RULER } from './draw.js';
 
-/** A handle may be missed by so many px. */
-const NEAR = 8;
-const MOVED = 3;
+/** Distance within which a handle is hit, px. */
+const HIT_DISTANCE = 8;
+const MIN_DRAG = 3;
 
 export class Pointer {
   /** @param {HTMLElement} track @param {Object} timeline whose scale, seek, setLoop, choose, showTip, zoom and pan are used */
@@ -12,9 +12,9 @@ export class Pointer {
     this.track = track;
     this.timeline = timeline;
     this.points = new Map();
-    /** Where the play head is dragged, epoch ms; null unless it is. */
+    /** Time of the dragged play head, epoch ms; null if it is not dragged. */
     this.scrubbing = null;
-    /** The loop that is being drawn. */
+    /** The loop while it is drawn. */
     this.drawn = null;
     track.addEventListener('pointerdown', (event) => this.down(event));
     track.addEventListener('pointermove', (event) => this.moved(event));
@@ -81,7 +81,7 @@ export class Pointer {
       return null;
     }
     const distances = ['from', 'to'].map((edge) => [edge, Math.abs(scale.x(range[edge]) - x)]).sort((a, b) => a[1] - b[1]);
-    return distances[0][1] <= NEAR ? distances[0][0] : null;
+    return distances[0][1] <= HIT_DISTANCE ? distances[0][0] : null;
   }
 
   scrub({ x, time }) {
@@ -97,16 +97,16 @@ export class Pointer {
       event.pointerType === 'touch' || this.hover(at);
       return;
     }
-    const before = new Map(this.points);
+    const previous = new Map(this.points);
     this.points.set(event.pointerId, at);
     if (this.kind === 'pinch' && this.points.size === 2) {
-      this.pinch([...before.values()], [...this.points.values()]);
+      this.pinch([...previous.values()], [...this.points.values()]);
     } else if (this.kind === 'scrub') {
       this.scrub(at);
     } else if (this.kind === 'choose') {
       this.timeline.showTip(at.x, at.time);
       this.timeline.choose(at.time);
-    } else if (this.kind === 'loop' && Math.abs(at.x - this.origin.x) > MOVED) {
+    } else if (this.kind === 'loop' && Math.abs(at.x - this.origin.x) > MIN_DRAG) {
       this.drawn = { from: Math.min(at.time, this.origin.time), to: Math.max(at.time, this.origin.time) };
       this.timeline.showTip(at.x, at.time);
       this.timeline.redraw();

@@ -1,4 +1,4 @@
-/** Which stretch of time lies between two edges in pixels, and how it zooms and pans within an extent. */
+/** Maps times to pixels, and zooms and pans within an extent. */
 import { ofWallClock, wallClock } from '../core/local-time.js';
 
 const SECOND = 1000;
@@ -9,8 +9,8 @@ const STEPS = [
   SECOND, 2 * SECOND, 5 * SECOND, 10 * SECOND, 15 * SECOND, 30 * SECOND, MINUTE, 2 * MINUTE, 5 * MINUTE, 10 * MINUTE, 15 * MINUTE, 30 * MINUTE,
   HOUR, 2 * HOUR, 3 * HOUR, 6 * HOUR, 12 * HOUR, DAY, 2 * DAY, 7 * DAY, 28 * DAY,
 ];
-const SHORTEST = 2 * SECOND;
-/** Room for a label and air, px. */
+const MIN_LENGTH = 2 * SECOND;
+/** Width of a label with its spacing, px. */
 const LABEL = 84;
 
 export class Scale {
@@ -28,10 +28,10 @@ export class Scale {
     return this.from <= this.extent[0] && this.to >= this.extent[1];
   }
 
-  /** The time that there is. What was seen whole stays so while it grows. */
+  /** Sets the extent. If all of it was visible, it stays so as it grows. */
   setExtent(from, to) {
     const whole = this.isWhole;
-    this.extent = [from, Math.max(to, from + SHORTEST)];
+    this.extent = [from, Math.max(to, from + MIN_LENGTH)];
     whole ? ([this.from, this.to] = this.extent) : this.clamp();
   }
 
@@ -51,11 +51,11 @@ export class Scale {
     return to >= this.from && from <= this.to;
   }
 
-  /** @param {number} factor below 1 zooms in @param {number} x stays where it is */
+  /** @param {number} factor below 1 zooms in @param {number} x stays at its position */
   zoom(factor, x) {
     const at = this.time(x);
     const whole = this.extent[1] - this.extent[0];
-    const length = Math.min(whole, Math.max(Math.min(SHORTEST, whole), this.length * factor));
+    const length = Math.min(whole, Math.max(Math.min(MIN_LENGTH, whole), this.length * factor));
     this.from = at - (x / this.width) * length;
     this.to = this.from + length;
     this.clamp();
@@ -67,7 +67,7 @@ export class Scale {
     this.clamp();
   }
 
-  /** Brings a time into view where it is not. */
+  /** Pans to a time that is out of view. */
   reveal(time) {
     if (time < this.from || time > this.to) {
       this.pan(time - this.from - this.length * 0.1);
@@ -80,11 +80,11 @@ export class Scale {
     this.to = this.from + length;
   }
 
-  /** Times to write on the axis, round ones of the local clock. @returns {{step: number, times: number[]}} */
+  /** Times of labels on the axis, rounded in local time. @returns {{step: number, times: number[]}} */
   ticks() {
-    const atLeast = (this.length / this.width) * LABEL;
-    const step = STEPS.find((each) => each >= atLeast) ?? Math.ceil(atLeast / (28 * DAY)) * 28 * DAY;
-    // up to an hour each step is as long as the next; above it comes at the same hours of the clock, also across a change of it
+    const minStep = (this.length / this.width) * LABEL;
+    const step = STEPS.find((each) => each >= minStep) ?? Math.ceil(minStep / (28 * DAY)) * 28 * DAY;
+    // steps up to an hour have equal lengths; longer ones stay at the same hours of the local clock across its changes
     const first = Math.ceil(wallClock(this.from) / step) * step;
     const timeOf = step > HOUR ? ofWallClock : (wall) => wall - wallClock(this.from) + this.from;
     const times = [];

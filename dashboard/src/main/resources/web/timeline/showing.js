@@ -1,4 +1,4 @@
-/** Says in words and marks what the timeline shows. */
+/** Updates the texts and marks of the timeline. */
 import { h, replace, setText } from '../core/dom.js';
 import { clock, dateTime, distance, span } from '../core/format.js';
 import { icon } from '../core/icons.js';
@@ -10,10 +10,10 @@ const MINUTE = 60_000;
 const DAY = 86_400_000;
 const MAX_FLAGS = 80;
 const NOTE_SHOWN = 8_000;
-/** A replay that waits no longer is not worth a word. */
-const WAITED = 3_000;
+/** Time for which a replay must wait until that is reported, ms. */
+const MIN_WAIT = 3_000;
 
-/** @template T @param {T} Base @returns {T} with what is shown */
+/** @template T @param {T} Base @returns {T} with methods that show the state */
 export const Showing = (Base) => class extends Base {
   showTime() {
     if (store.isReplay) {
@@ -55,9 +55,9 @@ export const Showing = (Base) => class extends Base {
   }
 
   showState() {
-    const counts = `${counted('encounter', this.countShown(this.encounters, 'start'))} · ${counted('marker', this.countShown(this.markers, 'time'))}`;
+    const counts = `${countText('encounter', this.countShown(this.encounters, 'start'))} · ${countText('marker', this.countShown(this.markers, 'time'))}`;
     if (!store.isReplay) {
-      setText(this.sub, `${lately(this.extent[1] - this.extent[0])} · ${counted('encounter', this.encounters.length)}`);
+      setText(this.sub, `${periodText(this.extent[1] - this.extent[0])} · ${countText('encounter', this.encounters.length)}`);
       return;
     }
     const { state } = this;
@@ -66,7 +66,7 @@ export const Showing = (Base) => class extends Base {
     this.sub.title = reason ?? '';
     this.classList.toggle('over', ['ended', 'stopped', 'failed', 'over'].includes(state));
     this.waitingSince = state === 'waiting' ? this.waitingSince ?? Date.now() : null;
-    const text = state === 'failed' || (state === 'waiting' && Date.now() - this.waitingSince > WAITED) ? reason ?? null : null;
+    const text = state === 'failed' || (state === 'waiting' && Date.now() - this.waitingSince > MIN_WAIT) ? reason ?? null : null;
     if (text !== this.shownReason) {
       this.announce(text ?? '', true);
     }
@@ -112,7 +112,7 @@ export const Showing = (Base) => class extends Base {
     }
   }
 
-  /** The mission in scope, else the only one of which something was stored lately. */
+  /** The mission in scope, else the only one with a recent recording. */
   missionToReplay() {
     if (store.scope.mission) {
       return store.recordings.has(store.scope.mission) ? store.scope.mission : null;
@@ -130,9 +130,9 @@ export const Showing = (Base) => class extends Base {
     }
   }
 
-  /** The loop that is drawn, else that of the replay. */
+  /** The loop while it is drawn, else that of the replay. */
   get range() {
-    return this.pointer?.drawn ?? (store.isReplay ? store.mode.range ?? this.half ?? null : null);
+    return this.pointer?.drawn ?? (store.isReplay ? store.mode.range ?? null : null);
   }
 
   showCover() {
@@ -155,7 +155,7 @@ export const Showing = (Base) => class extends Base {
     }
   }
 
-  /** Markers are buttons for who may jump: each leads to its moment. */
+  /** Draws markers; for users who may seek they are buttons. */
   showFlags() {
     const shown = this.markers.filter((each) => this.scale.isShown(each.time)).slice(0, MAX_FLAGS);
     const may = store.may('operate');
@@ -170,7 +170,7 @@ export const Showing = (Base) => class extends Base {
     shown.forEach((marker, index) => (this.flags.children[index].style.transform = `translateX(${this.scale.x(marker.time)}px)`));
   }
 
-  /** @param {number|null} x null hides it @param {number} time */
+  /** Shows a tip. @param {number|null} x null hides it @param {number} time */
   showTip(x, time) {
     this.tip.hidden = x === null;
     if (x === null) {
@@ -186,11 +186,11 @@ export const Showing = (Base) => class extends Base {
     this.tip.style.transform = `translateX(${Math.max(0, Math.min(this.scale.width - 2 * half, x - half))}px)`;
   }
 
-  announce(words, lasting = false) {
+  announce(words, isPermanent = false) {
     clearTimeout(this.noteTimer);
     setText(this.note, words);
     this.classList.toggle('noted', words !== '');
-    if (!lasting && words) {
+    if (!isPermanent && words) {
       this.noteTimer = setTimeout(() => this.announce(''), NOTE_SHOWN);
     }
   }
@@ -202,10 +202,10 @@ export const Showing = (Base) => class extends Base {
   }
 };
 
-function counted(thing, count) {
+function countText(thing, count) {
   return t(`timeline.${count === 1 ? thing : `${thing}s`}`, { count });
 }
 
-function lately(ms) {
+function periodText(ms) {
   return ms < MINUTE ? t('timeline.lastSeconds', { seconds: Math.round(ms / SECOND) }) : t('timeline.lastMinutes', { minutes: Math.round(ms / MINUTE) });
 }

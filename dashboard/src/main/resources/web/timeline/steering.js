@@ -1,4 +1,4 @@
-/** Steers the replay that is shown, and starts others. */
+/** Controls the replay that is shown, and starts others. */
 import { h, replace } from '../core/dom.js';
 import { dateTime } from '../core/format.js';
 import { icon } from '../core/icons.js';
@@ -9,8 +9,8 @@ import { t } from '../texts.js';
 import { startReplay, steer } from './control.js';
 
 const SECOND = 1_000;
-/** What replays there are is known after so many ms. */
-const LISTED_WITHIN = 3_000;
+/** Time within which the list of replays is known, ms. */
+const LIST_TIMEOUT = 3_000;
 
 /** @template T @param {T} Base @returns {T} with commands */
 export const Steering = (Base) => class extends Base {
@@ -52,16 +52,16 @@ export const Steering = (Base) => class extends Base {
     const at = Math.min(Math.max(time, from), to - 1);
     const loop = store.mode.range;
     if (loop && (at < loop.from || at >= loop.to)) {
-      // only what lies in a loop can be sought: who jumps out of it ends it
+      // only positions inside the loop can be sought: a seek out of it ends it
       return dragging ? Promise.resolve() : this.setLoop(null).then(() => store.mode.range || this.seek(at));
     }
-    this.jumped = { to: at, at: Date.now() };
+    this.sought = { to: at, at: Date.now() };
     dragging || this.scale.reveal(at);
     this.redraw();
-    return this.seeking.to(at, store.mode).then(() => this.jumped && (this.jumped.at = Date.now()));
+    return this.seeking.to(at, store.mode).then(() => this.sought && (this.sought.at = Date.now()));
   }
 
-  /** By events; those of a group are steered by their clock alone. */
+  /** Steps by events; a group by its clock. */
   async step(count) {
     if (store.mode.group) {
       await this.seek(this.position + count * SECOND);
@@ -86,7 +86,6 @@ export const Steering = (Base) => class extends Base {
 
   async toggleLoop() {
     if (this.range) {
-      this.half = null;
       await this.setLoop(null);
     } else {
       const from = this.position;
@@ -107,7 +106,7 @@ export const Steering = (Base) => class extends Base {
     }
   }
 
-  /** `[` and `]`: one end, and with the other the loop. */
+  /** Sets one end of the loop by `[` or `]`; the other is the end of the mission unless it is set. */
   setEdge(edge) {
     const other = edge === 'from' ? 'to' : 'from';
     const range = this.range;
@@ -131,7 +130,7 @@ export const Steering = (Base) => class extends Base {
     this.replayIt.disabled = false;
   }
 
-  /** A link to a moment of a replay that is over: it can be started there. */
+  /** Offers to start a replay at the moment of a link, if the linked replay no longer exists. */
   openLink() {
     const { replay, mission, at } = route.query;
     const time = /^\d+$/.test(at ?? '') ? Number(at) : Date.parse(at);
@@ -153,7 +152,7 @@ export const Steering = (Base) => class extends Base {
           store.may('operate') && h('button.button.primary.small', { type: 'button', on: { click: () => { close(); this.startAt(missions, time); } } }, icon('play', 16), t('replays.linkStart')),
           h('button.button.small.quiet', { type: 'button', on: { click: close } }, t(store.may('operate') ? 'timeline.cancel' : 'missions.close'))));
       this.offer.hidden = false;
-    }, replay ? LISTED_WITHIN : 0);
+    }, replay ? LIST_TIMEOUT : 0);
   }
 
   async startAt(missions, time) {

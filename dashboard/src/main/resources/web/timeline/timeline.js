@@ -1,4 +1,4 @@
-/** The timeline below the map: what came in lately, or where a replay is and how it is steered. */
+/** The timeline below the map: recent records, or the position and controls of a replay. */
 import { replace } from '../core/dom.js';
 import { onRoute } from '../core/router.js';
 import { store } from '../core/store.js';
@@ -18,14 +18,14 @@ import { Steering } from './steering.js';
 const BAR = 6;
 const JUMP = 10_000;
 const SECOND = 1_000;
-/** Encounters and markers are looked for again after so many ms. */
+/** Interval at which encounters and markers are read, ms. */
 const MOMENTS_INTERVAL = 15_000;
-/** A jump that was asked for is shown at once, until the replay says so itself. */
-const SETTLES_WITHIN = 3_000;
-/** Where the replay is after a jump may differ by so many ms. */
-const NEAR = 1_500;
-/** Encounters of a pair that begin within so many ms are one. */
-const SAME = 2_000;
+/** Time for which a requested seek is shown until the replay reports its position, ms. */
+const SEEK_TIMEOUT = 3_000;
+/** Accepted difference between a requested position and the reported one, ms. */
+const SEEK_TOLERANCE = 1_500;
+/** Encounters of a pair whose starts differ by at most this are the same one, ms. */
+const SAME_START = 2_000;
 
 class Timeline extends Parts(Showing(Steering(HTMLElement))) {
   connectedCallback() {
@@ -34,9 +34,9 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     this.density = new Density(() => this.redraw());
     this.encounters = [];
     this.markers = [];
-    this.jumped = null;
+    this.sought = null;
     this.moment = null;
-    this.seeking = new Seeking((error) => { this.jumped = null; this.announce(error.message); });
+    this.seeking = new Seeking((error) => { this.sought = null; this.announce(error.message); });
     this.build();
     this.pointer = new Pointer(this.track, this);
     this.observer = new ResizeObserver(() => this.resized());
@@ -45,7 +45,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     this.onScheme = () => { this.colors = null; this.redraw(); };
     document.addEventListener('keydown', this.onKey);
     window.addEventListener('schemechange', this.onScheme);
-    this.offs = [
+    this.subscriptions = [
       store.on('mode', () => this.modeChanged()),
       store.on('clock', () => this.tick()),
       store.on('encounters', () => this.applyEncounters()),
@@ -63,7 +63,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
   }
 
   disconnectedCallback() {
-    this.offs.forEach((off) => off());
+    this.subscriptions.forEach((unsubscribe) => unsubscribe());
     clearTimeout(this.linking);
     clearInterval(this.timer);
     clearTimeout(this.noteTimer);
@@ -73,7 +73,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     window.removeEventListener('schemechange', this.onScheme);
   }
 
-  /** The play head glides, or steps where motion is not wanted. */
+  /** Interval of the play head: it moves smoothly, or in steps if motion is to be reduced. */
   stepTime() {
     return matchMedia('(prefers-reduced-motion: reduce)').matches ? SECOND : 100;
   }
@@ -84,7 +84,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     this.classList.toggle('replay', replaying);
     if (key !== this.shown) {
       this.shown = key;
-      this.jumped = null;
+      this.sought = null;
       this.moment = null;
       this.encounters = [];
       this.markers = [];
@@ -104,12 +104,12 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
       return this.live.extent();
     }
     const { position, missions, replay } = store.mode;
-    // what was asked for; the mission itself may go on
+    // the requested range; the mission may still be recorded
     const requested = store.replays.get(replay);
     const [from, to] = [requested?.from ?? store.mode.from, requested?.to ?? store.mode.to];
     const recordings = (missions ?? []).map((each) => store.recordings.get(each)).filter(Boolean);
     const begin = Math.min(...recordings.map((each) => each.first));
-    // what lies before the recording cannot be sought
+    // positions before the recording cannot be sought
     const first = from !== undefined && recordings.length && !requested?.source ? Math.max(from, begin) : from ?? begin;
     const last = Math.max(to ?? 0, ...recordings.filter(() => to === undefined).map((each) => each.last));
     this.bounded = Number.isFinite(first) && last > first;
@@ -120,19 +120,19 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     this.scale.setExtent(...this.extent);
   }
 
-  /** What is shown, epoch ms. */
+  /** The position shown, epoch ms. */
   get position() {
     if (this.pointer?.scrubbing !== null && this.pointer?.scrubbing !== undefined) {
       return this.pointer.scrubbing;
     }
-    const { jumped } = this;
-    if (jumped) {
+    const { sought } = this;
+    if (sought) {
       const { speed, position } = store.mode;
-      const near = Math.abs(position - jumped.to) <= NEAR + NEAR * (typeof speed === 'number' ? speed : 1);
-      if (this.seeking.busy || (Date.now() - jumped.at < SETTLES_WITHIN && !near)) {
-        return jumped.to;
+      const near = Math.abs(position - sought.to) <= SEEK_TOLERANCE + SEEK_TOLERANCE * (typeof speed === 'number' ? speed : 1);
+      if (this.seeking.busy || (Date.now() - sought.at < SEEK_TIMEOUT && !near)) {
+        return sought.to;
       }
-      this.jumped = null;
+      this.sought = null;
     }
     return store.now();
   }
@@ -145,11 +145,11 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     this.redraw();
   }
 
-  /** Each second, and with each status of a replay. */
+  /** Updates each second, and with each status of a replay. */
   tick() {
     this.extend();
     if (Date.now() - this.lastMoments > (store.isReplay ? MOMENTS_INTERVAL : LIVE_LENGTH)) {
-      this.findMoments();
+      this.loadMoments();
     }
     store.isReplay || this.live.tick();
     this.showState();
@@ -170,7 +170,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     this.colors ??= palette(this);
     const replaying = store.isReplay;
     if (replaying && this.bounded && store.mode.missions?.length) {
-      this.density.want(store.mode.missions, scale.from, scale.to, Math.max(20, Math.floor(scale.width / BAR)));
+      this.density.request(store.mode.missions, scale.from, scale.to, Math.max(20, Math.floor(scale.width / BAR)));
     }
     this.canvas.style.width = `${scale.width}px`;
     this.canvas.style.height = `${height}px`;
@@ -185,7 +185,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     this.move();
   }
 
-  /** The play head alone; the rest only where a bucket was passed. */
+  /** Moves the play head; redraws the rest only when it enters another bucket. */
   move() {
     const at = store.isReplay ? this.position : this.moment ?? Date.now();
     if (!store.isReplay && this.moment === null) {
@@ -202,9 +202,9 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     this.showTime();
   }
 
-  // --- what happened -----------------------------------------------------------------------------------------------
+  // --- encounters and markers --------------------------------------------------------------------------------------
 
-  async findMoments() {
+  async loadMoments() {
     const shown = this.shown;
     if (this.finding === shown || (store.isReplay && !this.bounded)) {
       return;
@@ -219,13 +219,13 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
         : [{ encounters: await encountersSince(Date.now() - LIVE_LENGTH).catch(() => null) }, [], []];
       if (shown === this.shown && this.isConnected) {
         if (live.encounters === null) {
-          this.lastMoments += MOMENTS_INTERVAL - LIVE_LENGTH; // not read; asked again soon
+          this.lastMoments += MOMENTS_INTERVAL - LIVE_LENGTH; // the request failed and is repeated soon
           return;
         }
         this.encounters = union(live.encounters, replayed);
         this.markers = markers;
         this.flagKey = null;
-        this.applyEncounters(); // those that came while the history was read
+        this.applyEncounters(); // those that arrived during the request
         this.showState();
       }
     } finally {
@@ -233,14 +233,14 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     }
   }
 
-  /** Those that come meanwhile. */
+  /** Applies encounters from the stream. */
   applyEncounters() {
     let changed = false;
     for (const each of store.encounters.values()) {
       if (!['started', 'ongoing', 'ended', 'crossed'].includes(each.phase)) {
         continue;
       }
-      const existing = this.encounters.find((one) => one.a === each.a && one.b === each.b && Math.abs(one.start - each.start) <= SAME);
+      const existing = this.encounters.find((one) => one.a === each.a && one.b === each.b && Math.abs(one.start - each.start) <= SAME_START);
       if (existing) {
         existing.end = Math.max(existing.end, each.time);
         existing.closest = Math.min(existing.closest, each.minDistance);
@@ -260,7 +260,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
   openMarker() {
     if (store.isReplay && store.may('operate')) {
       openMarker(store.mode.mission, this.position, {
-        added: () => this.findMoments(), closed: () => this.track.focus({ preventScroll: true }),
+        added: () => this.loadMoments(), closed: () => this.track.focus({ preventScroll: true }),
       });
     }
   }
@@ -278,7 +278,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     this.redraw();
   }
 
-  /** A click or drag in what is live chooses the moment from which a mission would be played. */
+  /** A click or drag in live data chooses the moment from which a mission would be replayed. */
   choose(time) {
     if (!store.may('operate')) {
       return;

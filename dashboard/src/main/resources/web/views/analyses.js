@@ -1,4 +1,4 @@
-/** What analytics found: averages of fields, encounters, presence. In a replay what was found in it. */
+/** Shows the results of analytics: averages of fields, encounters and presence, live or of a replay. */
 import { h, replace, setText } from '../core/dom.js';
 import { clock, dateTime, duration, temperature } from '../core/format.js';
 import { icon } from '../core/icons.js';
@@ -15,8 +15,8 @@ import { PresenceBars } from './analyses/presence.js';
 const MINUTE = 60_000;
 const PERIODS = [15 * MINUTE, 60 * MINUTE, 6 * 60 * MINUTE, 24 * 60 * MINUTE];
 const TICK = 5_000;
-/** How long before an encounter its replay begins, ms. */
-const BEFORE = 5_000;
+/** Time before an encounter at which its replay begins, ms. */
+const LEAD_MILLIS = 5_000;
 const MAX_ROWS = 500;
 
 class Analyses extends HTMLElement {
@@ -24,18 +24,18 @@ class Analyses extends HTMLElement {
     this.period = PERIODS[1];
     this.tables = new Set();
     this.chart = new AveragesChart();
-    this.encounters = new EncounterTable((each) => this.lead(each));
-    this.presence = new PresenceBars((stay) => this.lead({ start: stay.from + BEFORE, missions: [stay.mission].filter(Boolean), a: stay.device }));
+    this.encounters = new EncounterTable((each) => this.showMoment(each));
+    this.presence = new PresenceBars((stay) => this.showMoment({ start: stay.from + LEAD_MILLIS, missions: [stay.mission].filter(Boolean), a: stay.device }));
     this.build();
-    this.offs = [
-      store.on('mode', () => this.modeChanged()), store.on('fields', () => this.soon()), store.on('recordings', () => this.soon()), store.on('me', () => this.soon()),
+    this.subscriptions = [
+      store.on('mode', () => this.modeChanged()), store.on('fields', () => this.schedule()), store.on('recordings', () => this.schedule()), store.on('me', () => this.schedule()),
     ];
     this.timer = setInterval(() => document.hidden || this.show(), TICK);
     this.load();
   }
 
   disconnectedCallback() {
-    this.offs.forEach((off) => off());
+    this.subscriptions.forEach((unsubscribe) => unsubscribe());
     clearInterval(this.timer);
     cancelAnimationFrame(this.frame);
     this.findings?.close();
@@ -44,7 +44,7 @@ class Analyses extends HTMLElement {
   }
 
   build() {
-    this.lead1 = h('p.muted');
+    this.subtitle = h('p.muted');
     this.periods = h('div.segments', { role: 'group', 'aria-label': t('analyses.period') }, PERIODS.map((period) => h('button.button.small', {
       type: 'button', data: { period }, on: { click: () => this.choose(period) },
     }, period < 60 * MINUTE ? t('analyses.quarter') : t('analyses.hours', { hours: period / 60 / MINUTE }))));
@@ -52,7 +52,7 @@ class Analyses extends HTMLElement {
     this.failed = h('div', { hidden: true });
     this.parts = Object.fromEntries(['averages', 'encounters', 'presence'].map((name) => [name, this.part(name)]));
     replace(this, h('div.view', null,
-      h('header', null, h('div', null, h('h1', null, t('analyses.title')), this.lead1), h('span.spacer'), this.periods),
+      h('header', null, h('div', null, h('h1', null, t('analyses.title')), this.subtitle), h('span.spacer'), this.periods),
       this.failed, this.note, Object.values(this.parts).map((each) => each.element)));
   }
 
@@ -86,7 +86,7 @@ class Analyses extends HTMLElement {
     return store.isReplay ? `${store.mode.replay}` : 'live';
   }
 
-  /** Of a replay with analytics what was found in it; else what was found live. */
+  /** Loads the results of a replay with analytics, else live results. */
   load() {
     this.modeKey = this.keyOfMode();
     this.findings?.close();
@@ -96,12 +96,12 @@ class Analyses extends HTMLElement {
       ? { averages: mode.results.temperature, encounters: mode.results.collision, stays: mode.results.presence }
       : { averages: 'data.temperature', encounters: 'data.collision', stays: 'data.presence' };
     this.replayed = replayed;
-    this.findings = new Findings(topics, this.range, { replay: replayed, changed: () => this.soon() });
+    this.findings = new Findings(topics, this.range, { replay: replayed, changed: () => this.schedule() });
     this.periods.hidden = store.isReplay;
     for (const button of this.periods.children) {
       button.setAttribute('aria-pressed', String(Number(button.dataset.period) === this.period));
     }
-    setText(this.lead1, !replayed ? t('analyses.live') : t('analyses.replay', { mission: mode.missions.join(' + ') }));
+    setText(this.subtitle, !replayed ? t('analyses.live') : t('analyses.replay', { mission: mode.missions.join(' + ') }));
     setText(this.note, store.isReplay && !replayed ? t('analyses.noAnalytics') : '');
     this.note.hidden = this.note.textContent === '';
     this.show();
@@ -118,13 +118,13 @@ class Analyses extends HTMLElement {
     return [now - this.period, now];
   }
 
-  /** Begins with what there is, so that a young suite is not shown as an empty hour. */
+  /** Begins with the oldest result, so that a suite that has just started does not show an empty hour. */
   fitted([from, to]) {
     const first = this.findings.first;
     return store.isReplay || first === null ? [from, to] : [Math.max(from, Math.min(first, to - MINUTE)), to];
   }
 
-  soon() {
+  schedule() {
     cancelAnimationFrame(this.frame);
     this.frame = requestAnimationFrame(() => this.show());
   }
@@ -146,7 +146,7 @@ class Analyses extends HTMLElement {
     this.fill(this.parts.presence, stays, findings.since.stays, () => this.showPresence(stays, range));
   }
 
-  /** Loading, empty, or what there is. */
+  /** Fills a part: loading, empty, or with its results. */
   fill(part, found, since, draw) {
     const { loading, error } = this.findings;
     setText(part.count, found.length ? String(found.length) : '');
@@ -197,7 +197,7 @@ class Analyses extends HTMLElement {
     ]);
   }
 
-  /** The newest first. */
+  /** Shows a table, the newest rows first. */
   putTable(part, found, columns, cells) {
     const key = `table ${found.length} ${JSON.stringify(found.at(-1))}`;
     this.put(part, key, h('div.table-frame.analysis-table', { tabindex: '0', role: 'region', 'aria-label': t(`analyses.${part.name}`) }, h('table.table', null,
@@ -205,9 +205,9 @@ class Analyses extends HTMLElement {
       h('tbody', null, found.slice(-MAX_ROWS).reverse().map((each) => h('tr', null, cells(each).map((words) => h('td.numbers-left', null, words))))))));
   }
 
-  /** To a moment on the map: in a replay by a jump, else by a replay of what was recorded. */
-  async lead({ start, missions, a }) {
-    const to = Math.round(start - BEFORE);
+  /** Shows a moment on the map: by a seek in a replay, else by a replay of the recording. */
+  async showMoment({ start, missions, a }) {
+    const to = Math.round(start - LEAD_MILLIS);
     if (!store.may('operate')) {
       return;
     }
@@ -230,7 +230,7 @@ class Analyses extends HTMLElement {
       throw new Error(t('analyses.noRecording'));
     }
     const firsts = all.map((each) => store.recordings.get(each).first);
-    // one that was begun before the encounter ends before it
+    // a replay started before the encounter may end before it
     const running = all.length === 1 && [...store.replays.values()].find((each) => !each.gone && !each.group && each.mission === all[0]
       && !['stopped', 'failed'].includes(each.status?.state) && each.status?.progress?.to >= to);
     if (running) {

@@ -1,4 +1,4 @@
-/** Missions: what runs, what is missing and why, and who commanded it. */
+/** Shows missions with their devices, domains with their fields, and the audit. */
 import { h, replace } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { navigate, onRoute, route } from '../core/router.js';
@@ -12,7 +12,7 @@ import { Domains } from './missions/domains.js';
 import { drawList } from './missions/list.js';
 import { redraw } from './missions/redraw.js';
 
-/** Where the mission is shown below the list, not beside it. */
+/** Below this width the mission is shown below the list. */
 const NARROW = matchMedia('(max-width: 900px)');
 const TABS = ['missions', 'domains', 'audit'];
 
@@ -25,16 +25,16 @@ class FurrowMissions extends HTMLElement {
     this.viewer = h('p.viewer-note', { hidden: true }, icon('info', 16), t('missions.viewer'));
     this.panel = h('div', { id: 'missions-panel', role: 'tabpanel' });
     replace(this, h('div.view', null, h('header', null, h('h1', null, t('views.missions')), this.tabs, h('span.spacer'), this.create), this.viewer, this.panel));
-    this.offs = [onRoute(() => this.show()), store.on('missions', () => this.drawList()), store.on('me', () => this.allow())];
+    this.subscriptions = [onRoute(() => this.show()), store.on('missions', () => this.drawList()), store.on('me', () => this.allow())];
     this.answer = resource('/api/missions', { interval: 10_000 });
-    this.offs.push(this.answer.on(() => this.applyAnswer()));
+    this.subscriptions.push(this.answer.on(() => this.applyAnswer()));
     this.ticking = setInterval(() => document.hidden || this.drawList(), 5_000);
     this.show();
     this.allow();
   }
 
   disconnectedCallback() {
-    this.offs.forEach((off) => off());
+    this.subscriptions.forEach((unsubscribe) => unsubscribe());
     clearInterval(this.ticking);
     this.answer.close();
     this.content?.close();
@@ -47,11 +47,11 @@ class FurrowMissions extends HTMLElement {
 
   show() {
     const { tab = 'missions', mission, device } = route.query;
-    const wanted = `${tab} ${mission} ${device}`;
-    if (route.view !== 'missions' || wanted === this.shown) {
+    const view = `${tab} ${mission} ${device}`;
+    if (route.view !== 'missions' || view === this.shown) {
       return;
     }
-    this.shown = wanted;
+    this.shown = view;
     this.content?.close();
     this.content = null;
     for (const button of this.tabs.children) {
@@ -90,7 +90,7 @@ class FurrowMissions extends HTMLElement {
     }
   }
 
-  /** Whether there is no mission, or nobody said so yet. */
+  /** Applies the list of missions, which distinguishes an empty list from one that is not loaded. */
   applyAnswer() {
     if (store.missions.size === 0 && this.answer.value?.length > 0) {
       store.missions = new Map(this.answer.value.map((each) => [each.mission, each]));

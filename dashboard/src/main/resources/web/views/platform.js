@@ -1,4 +1,4 @@
-/** The platform itself: what is wrong first, then how far behind it is, and how long reports take. */
+/** Shows the state of the platform: problems, parts, lag, dead letters and delays of reports. */
 import { h, replace } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { label, number } from '../core/format.js';
@@ -9,13 +9,13 @@ import { t, texts } from '../texts.js';
 import { HopDelays } from './platform/hops.js';
 
 const POLL_MILLIS = 3_000;
-/** A group that is further behind than so many records is worth a look. */
-const MUCH_LAG = 1_000;
+/** Lag above which a group is reported as a problem, records. */
+const MAX_LAG = 1_000;
 
 class FurrowPlatform extends HTMLElement {
   connectedCallback() {
     this.delays = new HopDelays();
-    this.followed = new Map();
+    this.streams = new Map();
     this.wrong = h('section.panel.stack', { 'aria-live': 'polite' });
     this.hops = h('section.panel.stack');
     this.parts = h('section.panel.stack');
@@ -23,25 +23,25 @@ class FurrowPlatform extends HTMLElement {
     this.letters = h('section.panel.stack');
     replace(this, h('div.view', null, h('header', null, h('h1', null, t('views.platform'))), this.wrong, this.hops, h('div.platform-columns', null, this.parts, h('div.stack', null, this.groups, this.letters))));
     this.platform = resource('/api/platform', { interval: POLL_MILLIS });
-    this.offs = [this.platform.on(() => this.draw()), store.on('domains', () => this.follow())];
+    this.subscriptions = [this.platform.on(() => this.draw()), store.on('domains', () => this.subscribe())];
     this.ticking = setInterval(() => document.hidden || this.drawHops(), 1_000);
     replace(this.wrong, h('div.skeleton', null, '…'));
-    this.follow();
+    this.subscribe();
     this.drawHops();
   }
 
   disconnectedCallback() {
-    this.offs.forEach((off) => off());
+    this.subscriptions.forEach((unsubscribe) => unsubscribe());
     this.platform.close();
     clearInterval(this.ticking);
-    this.followed.forEach((each) => each.close());
+    this.streams.forEach((each) => each.close());
   }
 
-  /** Reports of every domain, to see how long they take. */
-  follow() {
+  /** Subscribes to the topics of all domains to measure delays. */
+  subscribe() {
     for (const domain of store.domains.keys()) {
-      if (!this.followed.has(domain)) {
-        this.followed.set(domain, streams.subscribe(`data.${domain}.realtime`, { mode: 'latest', prime: false }, {
+      if (!this.streams.has(domain)) {
+        this.streams.set(domain, streams.subscribe(`data.${domain}.realtime`, { mode: 'latest', prime: false }, {
           records: (records) => records.forEach((record) => this.delays.add(record, Date.now())),
         }));
       }
@@ -54,12 +54,12 @@ class FurrowPlatform extends HTMLElement {
       this.drawIfChanged(error.message, () => [h('p.error-note', null, icon('warning'), error.message)]);
       return;
     }
-    const kafkaAway = value.kafka?.state === 'away';
+    const isKafkaDown = value.kafka?.state === 'away';
     const parts = Object.entries(value.controlPlane.parts ?? {});
     const letters = value.deadLetters.filter((each) => each.records > 0);
-    const behind = value.groups.filter((each) => each.lag > MUCH_LAG);
+    const behind = value.groups.filter((each) => each.lag > MAX_LAG);
     const faults = [
-      ...(kafkaAway ? [value.kafka.reason] : []),
+      ...(isKafkaDown ? [value.kafka.reason] : []),
       ...(value.controlPlane.status === 'away' ? [value.controlPlane.reason] : []),
       ...(value.controlPlane.warnings ?? []),
       ...parts.filter(([, part]) => part.state !== 'up').map(([name, part]) => t('platform.partDown', { part: nameOf(name), state: part.state, detail: part.detail ?? '' })),
@@ -70,7 +70,7 @@ class FurrowPlatform extends HTMLElement {
       ? [h('p.row.all-well', null, icon('check'), h('strong', null, t('platform.well')))]
       : [h('h2', null, t('platform.wrong')), h('ul.stack', null, faults.map((each) => h('li.error-note.warn-note', null, icon('warning', 18), each)))]));
     this.drawParts(parts);
-    if (kafkaAway) {
+    if (isKafkaDown) {
       replace(this.groups, h('h2', null, t('platform.lag')), h('p.muted', null, t('platform.notKnown')));
       replace(this.letters, h('h2', null, t('platform.letters')), h('p.muted', null, t('platform.notKnown')));
       return;
@@ -79,10 +79,10 @@ class FurrowPlatform extends HTMLElement {
     this.drawLetters(value.deadLetters, letters);
   }
 
-  /** A live region: drawn again only where it says something else. */
-  drawIfChanged(what, draw) {
-    if (what !== this.drawn) {
-      this.drawn = what;
+  /** Redraws the live region only if its content changed. */
+  drawIfChanged(key, draw) {
+    if (key !== this.drawn) {
+      this.drawn = key;
       replace(this.wrong, draw());
     }
   }
@@ -93,12 +93,12 @@ class FurrowPlatform extends HTMLElement {
   }
 
   drawGroups(groups) {
-    const longest = Math.max(MUCH_LAG, ...groups.map((each) => each.lag));
+    const longest = Math.max(MAX_LAG, ...groups.map((each) => each.lag));
     replace(this.groups, h('h2', null, t('platform.lag')), h('p.small.muted', null, t('platform.lagHint')),
       groups.length === 0 ? h('p.muted', null, t('platform.noGroups')) : h('ul.lags', null, groups.map((each) => {
         const filled = h('span');
         filled.style.width = `${100 * each.lag / longest}%`;
-        return h('li', null, h('span.cut', { title: each.group }, each.group), h('span.bar', { class: each.lag > MUCH_LAG ? 'much' : '', 'aria-hidden': 'true' }, filled), h('span.numbers', null, number(each.lag)));
+        return h('li', null, h('span.cut', { title: each.group }, each.group), h('span.bar', { class: each.lag > MAX_LAG ? 'much' : '', 'aria-hidden': 'true' }, filled), h('span.numbers', null, number(each.lag)));
       })));
   }
 
@@ -109,7 +109,7 @@ class FurrowPlatform extends HTMLElement {
         : [h('ul.lags', null, letters.map((each) => h('li', null, h('span.cut', null, each.topic), h('span'), h('span.numbers', null, number(each.records))))), h('p.small.muted', null, t('platform.lettersHint')), h('pre.letters-command', { tabindex: '0', 'aria-label': t('platform.lettersCommand') }, letters.map((each) => `./furrow dead-letters redrive --topic ${each.topic}`).join('\n'))]);
   }
 
-  /** One time axis for all hops: what is added where is seen at once. */
+  /** Draws all hops on one time axis, so that each contribution is visible. */
   drawHops() {
     const summary = this.delays.summary(Date.now());
     const title = h('div.row', null, h('h2', null, t('platform.hops')), h('span.spacer'), h('span.small.muted.numbers', null, summary ? t('platform.samples', { count: this.delays.count }) : ''));
@@ -118,13 +118,13 @@ class FurrowPlatform extends HTMLElement {
       return;
     }
     const longest = Math.max(...summary.map((each) => each.p99), 10);
-    let before = 0;
+    let offset = 0;
     replace(this.hops, title, h('div.hops', { role: 'table', 'aria-label': t('platform.hops') },
       h('div.hop.hop-head', { role: 'row' }, ['hop', '', 'p50', 'p95', 'p99'].map((name) => h('span', { role: 'columnheader', class: name.startsWith('p') ? 'numbers' : '' }, name === 'hop' ? t('platform.hop') : name === '' ? '' : `${name}, ms`))),
       summary.map((hop) => {
         const isAll = hop.name === 'all';
-        const from = isAll ? 0 : before;
-        before += hop.p50;
+        const from = isAll ? 0 : offset;
+        offset += hop.p50;
         return h('div', { role: 'row', class: `hop${isAll ? ' hop-all' : ''}` },
           h('span', { role: 'rowheader' }, t(`platform.hopNames.${hop.name}`)),
           h('span.hop-axis', { role: 'cell', 'aria-hidden': 'true' }, segment('p99', from, hop.p99, longest), segment('p95', from, hop.p95, longest), segment('p50', from, hop.p50, longest)),

@@ -1,4 +1,4 @@
-/** Recorded missions to be played back, and the replays that run. */
+/** Lists recorded missions for replays, and the replays that run. */
 import { h, replace, setText } from '../core/dom.js';
 import { dateTime, duration, number } from '../core/format.js';
 import { linkTo, onRoute, route } from '../core/router.js';
@@ -10,8 +10,8 @@ import { Plan } from './replays/plan.js';
 import { Preview } from './replays/preview.js';
 import { drawRunning, grouped } from './replays/running.js';
 
-/** A mission whose newest event is no older is still being recorded, ms. */
-const RECORDED_LATELY = 90_000;
+/** A mission whose newest event is younger is still being recorded, ms. */
+const RECORDING_TIMEOUT = 90_000;
 const ANNOUNCED_MILLIS = 6_000;
 
 class Replays extends HTMLElement {
@@ -39,7 +39,7 @@ class Replays extends HTMLElement {
     this.catalog = streams.subscribe('data.catalog', { mode: 'latest', prime: true }, { records: (records) => this.applyCatalog(records) });
     this.onScheme = () => this.rows.forEach((row) => row.preview.draw());
     window.addEventListener('schemechange', this.onScheme);
-    this.offs = [
+    this.subscriptions = [
       store.on('replays', () => this.showRunning()), store.on('mode', () => this.showRunning()), store.on('recordings', () => this.showRecordings()),
       store.on('missions', () => this.showRecordings()), store.on('me', () => this.allow()), onRoute(() => this.openLink()),
     ];
@@ -51,7 +51,7 @@ class Replays extends HTMLElement {
   }
 
   disconnectedCallback() {
-    this.offs.forEach((off) => off());
+    this.subscriptions.forEach((unsubscribe) => unsubscribe());
     this.catalog.close();
     clearTimeout(this.timer);
     clearTimeout(this.announceTimer);
@@ -59,13 +59,13 @@ class Replays extends HTMLElement {
     this.rows.forEach((row) => row.preview.close());
   }
 
-  /** Who may start none has nothing to choose. */
+  /** Hides choices from users who may not start replays. */
   allow() {
     this.classList.toggle('view-only', !store.may('operate'));
     this.choose();
   }
 
-  /** `#/replays?mission=a,b&at=ISO` */
+  /** Follows a link: `#/replays?mission=a,b&at=ISO`. */
   openLink() {
     const { mission, at } = route.query;
     if (route.view === 'replays' && mission) {
@@ -104,7 +104,7 @@ class Replays extends HTMLElement {
     recordings.forEach((recording, index) => {
       const existing = this.rows.get(recording.mission);
       const row = existing ?? this.row(recording.mission);
-      // rows that are there stay where they are, under whoever points at them
+      // existing rows do not move, so that the pointer stays on the same row
       existing || this.body.insertBefore(row.element, this.body.children[index] ?? null);
       this.fill(row);
       row.preview.update(recording.last);
@@ -143,11 +143,11 @@ class Replays extends HTMLElement {
     const entities = [...(this.entities.get(mission)?.values() ?? [])].reduce((sum, each) => sum + each, 0);
     setText(cells.name, mission);
     setText(cells.domain, store.missions.get(mission)?.domain ?? '');
-    const goesOn = Date.now() - last < RECORDED_LATELY;
+    const isRecording = Date.now() - last < RECORDING_TIMEOUT;
     const words = dateTime(first);
-    if (cells.when.dataset.words !== words + goesOn) {
-      cells.when.dataset.words = words + goesOn;
-      replace(cells.when, words, goesOn && h('div.small.live-word', null, t('replays.now')));
+    if (cells.when.dataset.words !== words + isRecording) {
+      cells.when.dataset.words = words + isRecording;
+      replace(cells.when, words, isRecording && h('div.small.live-word', null, t('replays.now')));
     }
     setText(cells.length, duration(last - first));
     setText(cells.devices, entities ? number(entities) : '–');
@@ -156,7 +156,7 @@ class Replays extends HTMLElement {
     element.classList.toggle('selected', check.checked);
   }
 
-  /** @param {boolean} alone a click on a row chooses it alone; a checkbox adds */
+  /** Chooses a mission: a click on its row chooses only this one, its checkbox adds it. @param {boolean} alone */
   toggle(mission, alone = false) {
     if (!store.may('operate')) {
       return;

@@ -1,4 +1,4 @@
-/** Topics: what flows, and how much of it. */
+/** Lists topics with the number and rate of their records, and shows records of chosen topics. */
 import { resource } from '../core/resource.js';
 import { number } from '../core/format.js';
 import { h, replace, setText } from '../core/dom.js';
@@ -11,7 +11,7 @@ import { arrange } from './topics/tree.js';
 
 const POLL_MILLIS = 2_000;
 const FOLDED = new Set(['replays', 'service', 'other']);
-/** Topics whose records are shown; they stay while one looks elsewhere. */
+/** Topics whose records are shown; retained while another view is shown. */
 const chosen = new Set();
 
 class FurrowTopics extends HTMLElement {
@@ -25,17 +25,17 @@ class FurrowTopics extends HTMLElement {
       h('header', null, h('h1', null, t('views.topics')), h('span.spacer'), h('p.small.muted', null, t('topics.hint'))),
       h('div.topic-columns', null, this.tree, this.records.element)));
     this.list = resource('/api/topics', { interval: POLL_MILLIS });
-    this.offs = [this.list.on(() => this.update()), ...['domains', 'missions', 'scope'].map((name) => store.on(name, () => this.draw()))];
+    this.subscriptions = [this.list.on(() => this.update()), ...['domains', 'missions', 'scope'].map((name) => store.on(name, () => this.draw()))];
     replace(this.tree, [0, 1, 2, 3, 4].map(() => h('div.skeleton.topic-skeleton', null, '…')));
   }
 
   disconnectedCallback() {
-    this.offs.forEach((off) => off());
+    this.subscriptions.forEach((unsubscribe) => unsubscribe());
     this.list.close();
     this.records.close();
   }
 
-  /** Rates come from two looks at how long topics are. */
+  /** Computes rates from two successive responses. */
   update() {
     if (this.list.error) {
       replace(this.tree, h('p.error-note', { role: 'alert' }, icon('warning'), this.list.error.message));
@@ -44,12 +44,12 @@ class FurrowTopics extends HTMLElement {
     }
     const now = performance.now();
     for (const { name, written } of this.list.value) {
-      const before = this.figures.get(name);
-      if (before && now - before.at < POLL_MILLIS / 4) {
+      const previous = this.figures.get(name);
+      if (previous && now - previous.at < POLL_MILLIS / 4) {
         continue;
       }
-      const rate = before ? Math.max(0, written - before.written) / ((now - before.at) / 1000) : 0;
-      this.figures.set(name, { written, at: now, rate: before ? 0.5 * rate + 0.5 * before.rate : rate });
+      const rate = previous ? Math.max(0, written - previous.written) / ((now - previous.at) / 1000) : 0;
+      this.figures.set(name, { written, at: now, rate: previous ? 0.5 * rate + 0.5 * previous.rate : rate });
     }
     this.draw();
   }
@@ -94,7 +94,7 @@ class FurrowTopics extends HTMLElement {
       missions.length > 0 && h('ul', null, missions.map((each) => h('li', null, this.row(each.topic, each.mission, { domain, mission: each.mission })))));
   }
 
-  /** @param {string|null} topic null where nothing was reported yet */
+  /** @param {string|null} topic null if there are no records yet */
   row(topic, words, scope) {
     const id = `topic-${topic ?? words}`;
     const check = h('input', { type: 'checkbox', id, disabled: topic === null, checked: chosen.has(topic), on: { change: () => this.choose(topic, check.checked) } });
@@ -116,7 +116,7 @@ class FurrowTopics extends HTMLElement {
     this.records.choose(chosen);
   }
 
-  /** The map and the cards show only what belongs to it. */
+  /** Limits the map and the cards to a domain or mission. */
   scope(scope) {
     store.setScope(scope);
     scope.domain && navigate('map');

@@ -42,8 +42,9 @@ import io.furrow.model.topic.Topics;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
- * Bad records of every kind among good ones, through {@code normalize} and {@code ingest} on a Kafka and a Flink of their own:
- * every good event must come out once, every bad record must be a dead letter with its reason and its bytes.
+ * Sends bad records of every kind among good ones through {@code normalize} and {@code ingest}, on a separate Kafka and
+ * Flink: every good event must be written once, every bad record must become a dead letter with its reason and its
+ * bytes.
  */
 public final class BadAmongGood implements AutoCloseable {
     private static final String KIND = "kind";
@@ -74,12 +75,12 @@ public final class BadAmongGood implements AutoCloseable {
         return run;
     }
 
-    /** Keeps records of any time: retention goes by the record timestamp. */
+    /** Retains records of any time, because retention depends on the record timestamp. */
     private static NewTopic topic(String name) {
         return new NewTopic(name, Optional.of(PARTITIONS), Optional.empty()).configs(Map.of("retention.ms", "-1"));
     }
 
-    /** Arguments: how many good records, how many bad ones. The exit code is 0 where nothing is missing or too much. */
+    /** Arguments: number of good and of bad records. The exit code is 0 if there are no faults. */
     public static void main(String... args) throws Exception {
         int good = Integer.parseInt(args[0]);
         int bad = Integer.parseInt(args[1]);
@@ -89,7 +90,7 @@ public final class BadAmongGood implements AutoCloseable {
             run.write(good, bad);
             System.out.printf("wrote %d good and %d bad records of %d kinds%n", good, bad, run.kinds.size());
             faults = run.faults(good, bad, Duration.ofMinutes(20));
-            faults.addAll(run.faultsAfterRedriveing(good, bad, Duration.ofMinutes(5)));
+            faults.addAll(run.faultsAfterRedrive(good, bad, Duration.ofMinutes(5)));
         } finally {
             Folders.delete(directory);
         }
@@ -114,7 +115,10 @@ public final class BadAmongGood implements AutoCloseable {
         flink.submit(env.getStreamGraph());
     }
 
-    /** Good and bad ones in turn; half of the good ones as native notifications, half as records of {@code data.raw}. */
+    /**
+     * Writes good and bad records in turn; half of the good ones as native notifications, half as records of {@code
+     * data.raw}.
+     */
     void write(int good, int bad) {
         Map<String, Object> settings = new HashMap<>(kafka.producerSettings());
         settings.put("linger.ms", "20");
@@ -153,7 +157,7 @@ public final class BadAmongGood implements AutoCloseable {
         return record;
     }
 
-    /** What is missing, too much or wrong, as sentences; waits for what is missing. */
+    /** Waits for missing events and returns the faults as sentences. */
     List<String> faults(int good, int bad, Duration timeout) {
         long until = System.nanoTime() + timeout.toNanos();
         List<String> faults = new ArrayList<>();
@@ -179,37 +183,40 @@ public final class BadAmongGood implements AutoCloseable {
         return faults;
     }
 
-    /** Brings the letters back. Nothing has been repaired: each must become the same letter again, and no good event come twice. */
-    List<String> faultsAfterRedriveing(int good, int bad, Duration timeout) throws IOException {
+    /**
+     * Redrives the dead letters without a repair: each must become the same dead letter again, and no good event may be
+     * written twice.
+     */
+    List<String> faultsAfterRedrive(int good, int bad, Duration timeout) throws IOException {
         long until = System.nanoTime() + timeout.toNanos();
         Properties kafkaProperties = new Properties();
         kafkaProperties.putAll(client());
         List<String> faults = new ArrayList<>();
-        long fed = 0;
+        long redriven = 0;
         for (String topic : DEAD) {
             String origin = Topics.ofDeadLetters(topic).orElseThrow();
             Redrive.Choice all = new Redrive.Choice(Set.of(), Set.of());
-            fed += new Redrive(kafkaProperties, new Redrive.Request(topic, origin, all, false, false))
+            redriven += new Redrive(kafkaProperties, new Redrive.Request(topic, origin, all, false, false))
                     .run()
                     .total();
         }
-        System.out.printf("%d dead letters were brought back%n", fed);
-        if (fed != bad) {
-            faults.add(fed + " dead letters were brought back instead of " + bad);
+        System.out.printf("%d dead letters were brought back%n", redriven);
+        if (redriven != bad) {
+            faults.add(redriven + " dead letters were brought back instead of " + bad);
         }
         faults.addAll(wrongDeadLetters(bad, 2, until));
         try (var consumer = consumer(List.of(OUT))) {
-            long out = consumer.endOffsets(consumer.assignment()).values().stream()
+            long written = consumer.endOffsets(consumer.assignment()).values().stream()
                     .mapToLong(Long::longValue)
                     .sum();
-            if (out != good) {
-                faults.add(out + " records are out instead of " + good);
+            if (written != good) {
+                faults.add(written + " records are out instead of " + good);
             }
         }
         return faults;
     }
 
-    /** @param times how often each bad record should have become a letter */
+    /** @param times how often each bad record should have become a dead letter */
     private List<String> wrongDeadLetters(int bad, int times, long until) {
         Map<String, Integer> deadLetters = new TreeMap<>();
         List<String> faults = new ArrayList<>();
@@ -219,37 +226,37 @@ public final class BadAmongGood implements AutoCloseable {
                 for (ConsumerRecord<byte[], byte[]> deadLetter : consumer.poll(Duration.ofMillis(500))) {
                     read++;
                     deadLetters.merge(header(deadLetter, KIND), 1, Integer::sum);
-                    wrong(deadLetter).ifPresent(faults::add);
+                    fault(deadLetter).ifPresent(faults::add);
                 }
             }
         }
         for (int i = 0; i < kinds.size(); i++) {
-            int desired = times * (bad / kinds.size() + (i < bad % kinds.size() ? 1 : 0));
+            int expected = times * (bad / kinds.size() + (i < bad % kinds.size() ? 1 : 0));
             int found = deadLetters.getOrDefault(kinds.get(i).kind(), 0);
             System.out.printf(
                     "%6d %-16s %s%n", found, kinds.get(i).reason(), kinds.get(i).kind());
-            if (found != desired) {
-                faults.add(found + " dead letters instead of " + desired + ": "
+            if (found != expected) {
+                faults.add(found + " dead letters instead of " + expected + ": "
                         + kinds.get(i).kind());
             }
         }
         return faults;
     }
 
-    private Optional<String> wrong(ConsumerRecord<byte[], byte[]> deadLetter) {
+    private Optional<String> fault(ConsumerRecord<byte[], byte[]> deadLetter) {
         Optional<BadRecord> kind = kinds.stream()
                 .filter(each -> each.kind().equals(header(deadLetter, KIND)))
                 .findFirst();
         if (kind.isEmpty()) {
             return Optional.of("a good record was set aside: " + header(deadLetter, DeadLetter.MESSAGE));
         }
-        boolean asItShould =
+        boolean asExpected =
                 header(deadLetter, DeadLetter.REASON).equals(kind.get().reason())
                         && deadLetter.topic().equals(Topics.dead(kind.get().topic()));
-        // Of a notification of several entities each bad one is a letter of its own.
+        // Each bad entity of a notification with several entities becomes a separate dead letter.
         boolean whole = Arrays.equals(deadLetter.value(), kind.get().value())
                 || new String(kind.get().value(), UTF_8).contains(new String(deadLetter.value(), UTF_8));
-        return asItShould && whole
+        return asExpected && whole
                 ? Optional.empty()
                 : Optional.of(kind.get().kind() + " became " + header(deadLetter, DeadLetter.REASON) + " on "
                         + deadLetter.topic());

@@ -11,10 +11,10 @@ import java.util.regex.Pattern;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
- * A kind of bad record, as a line of {@code bad-records.txt} has it.
+ * A kind of bad record, defined by a line of {@code bad-records.txt}.
  *
- * @param kind what is bad about it
- * @param reason with which it is to be set aside
+ * @param kind describes the fault
+ * @param reason expected in the dead letter
  * @param value null for none
  */
 record BadRecord(String kind, String topic, String reason, byte[] key, byte[] value) {

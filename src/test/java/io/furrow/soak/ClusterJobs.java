@@ -13,7 +13,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** What a Flink cluster tells of running jobs over REST: state, failures, effective options, names of vertices. */
+/** Checks running jobs of a Flink cluster over REST: state, failures, effective options, names of vertices. */
 public final class ClusterJobs {
     private final HttpClient http = HttpClient.newHttpClient();
     private final String root;
@@ -23,7 +23,7 @@ public final class ClusterJobs {
         this.root = root;
     }
 
-    /** Arguments: root of the REST API, job ids. The exit code is 0 where all is as it should be. */
+    /** Arguments: root of the REST API, job ids. The exit code is 0 if there are no faults. */
     public static void main(String... args) throws IOException, InterruptedException, UnreadableException {
         ClusterJobs jobs = new ClusterJobs(args[0]);
         for (String id : List.of(args).subList(1, args.length)) {
@@ -46,7 +46,7 @@ public final class ClusterJobs {
         for (JsonNode vertex : job.path("vertices")) {
             String vertexName = vertex.path("name").asText();
             System.out.println("    " + vertex.path("parallelism").asInt() + " × " + vertexName);
-            expect(named(vertexName), name + " has a vertex without a name of its own: " + vertexName);
+            expect(isNamed(vertexName), name + " has a vertex without a name of its own: " + vertexName);
         }
         JsonNode failures = get("/jobs/" + id + "/exceptions").at("/exceptionHistory/entries");
         expect(
@@ -54,8 +54,8 @@ public final class ClusterJobs {
                 name + " failed: " + failures.at("/0/stacktrace").asText());
     }
 
-    /** Flink calls an operator without a name by its kind, for instance {@code Map}. */
-    private static boolean named(String vertex) {
+    /** Flink names an operator without a name by its kind, for instance {@code Map}. */
+    private static boolean isNamed(String vertex) {
         for (String operator : vertex.split(" -> |[(), ]{2,}")) {
             if (operator.isBlank() || !operator.contains(" ")) {
                 return false;
@@ -64,9 +64,9 @@ public final class ClusterJobs {
         return true;
     }
 
-    private void expect(boolean met, String otherwise) {
+    private void expect(boolean met, String fault) {
         if (!met) {
-            faults.add(otherwise);
+            faults.add(fault);
         }
     }
 

@@ -14,7 +14,7 @@ import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.StringDeserializer;
 
-/** What is committed on topics. */
+/** Reads committed records of topics. */
 public final class CommittedState {
     private static final Duration POLL = Duration.ofMillis(100);
 
@@ -54,7 +54,7 @@ public final class CommittedState {
         }
     }
 
-    /** Everything that is on the topics now. */
+    /** Reads all records that are on the topics now. */
     public static void read(
             String bootstrapServers, Collection<String> topics, Consumer<ConsumerRecord<String, byte[]>> reader) {
         try (KafkaConsumer<String, byte[]> consumer = consumer(bootstrapServers)) {
@@ -66,7 +66,7 @@ public final class CommittedState {
         }
     }
 
-    /** The newest value of each key that has one. */
+    /** The newest value of each key without a later tombstone. */
     public static Map<String, byte[]> table(String bootstrapServers, String topic) {
         Map<String, byte[]> newest = new LinkedHashMap<>();
         read(bootstrapServers, List.of(topic), record -> {

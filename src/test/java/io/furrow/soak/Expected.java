@@ -13,14 +13,17 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.position.Position;
 import io.furrow.model.position.PositionReading;
 
-/** What the jobs must make of the events on {@code data.raw}, by their definitions and without any of their code. */
+/**
+ * Computes the expected results of the jobs from the events on {@code data.raw}, by their definitions and without their
+ * code.
+ */
 final class Expected {
     private static final long ONGOING_EVERY_MILLIS = 1_000;
     private static final double EARTH_RADIUS_METERS = 6_371_000;
 
     private final TreeMap<Long, Entity> events = new TreeMap<>();
 
-    /** @param events each with an event time of its own */
+    /** @param events with distinct event times */
     Expected(List<Entity> events) {
         events.forEach(event -> this.events.put(time(event), event));
         if (this.events.size() != events.size()) {
@@ -32,7 +35,7 @@ final class Expected {
         return events.lastKey();
     }
 
-    /** Each event by its number. */
+    /** The number of each event. */
     List<Result> numbers() {
         return events.values().stream().map(Expected::numbered).toList();
     }
@@ -41,7 +44,7 @@ final class Expected {
         return new Result("number " + event.number("Number").orElseThrow().longValue(), event.id(), time(event));
     }
 
-    /** A field's windows: the mean of the medians of the thermometers in it. */
+    /** The windows of a field: the mean of the medians of the thermometers in it. */
     List<Result> windows(String field, List<String> thermometers, long windowMillis) {
         List<Result> results = new ArrayList<>();
         long first = Math.floorDiv(events.firstKey(), windowMillis) * windowMillis;
@@ -77,10 +80,10 @@ final class Expected {
     }
 
     /**
-     * The encounters of the two robots: the distance of their latest positions at each instant at which one reported; at the
-     * end of an encounter the last at which they were close.
+     * The encounters of the two robots, by the distance of their latest positions at each report; the value of an end
+     * is the last distance at which they were close.
      *
-     * @param threshold up to which distance they are close, in meters
+     * @param threshold maximum distance at which they are close, in meters
      */
     List<Result> encounters(double threshold) {
         List<Result> results = new ArrayList<>();
@@ -108,7 +111,7 @@ final class Expected {
         return results;
     }
 
-    /** The first report of each device, by the fields in which it stands from then on. */
+    /** The first report of each device enters the fields in which it stands. */
     List<Result> entries(Map<String, List<String>> fieldsOf) {
         List<Result> results = new ArrayList<>();
         Set<String> seen = new HashSet<>();

@@ -28,8 +28,8 @@ import io.furrow.model.topic.Topics;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
- * Makes {@code data.raw} and {@value #NATIVE}, and writes the reports of the {@link SoakFarm} to both, numbered from 1, at a steady
- * rate: as events, and as the context broker's own notifications.
+ * Creates {@code data.raw} and {@value #NATIVE}, and writes the reports of the {@link SoakFarm} to both, numbered from
+ * 1, at a steady rate: as events, and as the context broker's native notifications.
  */
 public final class NumberedEvents {
     static final String NATIVE = "orion.native";
@@ -41,14 +41,16 @@ public final class NumberedEvents {
 
     private NumberedEvents() {}
 
-    /** Arguments: bootstrap servers, seconds. Says {@code writing} when the topic is there and the total at the end. */
+    /**
+     * Arguments: bootstrap servers, seconds. Prints {@code writing} once the topic exists, and the total at the end.
+     */
     public static void main(String... args) throws ExecutionException, InterruptedException {
         Properties kafka = new Properties();
         kafka.setProperty("bootstrap.servers", args[0]);
-        makeTopic(kafka);
+        createTopics(kafka);
         kafka.setProperty("enable.idempotence", "true");
         kafka.setProperty("acks", "all");
-        kafka.setProperty("max.in.flight.requests.per.connection", "1"); // the topic was made just now
+        kafka.setProperty("max.in.flight.requests.per.connection", "1"); // the topic was created just now
         try (var producer = new KafkaProducer<>(kafka, new StringSerializer(), new ByteArraySerializer())) {
             System.out.println("writing");
             long written = write(producer, Duration.ofSeconds(Long.parseLong(args[1])));
@@ -56,7 +58,7 @@ public final class NumberedEvents {
         }
     }
 
-    private static void makeTopic(Properties kafka) throws ExecutionException, InterruptedException {
+    private static void createTopics(Properties kafka) throws ExecutionException, InterruptedException {
         try (Admin admin = Admin.create(kafka)) {
             List<NewTopic> topics = Stream.of(Topics.RAW, NATIVE)
                     .map(topic -> new NewTopic(topic, Optional.of(PARTITIONS), Optional.empty()))
@@ -65,21 +67,21 @@ public final class NumberedEvents {
         }
     }
 
-    private static long write(KafkaProducer<String, byte[]> producer, Duration howLong) {
-        AtomicReference<Exception> lost = new AtomicReference<>();
-        long begin = System.nanoTime();
-        long events = howLong.dividedBy(STEP);
+    private static long write(KafkaProducer<String, byte[]> producer, Duration duration) {
+        AtomicReference<Exception> firstFailure = new AtomicReference<>();
+        long startedAt = System.nanoTime();
+        long events = duration.dividedBy(STEP);
         long time = 0;
         for (long number = 1; number <= events; number++) {
-            LockSupport.parkNanos(begin + number * STEP.toNanos() - System.nanoTime());
+            LockSupport.parkNanos(startedAt + number * STEP.toNanos() - System.nanoTime());
             time = Math.max(time + 1, System.currentTimeMillis());
             Entity entity = SoakFarm.report(number, time);
-            producer.send(event(entity, time), (written, failure) -> lost.compareAndSet(null, failure));
-            producer.send(notification(entity, time), (written, failure) -> lost.compareAndSet(null, failure));
+            producer.send(event(entity, time), (written, failure) -> firstFailure.compareAndSet(null, failure));
+            producer.send(notification(entity, time), (written, failure) -> firstFailure.compareAndSet(null, failure));
         }
         producer.flush();
-        if (lost.get() != null) {
-            throw new IllegalStateException("an event was not written", lost.get());
+        if (firstFailure.get() != null) {
+            throw new IllegalStateException("an event was not written", firstFailure.get());
         }
         return events;
     }

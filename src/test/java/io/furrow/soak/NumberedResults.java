@@ -11,24 +11,24 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/** Compares everything that the jobs wrote with what {@link NumberedEvents} must come to: no gap, no repetition. */
+/** Compares all results of the jobs with those expected from {@link NumberedEvents}: none missing, none repeated. */
 public final class NumberedResults {
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
-    /** Long enough for a repetition that is still on its way. */
-    private static final Duration QUIET = Duration.ofSeconds(3);
-    /** The jobs' out-of-orderness and one report of each device: what is younger need not be known yet. */
+    /** Long enough for a repetition that is still being processed. */
+    private static final Duration READ_TIME = Duration.ofSeconds(3);
+    /** The jobs' out-of-orderness and one report of each device: later results need not exist yet. */
     private static final long OPEN_MILLIS = 2_500;
 
-    private static final int SHOWN = 10;
+    private static final int MAX_SHOWN = 10;
 
     /** Topics that {@code flink-run} names. */
     private static final String NORMALIZED = "data.raw.native";
 
     private static final String GREEN = "data.temperature.green";
     private static final String WIDE = "data.collision.wide";
-    private static final double USUAL_THRESHOLD_METERS = 5;
+    private static final double DEFAULT_THRESHOLD_METERS = 5;
     private static final double WIDE_THRESHOLD_METERS = 8;
-    /** Where the devices stand in {@code fields.geojson}, however the second robot goes. */
+    /** The fields of the devices in {@code fields.geojson}, at all positions of the second robot. */
     private static final Map<String, List<String>> FIELDS_OF = Map.of(
             SoakFarm.FIRST_THERMOMETER, List.of("farm"),
             SoakFarm.SECOND_THERMOMETER, List.of("farm", "corner"),
@@ -43,11 +43,13 @@ public final class NumberedResults {
         this.bootstrapServers = bootstrapServers;
         this.windowMillis = windowMillis;
         try (TopicLog raw = new TopicLog(bootstrapServers, Topics.RAW)) {
-            expected = new Expected(raw.read(QUIET));
+            expected = new Expected(raw.read(READ_TIME));
         }
     }
 
-    /** Arguments: bootstrap servers, window of the temperature job in ms. The exit code is 0 where nothing differs. */
+    /**
+     * Arguments: bootstrap servers, window of the temperature job in ms. The exit code is 0 if there is no difference.
+     */
     public static void main(String... args) throws UnreadableException {
         System.exit(new NumberedResults(args[0], Long.parseLong(args[1])).isClean() ? 0 : 1);
     }
@@ -57,27 +59,27 @@ public final class NumberedResults {
         for (String topic : List.of(
                 Topics.realtime(SoakFarm.DOMAIN), Topics.realtime(SoakFarm.DOMAIN, SoakFarm.MISSION), NORMALIZED)) {
             try (TopicLog log = new TopicLog(bootstrapServers, topic)) {
-                comparisons.put(topic, compared(log, expected.numbers(), Long.MAX_VALUE));
+                comparisons.put(topic, compare(log, expected.numbers(), Long.MAX_VALUE));
                 System.out.printf("%-32s nothing for %.1f s at most%n", topic, log.maxSilence() / 1000.0);
             }
         }
         for (Map.Entry<String, List<Result>> topic : results().entrySet()) {
             try (TopicLog log = new TopicLog(bootstrapServers, topic.getKey())) {
-                comparisons.put(topic.getKey(), compared(log, topic.getValue(), expected.lastTime() - OPEN_MILLIS));
+                comparisons.put(topic.getKey(), compare(log, topic.getValue(), expected.lastTime() - OPEN_MILLIS));
             }
         }
-        long aside = TopicLog.count(bootstrapServers, List.of(".dead", ".late"));
+        long deadOrLate = TopicLog.count(bootstrapServers, List.of(".dead", ".late"));
         comparisons.forEach(NumberedResults::print);
-        System.out.printf("%-32s %5d records%n", "late and dead", aside);
-        return aside == 0 && comparisons.values().stream().allMatch(ResultComparison::isClean);
+        System.out.printf("%-32s %5d records%n", "late and dead", deadOrLate);
+        return deadOrLate == 0 && comparisons.values().stream().allMatch(ResultComparison::isClean);
     }
 
-    /** Of each topic of results; blue and green tell the same, another threshold tells something else. */
+    /** The expected results of each topic; blue and green jobs have the same results, another threshold has others. */
     private Map<String, List<Result>> results() {
         Map<String, List<Result>> results = new LinkedHashMap<>();
         results.put(Topics.TEMPERATURE, windows());
         results.put(GREEN, windows());
-        results.put(Topics.COLLISION, expected.encounters(USUAL_THRESHOLD_METERS));
+        results.put(Topics.COLLISION, expected.encounters(DEFAULT_THRESHOLD_METERS));
         results.put(WIDE, expected.encounters(WIDE_THRESHOLD_METERS));
         results.put(Topics.PRESENCE, expected.entries(FIELDS_OF));
         return results;
@@ -90,15 +92,15 @@ public final class NumberedResults {
         return all;
     }
 
-    /** Waits while something is missing; then once more, so that a late repetition counts. */
-    private static ResultComparison compared(TopicLog log, List<Result> expected, long horizon)
+    /** Reads until nothing is missing, then once more to detect late repetitions. */
+    private static ResultComparison compare(TopicLog log, List<Result> expected, long horizon)
             throws UnreadableException {
         long deadline = System.nanoTime() + TIMEOUT.toNanos();
         ResultComparison comparison;
         do {
-            comparison = ResultComparison.of(expected, results(log.read(QUIET)), horizon);
+            comparison = ResultComparison.of(expected, results(log.read(READ_TIME)), horizon);
         } while (!comparison.missing().isEmpty() && System.nanoTime() < deadline);
-        return ResultComparison.of(expected, results(log.read(QUIET)), horizon);
+        return ResultComparison.of(expected, results(log.read(READ_TIME)), horizon);
     }
 
     private static List<Result> results(List<Entity> entities) {
@@ -138,7 +140,7 @@ public final class NumberedResults {
                         comparison.missing().stream().map(name -> "missing: " + name),
                         comparison.repeated().stream().map(name -> "repeated: " + name),
                         comparison.wrong().stream().map(name -> "wrong: " + name))
-                .flatMap(lines -> lines.limit(SHOWN))
+                .flatMap(lines -> lines.limit(MAX_SHOWN))
                 .forEach(line -> System.out.println("    " + line));
     }
 }

@@ -1,10 +1,10 @@
 package io.furrow.soak;
 
 /**
- * One result that a job must come to, or has come to.
+ * A result of a job, expected or actual.
  *
- * @param name what there is one of, for instance a field's window
- * @param value what it says, for instance the average; equal text is equal
- * @param time event time from which it is known, epoch ms
+ * @param name identifies the result, for instance a field's window
+ * @param value content, for instance the average; equal results have equal texts
+ * @param time event time from which the result is known, epoch ms
  */
 record Result(String name, String value, long time) {}

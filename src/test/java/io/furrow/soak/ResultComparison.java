@@ -7,15 +7,15 @@ import java.util.Map;
 import java.util.function.Predicate;
 
 /**
- * How the results of a topic differ from what they must be.
+ * The differences between actual and expected results of a topic.
  *
- * @param required how many there must be
- * @param missing required and not there
- * @param repeated there for a second time
- * @param wrong there and not to be, or with another value
+ * @param required number of required results
+ * @param missing required but absent
+ * @param repeated present more than once
+ * @param wrong unexpected, or with another value
  */
 record ResultComparison(int required, List<String> missing, List<String> repeated, List<String> wrong) {
-    /** @param horizon results that are known later, epoch ms, may be there and may not */
+    /** @param horizon epoch ms; results that are known later are optional */
     static ResultComparison of(List<Result> expected, List<Result> actual, long horizon) {
         Map<String, String> values = new HashMap<>();
         expected.forEach(result -> values.put(result.name(), result.value()));

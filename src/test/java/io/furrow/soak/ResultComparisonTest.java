@@ -11,14 +11,14 @@ class ResultComparisonTest {
     private static final Result SECOND = new Result("number 2", "b", 20);
 
     @Test
-    void isCleanWhenEachResultIsThereOnce() {
+    void isCleanIfEachResultIsThereOnce() {
         assertThat(ResultComparison.of(List.of(FIRST, SECOND), List.of(SECOND, FIRST), 20)
                         .isClean())
                 .isTrue();
     }
 
     @Test
-    void namesWhatIsMissing() {
+    void listsMissingResults() {
         ResultComparison comparison = ResultComparison.of(List.of(FIRST, SECOND), List.of(SECOND), 20);
 
         assertThat(comparison.missing()).containsExactly("number 1");
@@ -26,7 +26,7 @@ class ResultComparisonTest {
     }
 
     @Test
-    void namesWhatIsThereTwice() {
+    void listsRepeatedResults() {
         ResultComparison comparison = ResultComparison.of(List.of(FIRST), List.of(FIRST, FIRST), 20);
 
         assertThat(comparison.repeated()).containsExactly("number 1");
@@ -34,7 +34,7 @@ class ResultComparisonTest {
     }
 
     @Test
-    void namesWhatDiffers() {
+    void listsWrongValues() {
         ResultComparison comparison = ResultComparison.of(List.of(FIRST), List.of(new Result("number 1", "c", 10)), 20);
 
         assertThat(comparison.wrong()).containsExactly("number 1 says c instead of a");
@@ -42,7 +42,7 @@ class ResultComparisonTest {
     }
 
     @Test
-    void leavesOpenWhatIsKnownAfterTheHorizon() {
+    void treatsResultsAfterTheHorizonAsOptional() {
         assertThat(ResultComparison.of(List.of(FIRST, SECOND), List.of(FIRST), 10)
                         .isClean())
                 .isTrue();
@@ -52,7 +52,7 @@ class ResultComparisonTest {
     }
 
     @Test
-    void isNotCleanWhereNothingWasRequired() {
+    void isNotCleanIfNothingWasRequired() {
         assertThat(ResultComparison.of(List.of(), List.of(), 20).isClean()).isFalse();
     }
 }

@@ -5,8 +5,8 @@ import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.position.Position;
 
 /**
- * Two thermometers that stand and two robots that drive towards and away from each other, in the fields of {@code
- * src/test/soak/fields.geojson}: {@code farm} holds all of them, {@code corner} the second thermometer only.
+ * Two static thermometers and two robots that drive towards and away from each other, in the fields of {@code
+ * src/test/soak/fields.geojson}: {@code farm} contains all of them, {@code corner} the second thermometer only.
  */
 final class SoakFarm {
     static final String DOMAIN = "soak";
@@ -20,16 +20,16 @@ final class SoakFarm {
     private static final double LATITUDE = 40.3134;
     private static final double LONGITUDE = -3.4830;
     private static final double DEGREES_PER_METER = 1 / 111_195.0;
-    /** Out to 12 m and back within this time, so that the robots are within 5 m of each other once in it. */
+    /** The robots drive 12 m apart and back within the period, so that they are within 5 m of each other once. */
     private static final double METERS_APART = 12;
 
     private static final long PERIOD_MILLIS = 7_000;
-    /** Values that no two neighbouring events share: a lost or repeated reading moves a median. */
+    /** Adjacent events have different values, so that a lost or repeated reading changes a median. */
     private static final long READINGS = 97;
 
     private SoakFarm() {}
 
-    /** The device whose turn event {@code number} is, as it is at {@code time}, epoch ms. */
+    /** The report number {@code number}, of the device whose turn it is, at {@code time}, epoch ms. */
     static Entity report(long number, long time) {
         return switch ((int) (number % DEVICES)) {
             case 0 -> thermometer(FIRST_THERMOMETER, number, time, 0);

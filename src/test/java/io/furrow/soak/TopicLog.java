@@ -17,7 +17,7 @@ import io.furrow.model.topic.Topics;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** All committed records of a topic from the beginning; grows with each reading. */
+/** Reads all committed records of a topic from the beginning; each read adds the new ones. */
 public final class TopicLog implements AutoCloseable {
     private final KafkaConsumer<String, byte[]> consumer;
     private final List<Entity> entities = new ArrayList<>();
@@ -28,11 +28,11 @@ public final class TopicLog implements AutoCloseable {
         CommittedState.assign(consumer, List.of(topic));
     }
 
-    /** How many records the topics whose names end so hold, transaction markers included. */
-    static long count(String bootstrapServers, List<String> endings) {
+    /** The number of records of topics with these suffixes, including transaction markers. */
+    static long count(String bootstrapServers, List<String> suffixes) {
         try (TopicLog any = new TopicLog(bootstrapServers, Topics.RAW)) {
             List<String> topics = any.consumer.listTopics().keySet().stream()
-                    .filter(topic -> endings.stream().anyMatch(topic::endsWith))
+                    .filter(topic -> suffixes.stream().anyMatch(topic::endsWith))
                     .toList();
             List<TopicPartition> partitions = CommittedState.partitions(any.consumer, topics);
             return any.consumer.endOffsets(partitions).values().stream()
@@ -41,10 +41,10 @@ public final class TopicLog implements AutoCloseable {
         }
     }
 
-    /** Reads for this long and at least to the end that the topic had at the beginning. */
-    public List<Entity> read(Duration howLong) throws UnreadableException {
+    /** Reads for a duration, and at least to the end offsets at the start of the call. */
+    public List<Entity> read(Duration duration) throws UnreadableException {
         var ends = consumer.endOffsets(consumer.assignment());
-        long until = System.nanoTime() + howLong.toNanos();
+        long until = System.nanoTime() + duration.toNanos();
         while (System.nanoTime() < until
                 || ends.entrySet().stream().anyMatch(end -> consumer.position(end.getKey()) < end.getValue())) {
             for (ConsumerRecord<String, byte[]> record : consumer.poll(Duration.ofMillis(100))) {
@@ -58,7 +58,7 @@ public final class TopicLog implements AutoCloseable {
         return List.copyOf(entities);
     }
 
-    /** The longest time in which ingest passed nothing on, ms. */
+    /** The longest time in which ingest wrote nothing, ms. */
     long maxSilence() {
         long[] times = ingestTimes.stream().mapToLong(Long::longValue).sorted().toArray();
         return LongStream.range(1, times.length)

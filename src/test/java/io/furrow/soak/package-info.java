@@ -1,2 +1,2 @@
-/** Long runs from outside: what writes numbered events, and what says which results must come of them. */
+/** Long runs against the deployed programs: writers of numbered events, and checks of the results. */
 package io.furrow.soak;

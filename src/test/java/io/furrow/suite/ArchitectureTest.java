@@ -35,7 +35,7 @@ class ArchitectureTest {
                     board caretaker charge commission desk doubt fate follower gatekeeper glimpse keeper lane meeting
                     outbox patience reception refeed roster shelf sighting timetable wish""".split("\\s+"));
 
-    /** Four floors: the kit, rooms side by side, the suite of them, benchmarks. */
+    /** Four layers: the kit, independent modules, the suite that combines them, benchmarks. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
                     io.furrow.model      |
@@ -57,7 +57,7 @@ class ArchitectureTest {
                     io.furrow.cli        | model, kafka, flink, mission, fields
                     io.furrow.launcher   | model, http, kafka, flink, mission, connect, ingest, analytics, replay, control, provisioner, fields, dashboard, fiware, simulators, embedded, cli
                     """)
-    void letsEachModuleDependOnWhatItMay(String module, String allowed) {
+    void modulesDependOnlyOnAllowedOnes(String module, String allowed) {
         List<String> others = allowed == null ? List.of() : List.of(allowed.split(", "));
         String[] mayUse = Stream.concat(Stream.of(module), others.stream().map("io.furrow."::concat))
                 .map(name -> name + "..")
@@ -72,10 +72,10 @@ class ArchitectureTest {
                 .check(CLASSES);
     }
 
-    /** They share the fields, the clocks of devices, how entities are read and how to act in event time. */
+    /** Jobs share the fields, the clocks of devices, how entities are read, and event-time utilities. */
     @ParameterizedTest
     @ValueSource(strings = "io.furrow.analytics.(*)..")
-    void keepsJobsApart(String jobs) {
+    void jobsDoNotDependOnEachOther(String jobs) {
         SlicesRuleDefinition.slices()
                 .matching(jobs)
                 .should()
@@ -91,9 +91,9 @@ class ArchitectureTest {
                 .check(CLASSES);
     }
 
-    /** The page of ingest joins its branches; they know the events of {@code route} and nothing of each other. */
+    /** The job combines its branches, which depend on the events of {@code route} and not on each other. */
     @Test
-    void keepsTheBranchesOfIngestApart() {
+    void branchesOfIngestDoNotDependOnEachOther() {
         SlicesRuleDefinition.slices()
                 .matching("io.furrow.ingest.(*)..")
                 .should()
@@ -110,9 +110,9 @@ class ArchitectureTest {
                 .check(CLASSES);
     }
 
-    /** When what is due can be tested without a cluster. */
+    /** The timing of replays can be tested without a cluster. */
     @Test
-    void keepsTheRulesOfReplaysFreeOfEngines() {
+    void rulesOfReplaysDoNotDependOnEngines() {
         noClasses()
                 .that()
                 .resideInAPackage("io.furrow.replay.playback")
@@ -123,7 +123,7 @@ class ArchitectureTest {
     }
 
     @Test
-    void givesNoPackageANameThatSaysNothing() {
+    void noPackageHasAMeaninglessName() {
         ArchRule rule = ArchRuleDefinition.noClasses()
                 .should()
                 .resideInAnyPackage(
@@ -133,7 +133,7 @@ class ArchitectureTest {
     }
 
     @Test
-    void keepsPackagesSmallEnoughToFindAClassIn() {
+    void noPackageHasTooManyClasses() {
         Map<String, Long> crowded = CLASSES.stream()
                 .filter(each -> each.isTopLevelClass() && !each.getSimpleName().equals("package-info"))
                 .filter(each -> !each.getPackageName().endsWith(".jmh_generated"))
@@ -144,7 +144,7 @@ class ArchitectureTest {
     }
 
     @Test
-    void letsPackagesDependOnEachOtherOneWay() {
+    void packagesHaveNoCycles() {
         SlicesRuleDefinition.slices()
                 .matching("io.furrow.(**)")
                 .should()
@@ -152,9 +152,9 @@ class ArchitectureTest {
                 .check(CLASSES);
     }
 
-    /** The word list is in CONTRIBUTING.md. */
+    /** The list of words is in CONTRIBUTING.md. */
     @Test
-    void usesTheWordsOfTheField() {
+    void classesAndConstantsUseTheWordsOfTheField() {
         noClasses()
                 .should()
                 .haveNameMatching(".*(Desk|Keeper|Gatekeeper|Caretaker|Book|Shelf|Board)s?")
@@ -167,7 +167,7 @@ class ArchitectureTest {
     }
 
     @Test
-    void usesTheWordsOfTheFieldInEveryIdentifier() throws IOException {
+    void identifiersUseTheWordsOfTheField() throws IOException {
         for (Path module : modules()) {
             assertThat(SourceWords.identifiersWith(BANNED, module))
                     .as("%s", module)
@@ -176,7 +176,7 @@ class ArchitectureTest {
     }
 
     @Test
-    void keepsTheModelFreeOfEngines() {
+    void modelDoesNotDependOnEngines() {
         noClasses()
                 .that()
                 .resideInAPackage("io.furrow.model..")
@@ -186,7 +186,7 @@ class ArchitectureTest {
                 .check(CLASSES);
     }
 
-    /** Each of its adapters goes where the engines of the others are not. */
+    /** Each adapter of the access rule is used without the engines of the others. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
                     io.furrow.http         | java.., io.furrow.http
@@ -195,7 +195,7 @@ class ArchitectureTest {
                     io.furrow.http.connect | java.., io.furrow.http, io.furrow.http.connect, org.apache.kafka.., jakarta..
                     io.furrow.http.prometheus | java.., io.furrow.http.prometheus, io.prometheus..
                     """)
-    void keepsTheAccessRuleFreeOfEnginesAndItsAdaptersApart(String where, String allowed) {
+    void accessRuleDoesNotDependOnEnginesNorItsAdaptersOnEachOther(String where, String allowed) {
         ArchRuleDefinition.classes()
                 .that()
                 .resideInAPackage(where)
@@ -206,7 +206,7 @@ class ArchitectureTest {
     }
 
     @Test
-    void seesEveryModule() {
+    void importsEveryModule() {
         assertThat(CLASSES).extracting(JavaClass::getPackageName).contains("""
                                 io.furrow.model.ngsi io.furrow.http io.furrow.embedded io.furrow.flink.job
                                 io.furrow.mission io.furrow.connect.source io.furrow.ingest.route
@@ -214,7 +214,7 @@ class ArchitectureTest {
                                 io.furrow.fiware io.furrow.bench.load io.furrow.launcher""".split("\\s+"));
     }
 
-    /** From the folders, because the connector is on nobody's class path. */
+    /** Imports class folders, because the connector is on no class path. */
     private static JavaClasses everyModule() {
         return new ClassFileImporter()
                 .importPaths(modules().stream()
@@ -223,7 +223,7 @@ class ArchitectureTest {
                         .toList());
     }
 
-    /** The folder above is that of the system tests' sources, too. */
+    /** The parent folder contains the sources of the system tests. */
     private static List<Path> modules() {
         try (Stream<Path> folders = Files.walk(Path.of(".."), 2)) {
             return folders.filter(folder -> Files.exists(folder.resolve("pom.xml")))

@@ -5,23 +5,23 @@ import java.util.concurrent.Callable;
 
 import org.awaitility.Awaitility;
 
-/** Waits for many records as long as more of them come: how fast they come is the machine's affair. */
+/** Waits for many records while more of them arrive, however fast the machine is. */
 final class Arrivals {
-    private static final Duration WITHOUT_ANY = Duration.ofSeconds(60);
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
 
     private Arrivals() {}
 
     /**
-     * Returns when {@code seen} is at least {@code expected}.
+     * Returns once {@code count} is at least {@code expected}.
      *
-     * @throws org.awaitility.core.ConditionTimeoutException if a minute passes in which it does not grow
+     * @throws org.awaitility.core.ConditionTimeoutException if it does not grow for a minute
      */
-    static void await(int expected, Callable<Integer> seen) {
+    static void await(int expected, Callable<Integer> count) {
         for (int arrived = 0; arrived < expected; ) {
-            int before = arrived;
-            arrived = Awaitility.await("more than %d of %d".formatted(before, expected))
-                    .atMost(WITHOUT_ANY)
-                    .until(seen, now -> now > before);
+            int previous = arrived;
+            arrived = Awaitility.await("more than %d of %d".formatted(previous, expected))
+                    .atMost(TIMEOUT)
+                    .until(count, now -> now > previous);
         }
     }
 }

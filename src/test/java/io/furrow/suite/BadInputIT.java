@@ -27,13 +27,13 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** What goes wrong in the field, each with its outcome; after each of them a good event still comes through. */
+/** Faulty inputs and their outcomes; after each of them a valid event is still processed. */
 @Tag("full")
 class BadInputIT {
     @AutoClose
     private static RunningSuite running;
 
-    private static int goodOnes;
+    private static int validEvents;
 
     @BeforeAll
     static void start() throws Exception {
@@ -41,15 +41,15 @@ class BadInputIT {
     }
 
     @AfterEach
-    void aGoodEventStillComesThrough() throws Exception {
-        String id = "good-" + goodOnes++;
+    void processesAValidEvent() throws Exception {
+        String id = "good-" + validEvents++;
         assertThat(running.ngsi().append(entity(id, "\"n\":{\"type\":\"Number\",\"value\":1}")))
                 .isEqualTo(204);
         awaitRouted(id, record -> assertThat(record.value()).isNotEmpty());
     }
 
     @Test
-    void setsAsideAResultThatTheContextBrokerRejects() throws Exception {
+    void writesAResultThatTheContextBrokerRejectsToTheDeadLetters() throws Exception {
         try (KafkaProducer<String, String> producer = new KafkaProducer<>(
                 running.suite().kafka().clientProperties(), new StringSerializer(), new StringSerializer())) {
             for (String text : List.of("(refused)", "accepted")) {
@@ -68,7 +68,7 @@ class BadInputIT {
 
     @ParameterizedTest
     @CsvSource({"NaN, -3.483", "-3.483, 40.3134", "0, 0", "95, -3.483"})
-    void routesADeviceWithoutAUsablePositionAndLeavesItOutOfTheAverage(String latitude, String longitude)
+    void routesADeviceWithoutAUsablePositionButExcludesItFromTheAverage(String latitude, String longitude)
             throws Exception {
         String id = "lost-" + latitude;
         String good = "found-" + latitude;
@@ -80,7 +80,7 @@ class BadInputIT {
                 record -> assertThat(Entity.parse(record.value()).number("Temperature"))
                         .contains(99.0));
 
-        // The good one reports until a window that holds it has closed; the lost one is never part of it.
+        // Both report until a window with the valid reading has closed; the other reading is never part of it.
         await().pollInterval(Duration.ofMillis(300)).untilAsserted(() -> {
             double reading = 20 + System.nanoTime() % 1000 / 1e6;
             running.ngsi().append(thermometer(id, 99 + reading / 1000, latitude, longitude));
@@ -94,7 +94,7 @@ class BadInputIT {
     }
 
     @Test
-    void losesNothingOfOthersNorOfADeviceThatNeverStops() throws Exception {
+    void losesNoEventsWhileADeviceFloodsTheTopic() throws Exception {
         LoadPlan flood = new LoadPlan(1, Duration.ofMillis(2), 1000, Duration.ofSeconds(4), "bad", "flood");
         LoadFleet.provision(running.suite().devices(), flood);
         try (LoadFleet device = LoadFleet.start(running.suite().devices(), flood)) {

@@ -10,16 +10,16 @@ import java.util.concurrent.TimeUnit;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** A program of the operating system, as a user would call it. */
+/** Runs a program of the operating system. */
 record Command(List<String> arguments, Process process, Path output) implements AutoCloseable {
     private static final long SECONDS = 120;
 
-    /** Starts it and goes on; the words are its name and arguments. */
+    /** Starts a program without waiting for it. @param arguments its name and arguments */
     static Command start(String... arguments) {
         return start(Map.of(), arguments);
     }
 
-    /** The same with further variables of its environment. */
+    /** Starts a program with additional environment variables. */
     static Command start(Map<String, String> variables, String... arguments) {
         try {
             Path output = Files.createTempFile("command", ".out");
@@ -33,7 +33,7 @@ record Command(List<String> arguments, Process process, Path output) implements 
         }
     }
 
-    /** Runs it to its end and returns what it printed. */
+    /** Runs a program to its end and returns its output. */
     static String run(String... arguments) throws IOException, InterruptedException {
         try (Command command = start(arguments)) {
             assertThat(command.exitCode())

@@ -16,7 +16,10 @@ import io.furrow.files.Folders;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Each decision says below its title whether it holds or which newer ones changed it, and the list of decisions says the same. */
+/**
+ * Each decision states its status below the title, with newer decisions that changed it; the list of decisions states
+ * the same.
+ */
 class DecisionsTest {
     private static final Path FOLDER = Path.of("..", "docs", "adr");
     private static final Pattern STATUS = Pattern.compile("Status: (?:accepted|(replaced|amended) by (.+))");
@@ -24,7 +27,7 @@ class DecisionsTest {
 
     @ParameterizedTest
     @MethodSource("decisions")
-    void nameThoseThatChangedThem(String decision) throws IOException {
+    void statusNamesTheDecisionsThatChangedIt(String decision) throws IOException {
         String line = Files.readAllLines(FOLDER.resolve(decision)).get(2);
         Matcher status = STATUS.matcher(line);
         assertThat(status.matches()).as(line).isTrue();

@@ -15,7 +15,9 @@ import io.furrow.files.Folders;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** A command that is told to end leaves nothing in the temporary directory, whichever engines write there by then. */
+/**
+ * A command that is terminated by a signal leaves nothing in the temporary directory, whichever engine runs by then.
+ */
 @Tag("full")
 class EndedFromOutsideIT {
     @TempDir
@@ -51,7 +53,7 @@ class EndedFromOutsideIT {
     private static List<Path> kafkaFiles(Path temporary) throws Exception {
         try (Stream<Path> files = Files.walk(temporary)) {
             return files.filter(file -> file.endsWith("meta.properties")).toList();
-        } catch (java.io.UncheckedIOException e) { // one of them has gone meanwhile
+        } catch (java.io.UncheckedIOException e) { // a file was deleted meanwhile
             return List.of();
         }
     }

@@ -11,11 +11,11 @@ import io.furrow.process.TestProcess;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** A command of Furrow in a process of its own, with a temporary directory of its own. */
+/** Runs a command of Furrow in a separate process with its own temporary directory. */
 record FurrowProcess(Process process, Path output) implements AutoCloseable {
     static final Duration TIMEOUT = Duration.ofMinutes(3);
 
-    /** @param temporary where the process makes its temporary files; what it prints is beside it */
+    /** @param temporary directory for temporary files of the process; its output is written beside it */
     static FurrowProcess start(Path temporary, String... arguments) throws IOException {
         String options = "-Xmx1g -XX:MaxDirectMemorySize=1g -Djava.io.tmpdir=%s -Dfurrow.plugins=%s"
                 .formatted(temporary, System.getProperty("furrow.plugins"));
@@ -35,7 +35,7 @@ record FurrowProcess(Process process, Path output) implements AutoCloseable {
         return process.isAlive();
     }
 
-    /** Sends a signal, for instance {@code TERM}, and waits for the end. */
+    /** Sends a signal, for instance {@code TERM}, and waits for the process to end. */
     void end(String signal) throws IOException, InterruptedException {
         new ProcessBuilder("kill", "-" + signal, Long.toString(process.pid()))
                 .start()

@@ -15,12 +15,12 @@ import io.furrow.embedded.FreePort;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** Who finds a warning in a log looks for its cause, so a run in which all is well must not write any. */
+/** A healthy run logs no warnings, since each warning makes an operator look for its cause. */
 @Tag("full")
 class HealthyLogIT {
-    private static final Pattern TROUBLE = Pattern.compile("\\S+ +(WARN|ERROR|FATAL) .*");
+    private static final Pattern WARNING = Pattern.compile("\\S+ +(WARN|ERROR|FATAL) .*");
     private static final Pattern AVERAGE = Pattern.compile("average +field-1 ");
-    /** Windows of ten seconds, as many as it takes for several checkpoints of each job. */
+    /** Windows last ten seconds: enough for several checkpoints of each job. */
     private static final long WINDOWS = 3;
 
     private static final List<String> PORTS =
@@ -30,9 +30,9 @@ class HealthyLogIT {
     Path directory;
 
     @Test
-    void holdsNoWarningOfARunThatIsWellNorOfItsStopNorOfTheNextRun() throws Exception {
+    void logsNoWarningsInARunAtItsStopAndInTheNextRun() throws Exception {
         Path data = directory.resolve("data");
-        // The same in both runs, as they are for a user.
+        // The same ports in both runs, as a user would have them.
         String ports = PORTS.stream()
                 .map(name -> " --" + name + "-port " + FreePort.orFree(0))
                 .collect(Collectors.joining());
@@ -41,10 +41,10 @@ class HealthyLogIT {
 
         List<String> log = Files.readAllLines(data.resolve("furrow.log"));
         assertThat(log)
-                .as("both runs and their ends")
+                .as("both runs and their stops")
                 .filteredOn(line -> line.contains("Session Stopping"))
                 .hasSize(2);
-        assertThat(log).noneMatch(line -> TROUBLE.matcher(line).matches());
+        assertThat(log).noneMatch(line -> WARNING.matcher(line).matches());
     }
 
     private void run(String arguments, String name, long windows) throws Exception {

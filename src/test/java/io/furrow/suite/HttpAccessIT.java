@@ -17,11 +17,14 @@ import io.furrow.launcher.suite.Suite;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** What a page of a foreign host could make a browser send, to every HTTP port that this JVM has, also ones that nobody listed here. */
+/**
+ * Requests that a page of a foreign host could make a browser send, to every HTTP port of this JVM, including ports
+ * that no test lists.
+ */
 @Tag("full")
 class HttpAccessIT {
     private static final String BOUNDARY = "frontier";
-    /** Paths that change something, or show something, on one of the servers. */
+    /** Paths that change or show something on one of the servers. */
     private static final List<String> PATHS = List.of("""
                     / /config /connectors /jars/upload /jobs /v2/entities /v2/notify /iot/devices /api/domains
                     /nothing-is-here""".split("\\s+"));
@@ -40,7 +43,7 @@ class HttpAccessIT {
     }
 
     @Test
-    void findsTheKnownHttpPortsByItself() {
+    void findsTheServersByTheirPorts() {
         Suite suite = running.suite();
 
         assertThat(httpPorts)
@@ -53,7 +56,7 @@ class HttpAccessIT {
                         suite.contextBroker().getPort(),
                         suite.devices().iotAgent().getPort());
         assertThat(httpPorts)
-                .as("what speaks another protocol is none of them")
+                .as("ports of other protocols are excluded")
                 .doesNotContain(
                         suite.devices().mqtt().getPort(),
                         URI.create(suite.mongo()).getPort());
@@ -61,31 +64,31 @@ class HttpAccessIT {
 
     @Test
     void rejectsAForeignHostOnEveryHttpPort() throws IOException {
-        List<String> let = new ArrayList<>();
+        List<String> accepted = new ArrayList<>();
         for (int port : httpPorts) {
             for (String host : List.of("evil.example", "evil.example:" + port, "127.0.0.1.evil.example:" + port)) {
-                let.addAll(notRefused(port, "Host: " + host));
+                accepted.addAll(accepted(port, "Host: " + host));
             }
         }
 
-        assertThat(let).isEmpty();
+        assertThat(accepted).isEmpty();
     }
 
     @Test
     void rejectsAForeignOriginOnEveryHttpPort() throws IOException {
-        List<String> let = new ArrayList<>();
+        List<String> accepted = new ArrayList<>();
         for (int port : httpPorts) {
             for (String origin : List.of("https://evil.example", "null", "http://127.0.0.1:1", "http://localhost")) {
-                let.addAll(notRefused(port, "Host: 127.0.0.1:" + port, "Origin: " + origin));
+                accepted.addAll(accepted(port, "Host: 127.0.0.1:" + port, "Origin: " + origin));
             }
         }
 
-        assertThat(let).isEmpty();
+        assertThat(accepted).isEmpty();
     }
 
     @Test
     void rejectsWebSocketsAndPreflightsOfForeignPages() throws IOException {
-        List<String> let = new ArrayList<>();
+        List<String> accepted = new ArrayList<>();
         for (int port : httpPorts) {
             String[] foreign = {"Host: 127.0.0.1:" + port, "Origin: https://evil.example"};
             String webSocket =
@@ -93,15 +96,15 @@ class HttpAccessIT {
                             + "Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
             String preflight =
                     RawHttp.head("OPTIONS", "/connectors", foreign) + "Access-Control-Request-Method: PUT\r\n\r\n";
-            addUnlessRefused(port, webSocket, let);
-            addUnlessRefused(port, preflight, let);
+            addIfAccepted(port, webSocket, accepted);
+            addIfAccepted(port, preflight, accepted);
         }
 
-        assertThat(let).isEmpty();
+        assertThat(accepted).isEmpty();
     }
 
     @Test
-    void offersItsAnswersToNoForeignPage() throws IOException {
+    void allowsNoForeignPageToReadResponses() throws IOException {
         for (int port : httpPorts) {
             assertThat(RawHttp.send(port, RawHttp.get("/config", "Host: localhost:" + port)))
                     .hasValueSatisfying(answer -> assertThat(answer.text()).doesNotContainIgnoringCase("allow-origin"));
@@ -137,7 +140,7 @@ class HttpAccessIT {
     }
 
     @Test
-    void takesNoJarNoJobAndNoCommandAtFlink() throws IOException {
+    void rejectsJarsJobsAndCommandsAtFlink() throws IOException {
         int flink = running.suite().flink().getPort();
         String job = running.suite().jobs().values().iterator().next();
 
@@ -171,19 +174,19 @@ class HttpAccessIT {
                 .orElse(0);
     }
 
-    private static List<String> notRefused(int port, String... headers) throws IOException {
-        List<String> let = new ArrayList<>();
+    private static List<String> accepted(int port, String... headers) throws IOException {
+        List<String> accepted = new ArrayList<>();
         for (String path : PATHS) {
-            addUnlessRefused(port, RawHttp.get(path, headers), let);
-            addUnlessRefused(port, RawHttp.simplePost(path, "{}", headers), let);
+            addIfAccepted(port, RawHttp.get(path, headers), accepted);
+            addIfAccepted(port, RawHttp.simplePost(path, "{}", headers), accepted);
         }
-        return let;
+        return accepted;
     }
 
-    private static void addUnlessRefused(int port, String request, List<String> let) throws IOException {
+    private static void addIfAccepted(int port, String request, List<String> accepted) throws IOException {
         int status = RawHttp.send(port, request).map(RawHttp.Answer::status).orElse(0);
         if (status != 403) {
-            let.add(status + " of port " + port + " to " + request.replace("\r\n", " | "));
+            accepted.add(status + " of port " + port + " to " + request.replace("\r\n", " | "));
         }
     }
 }

@@ -14,7 +14,7 @@ import io.furrow.files.Folders;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** The TCP ports that this JVM itself listens on, as the operating system lists them. */
+/** Lists the TCP ports on which this JVM listens, as reported by the operating system. */
 final class ListeningPorts {
     private static final Path PROC = Path.of("/proc/self");
     private static final String LISTENING = "0A";
@@ -22,17 +22,16 @@ final class ListeningPorts {
 
     private ListeningPorts() {}
 
-    /** @throws IllegalStateException if neither {@code /proc} nor {@code lsof} can say */
+    /** @throws IllegalStateException if neither {@code /proc} nor {@code lsof} reports any */
     static Set<Integer> ofThisJvm() throws IOException, InterruptedException {
         Set<Integer> ports = Files.isDirectory(PROC.resolve("fd")) ? fromProc() : fromLsof();
         if (ports.isEmpty()) {
-            throw new IllegalStateException(
-                    "this JVM listens on no TCP port; were they asked for before a server ran?");
+            throw new IllegalStateException("this JVM listens on no TCP port; were they listed before a server ran?");
         }
         return ports;
     }
 
-    /** Linux: sockets that listen, of which a file descriptor of this process is an end. */
+    /** Linux: listening sockets with a file descriptor of this process. */
     private static Set<Integer> fromProc() throws IOException {
         Set<String> own = inodesOfThisProcess();
         Set<Integer> ports = new TreeSet<>();
@@ -70,7 +69,7 @@ final class ListeningPorts {
         }
     }
 
-    /** Elsewhere, for instance on macOS. */
+    /** Other systems, for instance macOS. */
     private static Set<Integer> fromLsof() throws IOException, InterruptedException {
         String pid = Long.toString(ProcessHandle.current().pid());
         Process lsof = new ProcessBuilder("lsof", "-a", "-p", pid, "-iTCP", "-sTCP:LISTEN", "-n", "-P", "-Fn").start();

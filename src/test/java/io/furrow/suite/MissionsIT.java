@@ -38,7 +38,7 @@ class MissionsIT {
     private static final HttpClient HTTP = HttpClient.newHttpClient();
 
     @Test
-    void startsAMissionOfAHundredDevicesGoesOnAfterARestartAndStopsIt(TestReporter reporter, @TempDir Path stored)
+    void startsAMissionOfAHundredDevicesContinuesAfterARestartAndStopsIt(TestReporter reporter, @TempDir Path stored)
             throws Exception {
         try (RunningSuite running = RunningSuite.start(stored)) {
             Suite suite = running.suite();
@@ -72,7 +72,7 @@ class MissionsIT {
     }
 
     @Test
-    void goesOnReportingThroughARotationOfTheFarmsSecret(@TempDir Path stored) throws Exception {
+    void continuesToReportDuringARotationOfTheFarmsSecret(@TempDir Path stored) throws Exception {
         try (RunningSuite running =
                 RunningSuite.start(stored, SuiteSettings.onFreePorts("2s").withoutSharedLogin())) {
             Suite suite = running.suite();
@@ -86,16 +86,16 @@ class MissionsIT {
                     """);
             running.awaitState("hoeing", "running");
 
-            Instant over = Instant.now().plusSeconds(5);
+            Instant rotationEnd = Instant.now().plusSeconds(5);
             Path file = stored.resolve("farm-secret");
-            FarmSecret rotated = FarmSecret.read(file).rotated(Instant.now(), over, false);
+            FarmSecret rotated = FarmSecret.read(file).rotated(Instant.now(), rotationEnd, false);
             Files.writeString(file, FarmSecretCodec.write(rotated));
 
             for (int number = 1; number <= 3; number++) {
                 String entity = "id=urn:ngsi-ld:Thermometer:hoeing-" + number;
                 await().until(() ->
                         running.ngsi().entities(entity).at("/0/Time/value").asLong()
-                                > over.plusSeconds(3).toEpochMilli());
+                                > rotationEnd.plusSeconds(3).toEpochMilli());
             }
             assertThat(running.mission("hoeing").at("/status/state").asText()).isEqualTo("running");
             assertThat(running.get("/api/devices/urn:ngsi-ld:Thermometer:hoeing-1/credentials")
@@ -106,7 +106,7 @@ class MissionsIT {
         }
     }
 
-    /** As somebody who sets up a device by hand, and errs. */
+    /** Makes the mistakes of a user who sets up a device by hand. */
     @Test
     void reportsWhyADeviceIsSilent(@TempDir Path stored) throws Exception {
         try (RunningSuite running =
@@ -144,15 +144,15 @@ class MissionsIT {
         }
     }
 
-    /** What mosquitto_pub prints: nothing where its message was acknowledged. */
+    /** The output of mosquitto_pub: empty if its message was acknowledged. */
     private static String publish(Suite suite, String user, String password, String topic, String message)
             throws Exception {
         URI broker = suite.devices().mqtt();
         String port = Integer.toString(broker.getPort());
         var arguments = List.of("mosquitto_pub", "-h", broker.getHost(), "-p", port, "-u", user, "-P", password);
-        List<String> about = List.of("-q", "1", "-t", topic, "-m", message);
-        try (Command publisher =
-                Command.start(Stream.concat(arguments.stream(), about.stream()).toArray(String[]::new))) {
+        List<String> content = List.of("-q", "1", "-t", topic, "-m", message);
+        try (Command publisher = Command.start(
+                Stream.concat(arguments.stream(), content.stream()).toArray(String[]::new))) {
             publisher.exitCode();
             return publisher.printed();
         }

@@ -14,10 +14,10 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** The pages that lead a reader into the code name classes that exist. */
+/** Pages that guide readers into the code name only existing classes. */
 class NamedClassesTest {
     private static final Path ROOT = Path.of("..");
-    /** In code style, without or with its packages: {@code collision/CollisionEntity}. */
+    /** A class in code style, without or with packages: {@code collision/CollisionEntity}. */
     private static final Pattern CLASS = Pattern.compile("`(?:[a-z]+/)*([A-Z][A-Za-z0-9]+)(?:\\.\\w+)?`");
 
     @ParameterizedTest
@@ -33,7 +33,7 @@ class NamedClassesTest {
 
     @ParameterizedTest
     @ValueSource(strings = "changes.md")
-    void lieWhereThePageSays(String page) throws IOException {
+    void areInTheNamedPackages(String page) throws IOException {
         String text = Files.readString(ROOT.resolve("docs").resolve(page));
         Set<String> places = Pattern.compile("`((?:[a-z]+/)+[A-Z][A-Za-z0-9]+)`")
                 .matcher(text)

@@ -12,12 +12,12 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** The context broker and the listener for notifications, as a client over HTTP sees them. */
+/** A client of the context broker and of the NGSI source. */
 public record Ngsi(Suite suite) {
     private static final HttpClient HTTP =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
 
-    /** The entities that a query such as {@code type=Camera} finds. */
+    /** The entities that match a query such as {@code type=Camera}. */
     JsonNode entities(String query) throws IOException, InterruptedException {
         HttpRequest request = HttpRequest.newBuilder(suite.contextBroker().resolve("/v2/entities?limit=1000&" + query))
                 .header("fiware-service", suite.fiwareService())
@@ -32,7 +32,7 @@ public record Ngsi(Suite suite) {
         return entities("id=" + id).path(0);
     }
 
-    /** Sends a notification to the NGSI source and returns the status of its answer. */
+    /** Sends a notification to the NGSI source and returns the status of its response. */
     int notify(byte[] body) throws IOException, InterruptedException {
         return send(suite.listener(), body);
     }

@@ -25,7 +25,7 @@ class PartsThatAlreadyRunIT {
     Path stored;
 
     @Test
-    void usesTheContextBrokerTheKafkaAndTheMongoThatItIsGiven(@TempDir Path directory) throws Exception {
+    void usesTheGivenContextBrokerKafkaAndMongo(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory);
                 EmbeddedMongo mongo = EmbeddedMongo.start(documents);
                 FiwareStandIn orion = FiwareStandIn.start(FiwareSettings.httpOnly());

@@ -13,27 +13,27 @@ import java.util.regex.Pattern;
 
 import static java.nio.charset.StandardCharsets.ISO_8859_1;
 
-/** Requests written byte by byte, because HTTP clients let nobody choose {@code Host} and {@code Origin}. */
+/** Sends requests written byte by byte, because HTTP clients do not allow to set {@code Host} and {@code Origin}. */
 final class RawHttp {
     private static final Pattern STATUS = Pattern.compile("(?s)HTTP/1\\.[01] (\\d{3}).*");
     private static final int TIMEOUT_MS = 60_000;
-    /** Beyond it a server speaks another protocol, and waits for more. */
-    private static final int RECOGNIZED_WITHIN_MS = 20_000;
+    /** A server that does not respond in time speaks another protocol, and waits for more. */
+    private static final int PROBE_TIMEOUT_MS = 20_000;
 
     private RawHttp() {}
 
-    /** An answer as it came. */
+    /** A raw response. */
     record Answer(int status, String text) {}
 
-    /** Empty where the port answers with something else than HTTP, or not at all. */
+    /** Empty if the port does not answer with HTTP, or not at all. */
     static Optional<Answer> send(int port, String request) throws IOException {
         return send(port, request, TIMEOUT_MS);
     }
 
-    /** Whether a request is answered as HTTP does. */
+    /** Whether a port responds with HTTP. */
     static boolean isSpokenAt(int port) {
         try {
-            return send(port, get("/", "Host: 127.0.0.1:" + port), RECOGNIZED_WITHIN_MS)
+            return send(port, get("/", "Host: 127.0.0.1:" + port), PROBE_TIMEOUT_MS)
                     .isPresent();
         } catch (IOException e) {
             throw new UncheckedIOException(e);
@@ -56,12 +56,12 @@ final class RawHttp {
         }
     }
 
-    /** Without a body. */
+    /** A request without a body. */
     static String get(String path, String... headers) {
         return head("GET", path, headers) + "\r\n";
     }
 
-    /** A POST that a page may send anywhere without asking first: its content type is one of three. */
+    /** A POST that a page may send to any site without preflight, because of its content type. */
     static String simplePost(String path, String body, String... headers) {
         return head("POST", path, headers) + "Content-Type: text/plain\r\nContent-Length: " + body.length() + "\r\n\r\n"
                 + body;

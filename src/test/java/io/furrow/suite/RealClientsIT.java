@@ -16,7 +16,7 @@ import io.furrow.model.ngsi.Entity;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** The thermometer of the README, with the clients that a user would take. */
+/** The thermometer of the README, with the clients that a user would use. */
 @Tag("full")
 class RealClientsIT {
     private static final String ENTITY = "urn:ngsi-ld:Thermometer:mine";
@@ -42,7 +42,7 @@ class RealClientsIT {
     }
 
     @Test
-    void takesAMeasureOfMosquittoPubToTheDomainsTopic() throws Exception {
+    void routesAMeasureOfMosquittoPubToTheDomainsTopic() throws Exception {
         report();
         try (TopicLog topic = running.topic("data.farm.realtime")) {
             await().untilAsserted(() -> assertThat(topic.of(ENTITY))
@@ -78,14 +78,14 @@ class RealClientsIT {
 
     @Test
     void rejectsAWrongPassword() throws Exception {
-        try (Command stranger =
+        try (Command publisher =
                 Command.start(mosquitto("mosquitto_pub", "guessed", "/secret/mine/attrs", "-m", "{\"temp\": 99}"))) {
-            assertThat(stranger.exitCode()).isNotZero();
-            assertThat(stranger.printed()).contains("bad user name or password");
+            assertThat(publisher.exitCode()).isNotZero();
+            assertThat(publisher.printed()).contains("bad user name or password");
         }
     }
 
-    /** A device takes commands from its first measure on. */
+    /** A device accepts commands once it has sent a measure. */
     private static void report() throws Exception {
         Command.run(mosquitto(
                 "mosquitto_pub",
@@ -124,7 +124,7 @@ class RealClientsIT {
     private static String[] mosquitto(String program, String password, String topic, String... more) {
         URI broker = running.suite().devices().mqtt();
         List<String> arguments =
-                new ArrayList<>(List.of("stdbuf", "-oL", program)); // a line at once, though it is not a terminal
+                new ArrayList<>(List.of("stdbuf", "-oL", program)); // line buffering, though the output is no terminal
         arguments.addAll(List.of("-h", broker.getHost(), "-p", Integer.toString(broker.getPort())));
         arguments.addAll(List.of("-u", Suite.MQTT_USER, "-P", password, "-q", "1", "-t", topic));
         arguments.addAll(List.of(more));

@@ -18,7 +18,7 @@ import io.furrow.launcher.suite.SuiteSettings;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** Devices that have nothing but their credentials and an MQTT client, beside simulated ones. */
+/** Devices with only their credentials and an MQTT client, beside simulated ones. */
 class RealDevicesIT {
     private static final String PLACE = "{\"latitude\": 40.3134, \"longitude\": -3.4831}";
 
@@ -28,17 +28,17 @@ class RealDevicesIT {
     private static RunningSuite running;
 
     @BeforeAll
-    static void startAFarmThatSimulatesNothingUnasked() throws Exception {
-        SuiteSettings usual = SuiteSettings.onFreePorts("2s");
-        SuiteSettings.Farm farm = usual.farm();
+    static void startAFarmWithoutSimulatedDevices() throws Exception {
+        SuiteSettings defaults = SuiteSettings.onFreePorts("2s");
+        SuiteSettings.Farm farm = defaults.farm();
         running = RunningSuite.start(
                 null,
                 new SuiteSettings(
                         null,
-                        usual.fiware(),
-                        usual.window(),
+                        defaults.fiware(),
+                        defaults.window(),
                         null,
-                        usual.ports(),
+                        defaults.ports(),
                         null,
                         null,
                         null,
@@ -59,7 +59,7 @@ class RealDevicesIT {
     }
 
     @Test
-    void reportsByTheExampleOfItsCredentialsAsPrinted() throws Exception {
+    void reportsByTheExampleOfItsCredentials() throws Exception {
         start("first", """
                 {"type": "Thermometer", "count": 2, "period": "PT15M", "at": [%1$s, %1$s], "attributes": [
                   {"object_id": "t", "name": "Temperature", "unit": "CEL"}]}""".formatted(PLACE));
@@ -102,7 +102,7 @@ class RealDevicesIT {
 
     @Tag("full")
     @Test
-    void runsTheProgramOfTheDocumentationAndAnswersItsCommands() throws Exception {
+    void runsTheProgramOfTheDocumentationWhichAnswersCommands() throws Exception {
         start("program", "{\"type\": \"Thermometer\", \"at\": %s}".formatted(PLACE));
         await().until(() -> running.get("/api/missions/program/credentials").size() == 1);
         JsonNode login = running.get("/api/missions/program/credentials").path(0);
@@ -136,7 +136,7 @@ class RealDevicesIT {
 
     @Tag("full")
     @Test
-    void simulatesThoseOfAMissionThatAreSimulatedAlone() throws Exception {
+    void simulatesOnlyTheSimulatedDevicesOfAMission() throws Exception {
         start("mixed", """
                 {"type": "Thermometer", "count": 40, "simulated": true, "period": "PT1S", "area": "field-1"},
                 {"name": "real", "type": "WeatherStation", "count": 39, "at": %s},

@@ -25,13 +25,13 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** A mission on a whole suite, kept, and played back: what its topic had, its replay has. */
+/** A stored mission is replayed: the replay has the same records as the mission's topic. */
 @Tag("full")
 class ReplayIT {
     private static final int REPORTS = 30;
 
     @Test
-    void playsWhatTheMissionReported() throws Exception {
+    void replaysTheEventsOfAMission() throws Exception {
         try (RunningSuite running = RunningSuite.start(null);
                 TopicLog live = running.topic(Topics.realtime("north", "hoeing"))) {
             runMission(running, live);
@@ -46,16 +46,16 @@ class ReplayIT {
                         .isEqualTo(byId(live.records(), null, HeaderNames.CE_ID))
                         .hasSizeGreaterThanOrEqualTo(REPORTS);
             }
-            playsAgainFromItsEnd(
+            seeksToTheLastEvent(
                     running,
                     replay.path("replay").asText(),
                     replay.path("topic").asText());
         }
     }
 
-    private static void playsAgainFromItsEnd(RunningSuite running, String replay, String topic) throws Exception {
+    private static void seeksToTheLastEvent(RunningSuite running, String replay, String topic) throws Exception {
         String path = "/api/replays/" + replay;
-        await("rests when its end is settled")
+        await("settled at its end")
                 .until(() -> running.get(path).at("/status/settled").asBoolean());
         JsonNode rested = running.get(path);
         assertThat(rested.at("/status/state").asText()).isEqualTo("ended");
@@ -68,7 +68,7 @@ class ReplayIT {
                             && "1".equals(TopicLog.headers(record).get(HeaderNames.REPLAY_EPOCH))));
         }
         running.send("DELETE", path, "");
-        await("forgotten when it is stopped")
+        await("removed after it was stopped")
                 .until(() -> running.get("/api/replays").size() == 0);
     }
 
@@ -84,7 +84,7 @@ class ReplayIT {
         running.awaitState("hoeing", "stopped");
     }
 
-    /** How many events of a mission are kept. */
+    /** The number of stored events of a mission. */
     static long stored(RunningSuite running, String mission) throws Exception {
         Optional<Recording> recording =
                 new MongoRecordings(running.suite().mongo(), MongoAccess.DATABASE).open(mission);
@@ -98,7 +98,7 @@ class ReplayIT {
         }
     }
 
-    /** Until the catalog of recordings, which is polled, has the mission: only then a replay of it is accepted. */
+    /** Waits until the catalog of recordings, which is polled, lists the mission: before that a replay is rejected. */
     static void awaitListed(RunningSuite running, String mission) {
         await("listed among the recordings").until(() -> {
             List<String> listed = running.get("/api/recordings").findValuesAsText("mission");
@@ -110,7 +110,7 @@ class ReplayIT {
         return kind.equals(TopicLog.headers(record).get(HeaderNames.REPLAY_KIND));
     }
 
-    /** Timestamp and value of each record by the event's id. */
+    /** Timestamp and value of each record by event id. */
     private static Map<String, String> byId(List<ConsumerRecord<byte[], byte[]>> records, String kind, String id) {
         Map<String, String> byId = new TreeMap<>();
         for (ConsumerRecord<byte[], byte[]> record : records) {
@@ -122,7 +122,7 @@ class ReplayIT {
         return byId;
     }
 
-    /** Equal texts for equal entities. */
+    /** Serializes an entity with sorted members, so that equal entities have equal texts. */
     private static String sorted(String json) {
         return Unchecked.get(() -> json.isEmpty()
                 ? ""

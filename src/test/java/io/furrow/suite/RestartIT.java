@@ -15,14 +15,14 @@ class RestartIT {
     private static final int EVENTS = 20;
 
     @Test
-    void goesOnWhereItWasAfterARestart(@TempDir Path stored) throws Exception {
+    void continuesAfterARestart(@TempDir Path stored) throws Exception {
         try (RunningSuite first = RunningSuite.start(stored)) {
             send(first, 0);
             awaitRouted(first, EVENTS);
         }
         try (RunningSuite second = RunningSuite.start(stored)) {
             assertThat(second.ngsi().entity("probe").at("/n/value").asInt())
-                    .as("the context broker has kept its entities")
+                    .as("the context broker has stored its entities")
                     .isEqualTo(EVENTS - 1);
             send(second, EVENTS);
             List<String> ids = awaitRouted(second, 2 * EVENTS);

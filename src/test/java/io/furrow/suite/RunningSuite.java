@@ -19,7 +19,7 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** A suite on free ports for the time of a test, with what a test asks of it. */
+/** A suite on free ports for a test, with queries that tests need. */
 public record RunningSuite(RunDirectory directory, Suite suite) implements AutoCloseable {
     /** @param stored null for a temporary directory */
     public static RunningSuite start(Path stored) throws Exception {
@@ -36,7 +36,7 @@ public record RunningSuite(RunDirectory directory, Suite suite) implements AutoC
         return new Ngsi(suite);
     }
 
-    /** An answer of the control plane's REST API. */
+    /** A response of the control plane's REST API. */
     public JsonNode get(String path) throws Exception {
         return NgsiJson.read(request("GET", path, "").body());
     }
@@ -45,7 +45,7 @@ public record RunningSuite(RunDirectory directory, Suite suite) implements AutoC
         return send("POST", path, body);
     }
 
-    /** The answer to a request that must be accepted. */
+    /** The response to a request that must be accepted. */
     JsonNode send(String method, String path, String body) throws Exception {
         HttpResponse<byte[]> response = request(method, path, body);
         JsonNode answer = NgsiJson.read(response.body());

@@ -24,7 +24,10 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** The demonstration farm's robots and thermometers as one mission: a replay gives the answers that the live run gave, at any speed. */
+/**
+ * Robots and thermometers of the demonstration farm as one mission: replays yield the same results as the live run, at
+ * any speed.
+ */
 @Timeout(480)
 @Tag("full")
 class SameAnswerIT {
@@ -32,13 +35,13 @@ class SameAnswerIT {
     private static final List<String> RESULTS = List.of(Topics.COLLISION, Topics.TEMPERATURE, Topics.PRESENCE);
 
     @Test
-    void findsInReplaysWhatItFoundLive() throws Exception {
+    void replaysYieldTheLiveResults() throws Exception {
         try (RunningSuite running = RunningSuite.start(null);
                 TopicLog live = running.topic(Topics.realtime("farm", "weeding"));
                 TopicLog collisions = running.topic(Topics.COLLISION)) {
             running.awaitReady();
             running.post("/api/domains", "{\"domain\":\"farm\"}");
-            // off the fields, and still reporting when the mission is over: event time goes on
+            // reports outside of the fields after the mission has ended, so that event time advances
             running.post("/api/domains", "{\"domain\":\"canary\"}");
             running.post("/api/missions/dummy/start", """
                     {"domain": "canary", "devices": [{"type": "Thermometer", "period": "PT1S", "path": [[-3.482, 40.3092]]}]}
@@ -67,7 +70,7 @@ class SameAnswerIT {
             List<String> topics = List.of(replay(running, "1"), replay(running, "10"), replay(running, "\"max\""));
             for (String result : RESULTS) {
                 for (String topic : topics) {
-                    // windows and encounters that the live run left open close as its event time goes on
+                    // windows and encounters that are open in the live run close as its event time advances
                     await().atMost(TIMEOUT)
                             .untilAsserted(() -> assertSame(
                                     topic,
@@ -75,12 +78,12 @@ class SameAnswerIT {
                                     answers(running, Topics.resultOf(topic, result), 0)));
                 }
             }
-            findsTheSameAgainAfterASeek(running, topics.get(2));
+            yieldsTheSameResultsAfterASeek(running, topics.get(2));
         }
     }
 
-    /** From its end back to its first event: an epoch whose results are by themselves. */
-    private static void findsTheSameAgainAfterASeek(RunningSuite running, String topic) throws Exception {
+    /** Seeks from the end to the first event, which begins an epoch with its own results. */
+    private static void yieldsTheSameResultsAfterASeek(RunningSuite running, String topic) throws Exception {
         String path = "/api/replays/weeding" + topic.substring(topic.lastIndexOf('.'));
         JsonNode replay = running.get(path);
         long first = replay.at("/status/progress/from").asLong();
@@ -95,15 +98,15 @@ class SameAnswerIT {
     }
 
     private static void assertSame(String topic, Set<String> live, Set<String> replayed) {
-        Set<String> missed = new TreeSet<>(live);
-        missed.removeAll(replayed);
+        Set<String> missing = new TreeSet<>(live);
+        missing.removeAll(replayed);
         Set<String> added = new TreeSet<>(replayed);
         added.removeAll(live);
-        // that a device which stays silent left its field, five minutes later: no answer of the live run yet
+        // a silent device leaves its field after five minutes, which the live run has not reached yet
         long now = System.currentTimeMillis();
         added.removeIf(answer -> Long.parseLong(answer.substring(0, answer.indexOf(' '))) > now);
         assertThat(live).isNotEmpty();
-        assertThat(missed).as("of %d only live, not on %s", live.size(), topic).isEmpty();
+        assertThat(missing).as("of %d only live, not on %s", live.size(), topic).isEmpty();
         assertThat(added).as("only on %s", topic).isEmpty();
     }
 
@@ -121,7 +124,7 @@ class SameAnswerIT {
         return answer.path("topic").asText();
     }
 
-    /** Timestamp, key and attributes of each result of an epoch, in any order. */
+    /** Timestamp, key and attributes of each result of an epoch, sorted. */
     private static Set<String> answers(RunningSuite running, String topic, int epoch) {
         try (TopicLog log = running.topic(topic)) {
             Set<String> answers = new TreeSet<>();
@@ -132,7 +135,7 @@ class SameAnswerIT {
                 }
                 Map<String, Object> entity = NgsiJson.mapper()
                         .convertValue(
-                                ofEpochZero(entity(record), epoch), new TypeReference<TreeMap<String, Object>>() {});
+                                withoutEpoch(entity(record), epoch), new TypeReference<TreeMap<String, Object>>() {});
                 String key = new String(record.key(), UTF_8);
                 answers.add(record.timestamp() + " " + key + " " + entity);
             }
@@ -140,8 +143,8 @@ class SameAnswerIT {
         }
     }
 
-    /** Encounters and stays of later epochs are called after them. */
-    private static JsonNode ofEpochZero(JsonNode entity, int epoch) {
+    /** Removes the epoch's suffix from the ids of encounters and stays. */
+    private static JsonNode withoutEpoch(JsonNode entity, int epoch) {
         for (JsonNode attribute : entity) {
             String value = attribute.path("value").asText();
             if (epoch > 0 && value.endsWith(":" + epoch)) {

@@ -21,7 +21,7 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** A thermometer whose clock is two hours behind is alone on its partition; two robots meet elsewhere. */
+/** A thermometer whose clock is two hours slow is alone on its partition; two robots meet on other partitions. */
 @Tag("full")
 class SlowClockIT {
     private static final int PARTITIONS = 4;
@@ -41,18 +41,18 @@ class SlowClockIT {
     void delaysNoEncounterAndIsReported() {
         try (TopicLog collisions = running.topic(Topics.COLLISION);
                 TopicLog alarms = running.topic(Topics.ALARMS)) {
-            long begun = System.currentTimeMillis();
+            long startedAt = System.currentTimeMillis();
             within(Duration.ofSeconds(60)).until(() -> report(2) && phases(collisions, "started") == 1);
             within(Duration.ofSeconds(30)).until(() -> report(500) && phases(collisions, "ended") == 1);
             within(Duration.ofSeconds(10)).until(() -> report(2) && phases(collisions, "started") == 2);
 
-            within(Duration.ofSeconds(60).minusMillis(System.currentTimeMillis() - begun))
+            within(Duration.ofSeconds(60).minusMillis(System.currentTimeMillis() - startedAt))
                     .until(() -> report(2) && isReported(alarms));
         }
     }
 
-    private static ConditionFactory within(Duration limit) {
-        return await().pollInSameThread().pollInterval(Duration.ofMillis(500)).atMost(limit);
+    private static ConditionFactory within(Duration timeout) {
+        return await().pollInSameThread().pollInterval(Duration.ofMillis(500)).atMost(timeout);
     }
 
     private static boolean report(double meters) throws Exception {
@@ -92,7 +92,7 @@ class SlowClockIT {
         return false;
     }
 
-    /** Ids whose records go to the first partition, or to another. */
+    /** Ids whose records go to the first partition, or to others. */
     private static Stream<String> ids(String prefix, int from) {
         return IntStream.range(0, 100).mapToObj(i -> prefix + i).filter(id -> {
             int partition = BuiltInPartitioner.partitionForKey(id.getBytes(UTF_8), PARTITIONS);

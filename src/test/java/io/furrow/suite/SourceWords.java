@@ -14,9 +14,9 @@ import java.util.regex.Pattern;
 
 import io.furrow.files.Folders;
 
-/** Finds words in the identifiers of a module's sources, locals and parameters included. */
+/** Finds words in the identifiers of a module's sources, including locals and parameters. */
 final class SourceWords {
-    /** Comments, texts and characters are passed over; what is left are identifiers and keywords. */
+    /** Matches comments and literals so that they are skipped; identifiers and keywords remain. */
     private static final Pattern TOKEN = Pattern.compile(
             "/\\*(?>[^*]+|\\*(?!/))*+\\*/|//[^\\n]*+|\"\"\"(?:\\\\.|[^\"\\\\]|\"(?!\"\"))*+\"\"\"|\"(?:\\\\.|[^\"\\\\])*+\""
                     + "|'(?:\\\\.|[^'\\\\])*+'|[A-Za-z_]\\w*+",
@@ -26,7 +26,7 @@ final class SourceWords {
 
     private SourceWords() {}
 
-    /** The files by identifier that has one of the words, in singular or plural. */
+    /** Maps identifiers that contain one of the words, in singular or plural, to their files. */
     static Map<String, Set<String>> identifiersWith(Set<String> words, Path module) throws IOException {
         Map<String, Set<String>> found = new TreeMap<>();
         Folders.walk(module.resolve("src")).stream()

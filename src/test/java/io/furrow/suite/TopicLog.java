@@ -12,7 +12,7 @@ import io.furrow.launcher.suite.Suite;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** Reads a topic from its beginning, again and again: each call returns all that is there by then. */
+/** Reads a topic from its beginning; each call returns all records up to then. */
 final class TopicLog implements AutoCloseable {
     private final CommittedReader<byte[]> reader;
     private final String topic;

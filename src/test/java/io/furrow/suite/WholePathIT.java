@@ -22,7 +22,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 class WholePathIT {
-    /** With characters that the context broker refuses in most types of attributes. */
+    /** Contains characters that the context broker rejects in most types of attributes. */
     private static final String NAME = "O'Brien's = \"the\" <field>; (north)";
 
     @AutoClose
@@ -35,7 +35,7 @@ class WholePathIT {
     }
 
     @Test
-    void writesTheAverageOfAFieldIntoTheContextBrokerAndNamesTheDefectiveThermometer() {
+    void writesTheAverageOfAFieldAndTheSuspectThermometerIntoTheContextBroker() {
         await().untilAsserted(() -> {
             JsonNode average = running.ngsi().entity("Analytics:FieldTemperature:field-1");
             assertThat(average.at("/suspects/value")).hasSize(1);
@@ -47,7 +47,7 @@ class WholePathIT {
     }
 
     @Test
-    void showsEachDomainAndMissionInTheContextBroker() {
+    void writesEachDomainAndMissionIntoTheContextBroker() {
         await().untilAsserted(() -> {
             JsonNode missions = running.ngsi().entities("type=Mission");
             assertThat(missions)
@@ -58,9 +58,9 @@ class WholePathIT {
         });
     }
 
-    /** As {@code ./furrow fields import} writes it. */
+    /** Imports a field as {@code ./furrow fields import} does. */
     @Test
-    void averagesAFieldThatIsImportedWhileItRuns() throws Exception {
+    void averagesAFieldThatIsImportedAtRuntime() throws Exception {
         FieldsTopic fields = new FieldsTopic(running.suite().kafka().clientProperties());
         FieldVersion existing = fields.read().stream()
                 .filter(field -> field.id().equals("field-1"))
@@ -92,7 +92,7 @@ class WholePathIT {
     }
 
     @Test
-    void routesEachMissionToItsOwnTopicWithEveryHopStamped() {
+    void routesEachMissionToItsTopicWithTheTimesOfAllHops() {
         try (TopicLog weeding = running.topic("data.farm.realtime.weeding");
                 TopicLog dummy = running.topic("data.canary.realtime.dummy")) {
             await().untilAsserted(() -> {
@@ -105,7 +105,7 @@ class WholePathIT {
                 Entity entity = Entity.parse(record.value());
                 assertThat(entity.text("Mission")).contains("weeding");
                 assertThat(new String(record.key(), UTF_8)).isEqualTo(entity.id());
-                // On a slow machine the query of a repair may overtake a notification.
+                // On a slow machine the query of a repair may be faster than the notification.
                 assertThat(origin(record)).isIn("notification", "repair");
                 assertThat(TopicLog.headers(record))
                         .containsKeys(
@@ -139,7 +139,7 @@ class WholePathIT {
     }
 
     @Test
-    void doesNotTakeItsOwnResultsForNews() {
+    void doesNotReadItsOwnResultsAsInput() {
         await().untilAsserted(() ->
                 assertThat(running.ngsi().entities("typePattern=Analytics:.*")).isNotEmpty());
         try (TopicLog raw = running.topic("data.raw")) {

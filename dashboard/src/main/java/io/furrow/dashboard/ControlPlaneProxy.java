@@ -18,25 +18,24 @@ import io.furrow.dashboard.http.Problem;
 import io.furrow.model.text.FailureText;
 
 /**
- * Forwards requests to the control plane, and answers 502 where it does not answer. A server may close a connection at the moment it is
- * used again, as after a refusal that did not wait for the body, and then nobody knows whether it has processed the request: only reads
- * share connections, and are sent once more.
+ * Forwards requests to the control plane, and answers 502 if it does not respond. A server may close a connection just
+ * when it is reused, for instance after rejecting a request without reading its body; then it is unknown whether the
+ * request was processed. Therefore only reads share connections and are retried once.
  */
 final class ControlPlaneProxy extends ProxyHandler.Reverse {
-    /** Shorter than servers and proxies keep idle connections; Jetty does for 30 s. */
+    /** Shorter than the time for which servers and proxies hold idle connections; that of Jetty is 30 s. */
     static final Duration IDLE_CONNECTION = Duration.ofSeconds(15);
 
     private static final Duration IDLE_REQUEST = Duration.ofSeconds(60);
     private static final String RETRIED = ControlPlaneProxy.class.getName() + ".retried";
 
-    private final URI base;
+    private final URI controlPlane;
 
-    ControlPlaneProxy(URI base) {
-        super(request -> HttpURI.build(base.toString().replaceAll("/+$", "")
-                        + request.getHttpURI().getPathQuery())
+    ControlPlaneProxy(URI controlPlane) {
+        super(request -> HttpURI.build(controlPlane + request.getHttpURI().getPathQuery())
                 .asImmutable());
-        this.base = base;
-        setProxyToServerHost(base.getAuthority());
+        this.controlPlane = controlPlane;
+        setProxyToServerHost(controlPlane.getAuthority());
     }
 
     @Override
@@ -46,7 +45,7 @@ final class ControlPlaneProxy extends ProxyHandler.Reverse {
         return client;
     }
 
-    /** The page's own origin means nothing to the control plane, which is asked by this process. */
+    /** Removes the headers that describe the browser's page: the control plane is called by this process. */
     @Override
     protected void addProxyHeaders(Request request, org.eclipse.jetty.client.Request forwarded) {
         forwarded.idleTimeout(IDLE_REQUEST.toMillis(), TimeUnit.MILLISECONDS);
@@ -58,7 +57,7 @@ final class ControlPlaneProxy extends ProxyHandler.Reverse {
             headers.remove("Sec-Fetch-Dest");
         });
         if (!sharesConnections(request)) {
-            forwarded.tag("alone"); // another pool, in which no connection is left
+            forwarded.tag("alone"); // a connection pool of its own, which retains no connection
             forwarded.headers(headers -> headers.put(HttpHeader.CONNECTION, HttpHeaderValue.CLOSE));
         }
     }
@@ -72,28 +71,28 @@ final class ControlPlaneProxy extends ProxyHandler.Reverse {
     protected void onServerToProxyResponseFailure(
             Request request,
             org.eclipse.jetty.client.Request forwarded,
-            org.eclipse.jetty.client.Response answer,
+            org.eclipse.jetty.client.Response serverResponse,
             Response response,
             Callback callback,
             Throwable failure) {
-        boolean unanswered = answer == null || answer.getStatus() == 0;
-        if (unanswered && sharesConnections(request)) {
+        boolean isUnanswered = serverResponse == null || serverResponse.getStatus() == 0;
+        if (isUnanswered && sharesConnections(request)) {
             request.setAttribute(RETRIED, true);
-            org.eclipse.jetty.client.Request again = newProxyToServerRequest(request, rewriteHttpURI(request));
-            copyRequestHeaders(request, again);
-            addProxyHeaders(request, again);
-            sendProxyToServerRequest(request, again, response, callback);
+            org.eclipse.jetty.client.Request retry = newProxyToServerRequest(request, rewriteHttpURI(request));
+            copyRequestHeaders(request, retry);
+            addProxyHeaders(request, retry);
+            sendProxyToServerRequest(request, retry, response, callback);
         } else if (response.isCommitted()) {
             callback.failed(failure);
         } else {
-            unavailable(response, callback, failure);
+            respondUnavailable(response, callback, failure);
         }
     }
 
-    private void unavailable(Response response, Callback callback, Throwable failure) {
+    private void respondUnavailable(Response response, Callback callback, Throwable failure) {
         response.getHeaders().clear();
         String reason = "the control plane at %s does not answer (%s); check --control-plane and that it runs"
-                .formatted(base, FailureText.of(failure));
+                .formatted(controlPlane, FailureText.of(failure));
         new Problem(502, "control-plane-away", reason).answer(response, callback);
     }
 }

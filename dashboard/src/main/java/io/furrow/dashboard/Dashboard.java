@@ -49,19 +49,19 @@ import io.furrow.kafka.Readiness;
 import io.furrow.model.text.FailureText;
 
 /**
- * One origin for a page: topics as sockets and events, and the REST API of the control plane, to which requests go with the token of
- * their user.
+ * Serves the page, topics as WebSockets and server-sent events, and the control plane's REST API under one origin.
+ * Requests are forwarded with the token of their user.
  */
 public final class Dashboard implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(Dashboard.class);
     private static final int THREADS = 64;
-    private static final long STOPPING_MILLIS = 2_000;
-    private static final Duration IDLE = Duration.ofSeconds(60);
+    private static final long STOP_TIMEOUT_MILLIS = 2_000;
+    private static final Duration IDLE_TIMEOUT = Duration.ofSeconds(60);
     private static final String SOCKETS = "/socket/";
-    /** What begins so may ask Kafka or the control plane before it answers. */
-    private static final String WAITING = "/api/";
+    /** Requests below this path may wait for Kafka or the control plane. */
+    private static final String MAY_WAIT = "/api/";
 
-    /** What is answered here; the rest of {@code /api} is the control plane's. */
+    /** Paths that the dashboard handles; the rest of {@code /api} belongs to the control plane. */
     private static final List<String> OWN_PATHS = List.of(
             "/api/register/*",
             "/api/stream/*",
@@ -74,7 +74,7 @@ public final class Dashboard implements AutoCloseable {
             SOCKETS + "*");
 
     private static final List<String> STATUS = List.of(StatusPages.HEALTH, StatusPages.READY, StatusPages.METRICS);
-    /** Pictures are fetched with the user's token and shown as blobs. */
+    /** The page fetches images with the user's token and shows them as blobs. */
     private static final String CONTENT_POLICY =
             "default-src 'self'; img-src 'self' data: blob:%s; object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'";
 
@@ -92,14 +92,14 @@ public final class Dashboard implements AutoCloseable {
         this.streams = new TopicStreams(settings.client(), settings.rules(), settings.limits(), users);
         this.admin = Admin.create(settings.client());
         this.images = new ImageIndex(settings.client());
-        URI health = URI.create(settings.controlPlane().toString().replaceAll("/+$", "") + "/health");
+        URI health = URI.create(settings.controlPlane() + "/health");
         this.probes = List.of(
                 new Probe("kafka", () -> streams.feeds().checkKafka(Probe.TIMEOUT), () -> {}),
                 Probe.http("controlPlane", health));
         probes.forEach(probe -> readiness.require(probe::status));
     }
 
-    /** @throws IOException if the port is taken */
+    /** @throws IOException if the port is in use */
     public static Dashboard start(DashboardSettings settings) throws IOException {
         Dashboard dashboard = new Dashboard(settings);
         try {
@@ -119,12 +119,12 @@ public final class Dashboard implements AutoCloseable {
         connector.setHost(settings.host());
         connector.setPort(settings.port());
         server.addConnector(connector);
-        server.setStopTimeout(STOPPING_MILLIS);
+        server.setStopTimeout(STOP_TIMEOUT_MILLIS);
         threads.setName("dashboard");
         PathMappingsHandler paths = new PathMappingsHandler();
-        Handler own = own(settings);
+        Handler servlets = servlets(settings);
         for (String path : OWN_PATHS) {
-            paths.addMapping(new ServletPathSpec(path), own);
+            paths.addMapping(new ServletPathSpec(path), servlets);
         }
         paths.addMapping(new ServletPathSpec("/api/*"), new ControlPlaneProxy(settings.controlPlane()));
         Handler status = new StatusPages(readiness, streams);
@@ -139,16 +139,16 @@ public final class Dashboard implements AutoCloseable {
         AccessRule rule = AccessRule.allowing(settings.allowed(), OptionNames.FLAGS)
                 .servedAs(settings.host())
                 .withProbes(StatusPages.HEALTH, StatusPages.READY);
-        Handler signedIn = new ProxyHeaders(settings.proxy(), users, streams.counters()::refused, paths);
-        Handler working = new RequestWorkers(path -> path.startsWith(WAITING), streams.counters()::refused, signedIn);
+        Handler signedIn = new ProxyHeaders(settings.proxy(), users, streams.counters()::rejected, paths);
+        Handler pooled = new RequestWorkers(path -> path.startsWith(MAY_WAIT), streams.counters()::rejected, signedIn);
         server.setHandler(new AccessHandler(
                 rule,
-                refused -> {
-                    streams.counters().refused(refused.error());
-                    return Problem.json(refused.error(), refused.reason());
+                rejected -> {
+                    streams.counters().rejected(rejected.error());
+                    return Problem.json(rejected.error(), rejected.reason());
                 },
-                secure(
-                        working,
+                withSecurityHeaders(
+                        pooled,
                         CONTENT_POLICY.formatted(originOf(settings.page().tiles())))));
         try {
             server.start();
@@ -160,8 +160,8 @@ public final class Dashboard implements AutoCloseable {
         }
     }
 
-    /** What every answer says to browsers. */
-    private static Handler secure(Handler handler, String contentPolicy) {
+    /** Adds security headers to every response. */
+    private static Handler withSecurityHeaders(Handler handler, String contentPolicy) {
         return new Handler.Wrapper(handler) {
             @Override
             public boolean handle(Request request, Response response, Callback callback) throws Exception {
@@ -173,7 +173,7 @@ public final class Dashboard implements AutoCloseable {
         };
     }
 
-    /** Where pictures of tiles come from, for the content policy. */
+    /** The origin of the map tiles, for the content policy. */
     private static String originOf(String tiles) {
         if (tiles == null) {
             return "";
@@ -182,13 +182,13 @@ public final class Dashboard implements AutoCloseable {
         return " %s://%s".formatted(base.getScheme(), base.getRawAuthority());
     }
 
-    private Handler own(DashboardSettings settings) {
+    private Handler servlets(DashboardSettings settings) {
         ServletContextHandler context = new ServletContextHandler("/");
         context.addServlet(new ServletHolder(new RegisterServlet(streams)), "/api/register/*");
         context.addServlet(new ServletHolder(new TopicsServlet(streams)), "/api/topics");
         context.addServlet(
                 new ServletHolder(
-                        new ImageServlet(users, images, settings.page().images(), streams.counters()::refused)),
+                        new ImageServlet(users, images, settings.page().images(), streams.counters()::rejected)),
                 "/api/images/*");
         context.addServlet(new ServletHolder(new ConfigServlet(settings.page())), "/config.json");
         context.addServlet(new ServletHolder(new HistoryServlet(streams, settings.client())), "/api/history/*");
@@ -200,7 +200,7 @@ public final class Dashboard implements AutoCloseable {
         context.addServlet(events, "/api/stream/*");
         JettyWebSocketServletContainerInitializer.configure(context, (servlets, container) -> {
             container.setMaxTextMessageSize(settings.limits().messageBytes());
-            container.setIdleTimeout(IDLE);
+            container.setIdleTimeout(IDLE_TIMEOUT);
             container.addMapping(SOCKETS + "*", this::open);
         });
         return context;
@@ -211,19 +211,19 @@ public final class Dashboard implements AutoCloseable {
             String ticket = request.getRequestPath().substring(SOCKETS.length());
             return streams.open(ticket);
         } catch (Problem problem) {
-            streams.counters().refused(problem);
+            streams.counters().rejected(problem);
             response.sendError(problem.status(), problem.getMessage());
             return null;
         }
     }
 
-    /** Where it listens. */
+    /** The address of the server. */
     public URI uri() {
         ServerConnector connector = (ServerConnector) server.getConnectors()[0];
         return URI.create("http://" + connector.getHost() + ":" + connector.getLocalPort());
     }
 
-    /** The streams that are open. */
+    /** The open streams. */
     public TopicStreams streams() {
         return streams;
     }

@@ -10,12 +10,13 @@ import io.furrow.dashboard.page.PageSettings;
 import io.furrow.http.AllowedNames;
 
 /**
- * Where the dashboard listens, and what it stands in front of.
+ * Settings of the dashboard.
  *
+ * @param host address to listen on
  * @param port 0 for a free one
- * @param client properties of Kafka clients
- * @param controlPlane base of its REST API
- * @param proxy that signs users in; null if each has a token
+ * @param client settings of Kafka clients
+ * @param controlPlane base URL of the control plane's REST API; stored without a slash at its end
+ * @param proxy that signs users in; null if each user has a token
  */
 public record DashboardSettings(
         String host,
@@ -27,7 +28,11 @@ public record DashboardSettings(
         AllowedNames allowed,
         PageSettings page,
         TrustedProxy proxy) {
-    /** On loopback, with the usual topics and limits. */
+    public DashboardSettings {
+        controlPlane = URI.create(controlPlane.toString().replaceAll("/+$", ""));
+    }
+
+    /** Listens on loopback, with the default topics and limits. */
     public static DashboardSettings of(int port, Properties client, URI controlPlane) {
         return new DashboardSettings(
                 "127.0.0.1",
@@ -49,8 +54,8 @@ public record DashboardSettings(
         return new DashboardSettings(host, port, client, controlPlane, topics, limits, allowed, page, proxy);
     }
 
-    public DashboardSettings withLimits(StreamLimits of) {
-        return new DashboardSettings(host, port, client, controlPlane, rules, of, allowed, page, proxy);
+    public DashboardSettings withLimits(StreamLimits newLimits) {
+        return new DashboardSettings(host, port, client, controlPlane, rules, newLimits, allowed, page, proxy);
     }
 
     public DashboardSettings withAllowed(AllowedNames names) {

@@ -39,13 +39,13 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
 
 /**
- * {@code GET /api/platform}: how the platform is. How far each consumer group is behind the ends of its topics, by the offsets that it
- * committed; how many records each topic of dead letters has; and what the control plane says of its parts. Found out once in two seconds at
- * most, however many ask.
+ * {@code GET /api/platform}: the state of the platform. Returns the lag of each consumer group by its committed
+ * offsets, the number of records in each topic of dead letters, and the state of the control plane's parts. The result
+ * is cached for two seconds.
  */
 final class PlatformServlet extends UserServlet {
     private static final long serialVersionUID = 1L;
-    private static final Duration FRESH = Duration.ofSeconds(2);
+    private static final Duration TIME_TO_LIVE = Duration.ofSeconds(2);
     private static final Duration TIMEOUT = Duration.ofSeconds(5);
     private static final String DEAD = ".dead";
 
@@ -54,15 +54,15 @@ final class PlatformServlet extends UserServlet {
     private final transient URI readiness;
     private final transient HttpClient http =
             HttpClient.newBuilder().connectTimeout(TIMEOUT).build();
-    private transient byte[] answer;
-    private transient long answered;
+    private transient byte[] cached;
+    private transient long cachedAt;
 
-    /** @param controlPlane base of its REST API */
+    /** @param controlPlane base URL of its REST API */
     PlatformServlet(TopicStreams streams, Admin admin, URI controlPlane) {
-        super(streams.users(), streams.counters()::refused);
+        super(streams.users(), streams.counters()::rejected);
         this.streams = streams;
         this.admin = admin;
-        this.readiness = URI.create(controlPlane.toString().replaceAll("/+$", "") + "/ready");
+        this.readiness = URI.create(controlPlane + "/ready");
     }
 
     @Override
@@ -71,23 +71,26 @@ final class PlatformServlet extends UserServlet {
     }
 
     private synchronized byte[] current() {
-        if (answer == null || System.nanoTime() - answered > FRESH.toNanos()) {
+        if (cached == null || System.nanoTime() - cachedAt > TIME_TO_LIVE.toNanos()) {
             ObjectNode platform = NgsiJson.object();
             platform.put("time", System.currentTimeMillis());
             addKafka(platform);
             platform.set("controlPlane", controlPlane());
-            answer = NgsiJson.write(platform);
-            answered = System.nanoTime();
+            cached = NgsiJson.write(platform);
+            cachedAt = System.nanoTime();
         }
-        return answer;
+        return cached;
     }
 
-    /** What Kafka says; where it does not, that, so that the rest is shown all the same, and nobody else waits for it. */
+    /**
+     * Adds what Kafka reports. If it is unavailable, adds the reason instead, and the other parts are shown
+     * nevertheless.
+     */
     private void addKafka(ObjectNode platform) {
         ArrayNode deadLetters = platform.putArray("deadLetters");
         ArrayNode groups = platform.putArray("groups");
         ObjectNode kafka = platform.putObject("kafka");
-        if (streams.feeds().isKafkaUnavailable()) { // whoever asks need not wait to hear it again
+        if (streams.feeds().isKafkaUnavailable()) { // no further timeout
             kafka.put("state", "away").put("reason", reason(new TimeoutException()));
             return;
         }
@@ -110,7 +113,7 @@ final class PlatformServlet extends UserServlet {
     private static String reason(Throwable cause) {
         return cause instanceof TimeoutException || cause instanceof org.apache.kafka.common.errors.TimeoutException
                 ? "Kafka did not answer within %d s; check --kafka and that it runs".formatted(TIMEOUT.toSeconds())
-                : "Kafka does not say how it is: " + FailureText.of(cause);
+                : "Kafka cannot report its state: " + FailureText.of(cause);
     }
 
     private Map<TopicPartition, Long> ends() throws InterruptedException, ExecutionException, TimeoutException {
@@ -125,19 +128,19 @@ final class PlatformServlet extends UserServlet {
         return offsets(partitions, OffsetSpec.latest());
     }
 
-    private Map<TopicPartition, Long> offsets(Set<TopicPartition> partitions, OffsetSpec of)
+    private Map<TopicPartition, Long> offsets(Set<TopicPartition> partitions, OffsetSpec spec)
             throws InterruptedException, ExecutionException, TimeoutException {
-        Map<TopicPartition, OffsetSpec> desired = new HashMap<>();
-        partitions.forEach(each -> desired.put(each, of));
+        Map<TopicPartition, OffsetSpec> specs = new HashMap<>();
+        partitions.forEach(each -> specs.put(each, spec));
         Map<TopicPartition, Long> offsets = new HashMap<>();
-        admin.listOffsets(desired)
+        admin.listOffsets(specs)
                 .all()
                 .get(TIMEOUT.toSeconds(), TimeUnit.SECONDS)
                 .forEach((partition, found) -> offsets.put(partition, found.offset()));
         return offsets;
     }
 
-    /** Those that are still there: retention takes the old ones. */
+    /** Counts the records that retention has not deleted. */
     private void addDeadLetters(ArrayNode to, Map<TopicPartition, Long> ends)
             throws InterruptedException, ExecutionException, TimeoutException {
         Set<TopicPartition> dead = new HashSet<>(ends.keySet());
@@ -155,11 +158,11 @@ final class PlatformServlet extends UserServlet {
             groups.add(group.groupId());
         }
         groups.sort(null);
-        Map<String, ListConsumerGroupOffsetsSpec> desired = new HashMap<>();
-        groups.forEach(group -> desired.put(group, new ListConsumerGroupOffsetsSpec()));
-        Map<String, Map<TopicPartition, OffsetAndMetadata>> committed = desired.isEmpty()
+        Map<String, ListConsumerGroupOffsetsSpec> specs = new HashMap<>();
+        groups.forEach(group -> specs.put(group, new ListConsumerGroupOffsetsSpec()));
+        Map<String, Map<TopicPartition, OffsetAndMetadata>> committed = specs.isEmpty()
                 ? Map.of()
-                : admin.listConsumerGroupOffsets(desired).all().get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
+                : admin.listConsumerGroupOffsets(specs).all().get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
         for (String group : groups) {
             Map<String, Long> lags = new TreeMap<>();
             committed.getOrDefault(group, Map.of()).forEach((partition, offset) -> {
@@ -169,21 +172,22 @@ final class PlatformServlet extends UserServlet {
                 }
             });
             if (!lags.isEmpty()) {
-                ObjectNode one = to.addObject().put("group", group);
-                one.put("lag", lags.values().stream().mapToLong(Long::longValue).sum());
-                ObjectNode topics = one.putObject("topics");
+                ObjectNode entry = to.addObject().put("group", group);
+                entry.put(
+                        "lag", lags.values().stream().mapToLong(Long::longValue).sum());
+                ObjectNode topics = entry.putObject("topics");
                 lags.forEach(topics::put);
             }
         }
     }
 
-    /** As its page says; where it says nothing, why. */
+    /** The control plane's readiness, or why it cannot be read. */
     private JsonNode controlPlane() {
         try {
-            HttpResponse<byte[]> page = http.send(
+            HttpResponse<byte[]> ready = http.send(
                     HttpRequest.newBuilder(readiness).timeout(TIMEOUT).build(),
                     HttpResponse.BodyHandlers.ofByteArray());
-            return NgsiJson.read(page.body());
+            return NgsiJson.read(ready.body());
         } catch (IOException | UnreadableException e) {
             return NgsiJson.object()
                     .put("status", "away")

@@ -18,9 +18,9 @@ import org.eclipse.jetty.util.Callback;
 import io.furrow.dashboard.http.Problem;
 
 /**
- * Runs requests that may wait for Kafka or the control plane on threads of their own, so that the server's threads
- * stay free for all others. At most {@value #THREADS} are answered at once and {@value #WAITING} wait; more are
- * refused with 503.
+ * Runs requests that may wait for Kafka or the control plane on a thread pool of their own, so that the server's
+ * threads stay free for all other requests. At most {@value #THREADS} requests run and {@value #WAITING} wait; further
+ * ones are rejected with 503.
  */
 final class RequestWorkers extends Handler.Wrapper {
     static final int THREADS = 32;
@@ -29,19 +29,19 @@ final class RequestWorkers extends Handler.Wrapper {
     private static final long IDLE_SECONDS = 60;
 
     private final Predicate<String> mayWait;
-    private final Consumer<Problem> refused;
+    private final Consumer<Problem> onRejection;
     private final AtomicInteger threads = new AtomicInteger();
     private final ThreadPoolExecutor executor = new ThreadPoolExecutor(
             THREADS, THREADS, IDLE_SECONDS, TimeUnit.SECONDS, new LinkedBlockingQueue<>(WAITING), this::thread);
 
     /**
-     * @param mayWait by path; the others are handled where they are
-     * @param refused is notified of each request that is refused
+     * @param mayWait by path; other requests are handled on the server's thread
+     * @param onRejection is notified of each rejected request
      */
-    RequestWorkers(Predicate<String> mayWait, Consumer<Problem> refused, Handler handler) {
+    RequestWorkers(Predicate<String> mayWait, Consumer<Problem> onRejection, Handler handler) {
         super(handler);
         this.mayWait = mayWait;
-        this.refused = refused;
+        this.onRejection = onRejection;
         executor.allowCoreThreadTimeOut(true);
     }
 
@@ -57,29 +57,29 @@ final class RequestWorkers extends Handler.Wrapper {
             return super.handle(request, response, callback);
         }
         try {
-            executor.execute(() -> work(request, response, callback));
+            executor.execute(() -> run(request, response, callback));
         } catch (RejectedExecutionException e) {
-            refuse(response, callback);
+            reject(response, callback);
         }
         return true;
     }
 
-    private void work(Request request, Response response, Callback callback) {
+    private void run(Request request, Response response, Callback callback) {
         try {
             if (!super.handle(request, response, callback)) {
                 Response.writeError(request, response, callback, HttpStatus.NOT_FOUND_404);
             }
-        } catch (Throwable e) { // as the server does where it calls a handler
+        } catch (Throwable e) { // as Jetty does when a handler fails
             Response.writeError(request, response, callback, e);
         }
     }
 
-    private void refuse(Response response, Callback callback) {
+    private void reject(Response response, Callback callback) {
         Problem problem = new Problem(
                 503,
                 "overloaded",
                 "%d requests wait for Kafka or the control plane; ask again in a moment".formatted(WAITING));
-        refused.accept(problem);
+        onRejection.accept(problem);
         response.getHeaders().put(HttpHeader.RETRY_AFTER, "1");
         problem.answer(response, callback);
     }

@@ -1,4 +1,4 @@
-/** Averages of fields over time as lines, with what was suspect marked. */
+/** Draws averages of fields over time as lines, with marks where devices were suspect. */
 import uPlot from '/lib/uplot/uPlot.esm.js';
 import { h, replace, setText } from '../../core/dom.js';
 import { clock, temperature } from '../../core/format.js';
@@ -7,9 +7,9 @@ import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 
 const HEIGHT = 260;
-/** Colours of the scheme, each with a dash of its own, since colour alone says nothing. */
+/** Colors of the scheme, each with its own dash pattern, so that lines can be distinguished without color. */
 const LINES = [['--accent', []], ['--information', [8, 4]], ['--warning', [2, 4]], ['--kind-other', [10, 4, 2, 4]], ['--live', [5, 3]], ['--text', [1, 3]]];
-/** So many windows without an average are a gap. */
+/** Number of windows without an average that makes a gap. */
 const GAP = 3;
 
 export class AveragesChart {
@@ -25,13 +25,13 @@ export class AveragesChart {
     this.observer.observe(this.place);
     this.onScheme = () => this.rebuild();
     window.addEventListener('schemechange', this.onScheme);
-    this.offs = [store.on('cursor', () => this.follow()), store.on('clock', () => this.showHead()), store.on('selection', () => this.averages && this.show(this.averages, this.range))];
+    this.subscriptions = [store.on('cursor', () => this.follow()), store.on('clock', () => this.showHead()), store.on('selection', () => this.averages && this.show(this.averages, this.range))];
   }
 
   close() {
     this.observer.disconnect();
     window.removeEventListener('schemechange', this.onScheme);
-    this.offs.forEach((off) => off());
+    this.subscriptions.forEach((unsubscribe) => unsubscribe());
     this.plot?.destroy();
   }
 
@@ -78,7 +78,7 @@ export class AveragesChart {
     this.plot = new uPlot({
       width: this.place.clientWidth, height: HEIGHT, legend: { show: false }, padding: [12, 28, 0, 0],
       cursor: { y: false, points: { size: 7 }, drag: { x: false, y: false } },
-      scales: { x: { time: true }, y: { range: (plot, low, high) => roomy(low, high) } },
+      scales: { x: { time: true }, y: { range: (plot, low, high) => withMargin(low, high) } },
       axes: [
         { ...axis, space: 72, size: 26, values: (plot, times) => times.map((time) => clock(time * 1000).slice(0, times.length > 1 && times[1] - times[0] < 60 ? 8 : 5)) },
         { ...axis, size: 56, values: (plot, values) => values.map((value) => `${Number(value.toFixed(2))} ${t('units.celsius')}`) },
@@ -102,7 +102,7 @@ export class AveragesChart {
     }
   }
 
-  /** Triangles at windows in which a device was suspect. */
+  /** Draws triangles at windows with suspect devices. */
   drawSuspects(plot, color, border) {
     const g = plot.ctx;
     const ratio = window.devicePixelRatio || 1;
@@ -120,7 +120,7 @@ export class AveragesChart {
         const x = plot.valToPos(time, 'x', true);
         const y = plot.valToPos(this.data[index + 1][at], 'y', true);
         if (x - last < 12 * ratio || x < plot.bbox.left || x > plot.bbox.left + plot.bbox.width) {
-          continue; // of many in a row some are drawn, so that the line is seen
+          continue; // omits some of many adjacent ones, so that the line is visible
         }
         last = x;
         const size = 4.5 * ratio;
@@ -173,7 +173,7 @@ export class AveragesChart {
     this.showLegend();
   }
 
-  // --- the moment that is looked at ----------------------------------------------------------------------------------
+  // --- cursor --------------------------------------------------------------------------------------------------------
 
   cursorMoved(plot) {
     const { left, idx } = plot.cursor;
@@ -197,7 +197,7 @@ export class AveragesChart {
     this.following = false;
   }
 
-  /** The averages of a moment are told beside the names of their lines; of none the newest. @param {number|null|undefined} index of its time */
+  /** Shows the averages at an index beside the names of the lines, or the newest ones. @param {number|null|undefined} index */
   showValues(index) {
     const time = this.data[0][index];
     this.shownIndex = time === undefined ? null : index;
@@ -210,7 +210,7 @@ export class AveragesChart {
     }
   }
 
-  /** Where the replay is. */
+  /** Draws the position of the replay. */
   showHead() {
     const { plot } = this;
     const shown = plot && store.isReplay;
@@ -223,16 +223,16 @@ export class AveragesChart {
   }
 }
 
-/** At least one degree, and air above and below. */
-function roomy(low, high) {
+/** A range of at least one degree, with a margin above and below. */
+function withMargin(low, high) {
   if (!Number.isFinite(low) || !Number.isFinite(high)) {
     return [0, 1];
   }
-  const air = Math.max(0.5, (high - low) * 0.15);
-  return [low - air, high + air];
+  const margin = Math.max(0.5, (high - low) * 0.15);
+  return [low - margin, high + margin];
 }
 
-/** What the selected device reported, at the ends of windows; null where none is selected, or it tells no temperature. @param {number[]} times s */
+/** The temperatures of the selected device at the ends of windows; null if none is selected, or it has no temperature. @param {number[]} times s */
 function deviceAt(times) {
   const entity = store.entities.get(store.selection);
   const name = entity && [...entity.series.keys()].find((each) => each.toLowerCase() === 'temperature');
@@ -246,14 +246,14 @@ function deviceAt(times) {
   return { id: entity.id, name: entity.name, values: times.map((time) => inCelsius(at(time * 1000))) };
 }
 
-/** Columns as uPlot wants them: a null is a gap, undefined is only another field's window. */
+/** Aligns lists as uPlot expects them: null is a gap, undefined is a window of another field only. */
 function aligned(lists) {
   const points = lists.map((list) => {
     const values = new Map();
     list.forEach(({ start, end, value }, index) => {
-      const before = list[index - 1];
-      if (before && end - before.end > GAP * (end - start)) {
-        values.set((before.end + (end - start)) / 1000, null);
+      const previous = list[index - 1];
+      if (previous && end - previous.end > GAP * (end - start)) {
+        values.set((previous.end + (end - start)) / 1000, null);
       }
       values.set(end / 1000, value);
     });

@@ -1,17 +1,19 @@
-/** What analytics found in a stretch of time: averages, encounters and stays, kept up to date. */
+/** Holds the results of analytics in a period, and updates them: averages, encounters and stays. */
 import { shortId } from '../../core/format.js';
 import { store } from '../../core/store.js';
 import { streams } from '../../core/stream.js';
 import { historyIfAny, readEncounter, union } from '../../timeline/moments.js';
 
-/** Stays that began so long before are looked for, ms. */
-const STAYED_BEFORE = 24 * 3_600_000;
-const MOST = 5_000;
+/** How much earlier stays are read, since they may have begun before the period, ms. */
+const MAX_STAY = 24 * 3_600_000;
+const MAX_RESULTS = 5_000;
 
 /**
+ * An average of a window.
+ *
  * @typedef {Object} Average
  * @property {string} field @property {number} start @property {number} end of the window, epoch ms @property {number} value °C
- * @property {number} plain mean of all, suspects too @property {number} devices @property {string[]} suspects @property {string} quality
+ * @property {number} plain mean including suspects @property {number} devices @property {string[]} suspects @property {string} quality
  */
 /** @returns {Average|null} */
 export function readAverage({ value, headers, time }) {
@@ -25,7 +27,10 @@ export function readAverage({ value, headers, time }) {
   };
 }
 
-/** @returns {{id: string, device: string, name: string, field: string, fieldName: string, from: number, to: number|null}|null} `to` null where it goes on */
+/**
+ * @returns {{id: string, device: string, name: string, field: string, fieldName: string, from: number, to: number|null}|null} `to` is null for a stay
+ *     that continues
+ */
 export function readStay({ value, headers }) {
   const of = (name) => value?.[name]?.value;
   if (value?.type !== 'Analytics:Presence' || typeof of('startTime') !== 'number') {
@@ -40,8 +45,8 @@ export function readStay({ value, headers }) {
 export class Findings {
   /**
    * @param {{averages: string, encounters: string, stays: string}} topics
-   * @param {[number, number]} range epoch ms; what comes later is taken too
-   * @param {{replay: boolean, changed: function()}} how
+   * @param {[number, number]} range epoch ms; later results are included
+   * @param {{replay: boolean, changed: function()}} options
    */
   constructor(topics, [from], { replay, changed }) {
     this.replay = replay;
@@ -63,14 +68,14 @@ export class Findings {
     const [averages, encounters, stays] = await Promise.all([
       this.follow(topics.averages, within, (record) => this.applyAverage(record)),
       this.follow(topics.encounters, { ...within, newest: 'encounter' }, (record) => this.applyEncounter(record)),
-      this.follow(topics.stays, { from: Math.max(0, within.from - STAYED_BEFORE), newest: 'stay' }, (record) => this.applyStay(record)),
+      this.follow(topics.stays, { from: Math.max(0, within.from - MAX_STAY), newest: 'stay' }, (record) => this.applyStay(record)),
     ]);
     this.since = { averages, encounters, stays: Math.max(from, stays) };
     this.loading = false;
     this.notify();
   }
 
-  /** The stream first: what comes while the history is read lies in both, and counts once. @returns {Promise<number>} since when it is whole */
+  /** Subscribes before reading the history: a record in both counts once. @returns {Promise<number>} the time since which the results are complete */
   follow(topic, range, apply) {
     const read = async () => {
       try {
@@ -83,12 +88,12 @@ export class Findings {
         return this.from;
       }
     };
-    let away = false;
+    let disconnected = false;
     this.streams.push(streams.subscribe(topic, { mode: 'all', prime: false }, {
       records: (records) => { records.forEach(apply); this.changed(); },
       state: (state) => {
-        state === 'open' && away && read().then(() => this.notify());
-        away = state !== 'open' && (away || state !== 'connecting');
+        state === 'open' && disconnected && read().then(() => this.notify());
+        disconnected = state !== 'open' && (disconnected || state !== 'connecting');
       },
     }));
     return read();
@@ -106,7 +111,7 @@ export class Findings {
       if (!existing || existing.epoch <= average.epoch) {
         this.averagesByWindow.set(key, average);
       }
-      if (this.averagesByWindow.size > MOST) {
+      if (this.averagesByWindow.size > MAX_RESULTS) {
         this.averagesByWindow.delete(this.averagesByWindow.keys().next().value);
       }
     }
@@ -121,14 +126,14 @@ export class Findings {
     if (index >= 0) {
       this.encounters[index].end <= encounter.end && (this.encounters[index] = encounter);
     } else {
-      this.encounters = this.replay ? union([encounter], this.encounters) : [...this.encounters, encounter].slice(-MOST);
+      this.encounters = this.replay ? union([encounter], this.encounters) : [...this.encounters, encounter].slice(-MAX_RESULTS);
     }
   }
 
   applyStay(record) {
     const stay = readStay(record);
     if (stay) {
-      // a jump begins stays anew, under another id
+      // after a seek a stay has another id
       const id = this.replay ? `${stay.device} ${stay.field} ${stay.from}` : stay.id;
       const existing = this.staysById.get(id);
       if (!existing || existing.to === null || stay.to !== null) {
@@ -137,13 +142,13 @@ export class Findings {
     }
   }
 
-  /** When the oldest that is known began; null where nothing is. */
+  /** The start of the oldest result; null without results. */
   get first() {
     const starts = [...[...this.averagesByWindow.values(), ...this.encounters].map((each) => each.start), ...[...this.staysById.values()].map((each) => each.from)];
     return starts.length ? starts.reduce((one, other) => Math.min(one, other)) : null;
   }
 
-  /** In the order of their windows. */
+  /** The averages of a period in the order of their windows. */
   averages(from, to) {
     return [...this.averagesByWindow.values()].filter((each) => each.end >= from && each.start <= to).sort((one, other) => one.end - other.end);
   }

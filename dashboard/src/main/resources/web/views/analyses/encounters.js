@@ -1,4 +1,4 @@
-/** Encounters as a table that can be sorted; each leads to its moment. */
+/** Shows encounters as a sortable table; each row links to its moment. */
 import { h, replace, setText } from '../../core/dom.js';
 import { dateTime, distance, duration } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
@@ -12,13 +12,13 @@ const COLUMNS = {
 const CLASSES = { when: 'numbers-left when', pair: 'pair', closest: 'numbers', duration: 'numbers', phase: 'phase' };
 
 export class EncounterTable {
-  /** @param {function(Object)} lead to the moment of an encounter */
-  constructor(lead) {
-    this.lead = lead;
+  /** @param {function(Object)} showMoment shows the moment of an encounter */
+  constructor(showMoment) {
+    this.showMoment = showMoment;
     this.column = 'when';
     this.down = true;
     this.rows = new Map();
-    // the roles are said, as on a narrow screen rows are laid out otherwise than as rows of a table
+    // explicit roles, because on a narrow screen rows are not laid out as table rows
     this.body = h('tbody', { role: 'rowgroup' });
     this.heads = Object.keys(COLUMNS).map((name) => h('th', { class: name === 'closest' || name === 'duration' ? 'numbers' : '', role: 'columnheader', scope: 'col' },
       h('button.sort-by', { type: 'button', title: t('analyses.sort', { column: t(`analyses.${name}`) }), on: { click: () => this.sort(name) } }, t(`analyses.${name}`), icon('chevron-down', 14))));
@@ -66,7 +66,7 @@ export class EncounterTable {
 
   row(id) {
     const cells = Object.fromEntries(Object.keys(COLUMNS).map((name) => [name, h('td', { role: 'cell', class: CLASSES[name] ?? '', data: { name: t(`analyses.${name}`) } })]));
-    const act = h('button.button.small', { type: 'button', on: { click: () => this.lead(row.encounter) } }, icon('map', 16), h('span.words', null, t('analyses.toMoment')));
+    const act = h('button.button.small', { type: 'button', on: { click: () => this.showMoment(row.encounter) } }, icon('map', 16), h('span.words', null, t('analyses.toMoment')));
     const row = { cells, act, element: h('tr', { role: 'row' }, Object.values(cells), h('td.right', { role: 'cell' }, act)) };
     this.rows.set(id, row);
     return row;

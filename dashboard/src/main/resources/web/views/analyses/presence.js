@@ -1,4 +1,4 @@
-/** Stays in fields as bars: a line per device, under its field. */
+/** Draws stays in fields as bars: one line per device, grouped by field. */
 import { h, replace, setText } from '../../core/dom.js';
 import { clock, duration } from '../../core/format.js';
 import { store } from '../../core/store.js';
@@ -8,9 +8,9 @@ import { Scale } from '../../timeline/scale.js';
 const MAX_LINES = 200;
 
 export class PresenceBars {
-  /** @param {function(Object)} lead to the moment of a stay */
-  constructor(lead) {
-    this.lead = lead;
+  /** @param {function(Object)} showMoment shows the start of a stay */
+  constructor(showMoment) {
+    this.showMoment = showMoment;
     this.scale = new Scale();
     this.axis = h('div.gantt-axis', { 'aria-hidden': 'true' });
     this.lines = h('div.gantt-lines');
@@ -21,14 +21,14 @@ export class PresenceBars {
     this.element = h('div.stack', null, h('div.gantt', null, this.axis, this.lines, this.overlay), this.more);
     this.observer = new ResizeObserver(() => this.place());
     this.observer.observe(this.axis);
-    this.offs = [store.on('clock', () => this.marks()), store.on('cursor', () => this.marks()), store.on('selection', () => this.highlight())];
+    this.subscriptions = [store.on('clock', () => this.marks()), store.on('cursor', () => this.marks()), store.on('selection', () => this.highlight())];
     this.lines.addEventListener('pointermove', (event) => this.hover(event));
     this.lines.addEventListener('pointerleave', () => store.setCursor(null));
   }
 
   close() {
     this.observer.disconnect();
-    this.offs.forEach((off) => off());
+    this.subscriptions.forEach((unsubscribe) => unsubscribe());
   }
 
   show(stays, range) {
@@ -43,7 +43,7 @@ export class PresenceBars {
     this.more.hidden = lines.length === byLine.size;
     setText(this.more, t('analyses.more', { shown: lines.length, count: byLine.size }));
     const now = store.isReplay ? Math.max(store.now(), range[0]) : range[1];
-    // an open stay ends where it is now
+    // the bar of an open stay ends at the current time
     const drawn = [...range, stays.some(({ to }) => to === null) && now].map((time) => Math.round(time / 5_000));
     const key = JSON.stringify([lines.map(([name, each]) => [name, each.map(({ from, to }) => [from, to])]), drawn, store.may('operate')]);
     if (key === this.key) {
@@ -70,7 +70,7 @@ export class PresenceBars {
     const words = t('analyses.stay', { device: stay.name, field: stay.fieldName, from: clock(stay.from), to: stay.to === null ? t('analyses.stillIn') : `${clock(stay.to)} · ${duration(stay.to - stay.from)}` });
     const selector = `gantt-bar${stay.to === null ? '.open' : ''}${stay.from < first ? '.before' : ''}`;
     const attributes = { data: { stay: stay.id }, title: words, 'aria-label': words };
-    const bar = store.may('operate') ? h(`button.${selector}`, { type: 'button', ...attributes, on: { click: () => this.lead(stay) } }) : h(`span.${selector}`, { role: 'img', ...attributes });
+    const bar = store.may('operate') ? h(`button.${selector}`, { type: 'button', ...attributes, on: { click: () => this.showMoment(stay) } }) : h(`span.${selector}`, { role: 'img', ...attributes });
     bar.style.left = `${(100 * (from - first)) / (last - first)}%`;
     bar.style.width = `${Math.max(0.15, (100 * Math.max(0, to - from)) / (last - first))}%`;
     return bar;
@@ -93,7 +93,7 @@ export class PresenceBars {
     this.highlight();
   }
 
-  /** The device that is selected on the map. */
+  /** Highlights the device that is selected on the map. */
   highlight() {
     this.lines.querySelectorAll('.gantt-line').forEach((line) => line.classList.toggle('selected', line.dataset.device === store.selection));
   }

@@ -1,4 +1,4 @@
-/** Who commanded what, and when. */
+/** Shows the audit: which user sent which command when. */
 import { api } from '../../core/api.js';
 import { dateTime, plain, readable, shortId } from '../../core/format.js';
 import { h } from '../../core/dom.js';
@@ -12,17 +12,17 @@ import { redraw } from './redraw.js';
 const POLL_MILLIS = 4_000;
 const TARGETS = { __proto__: null, 'service.missionmanager': 'mission', 'service.domainmanager': 'domain', 'service.replaymanager': 'replay', 'service.alarmmanager': 'alarm', 'service.fields': 'field', device: 'device', marker: 'marker' };
 
-/** Where nothing wanted is on a page, so many are read for one press of the button. */
+/** Maximum number of pages read per click if they have no matching entries. */
 const MAX_PAGES = 5;
 
-/** A page of the audit. @returns {Promise<{entries: object[], older: string|null}>} `older` is the path of the next page, if there is one */
+/** Reads a page of the audit. @returns {Promise<{entries: object[], older: string|null}>} `older` is the path of the next page, if there is one */
 async function page(path) {
   const response = await api.fetch(path);
   const next = /<([^>]+)>; ?rel="?next"?/.exec(response.headers.get('Link') ?? '');
   return { entries: await response.json(), older: next?.[1] ?? null };
 }
 
-/** A table that is kept fresh, and goes back in time on request. @param {{mission: string=, device: string=, limit: number=}} about whose commands */
+/** A table of commands that is refreshed and loads older ones on request. @param {{mission: string=, device: string=, limit: number=}} filter */
 export function auditTable({ mission, device, limit = 50 } = {}) {
   const query = new URLSearchParams({ limit: String(limit), ...(mission ? { mission } : {}), ...(device ? { device } : {}) });
   const list = resource(`/api/audit?${query}`, { interval: POLL_MILLIS, read: page });
@@ -41,7 +41,7 @@ export function auditTable({ mission, device, limit = 50 } = {}) {
     draw();
   });
 
-  /** The newest page, before those that were read on request; where it does not reach them any more, they are dropped. */
+  /** Adds the newest page to older ones that were loaded; drops those if there is a gap between them. */
   function merge(newest) {
     const newestShown = entries[0]?.position ?? -1;
     const reaches = newest.older === null || !newest.entries.length || newest.entries.at(-1).position <= newestShown || newestShown < 0;
@@ -103,7 +103,7 @@ export function auditTable({ mission, device, limit = 50 } = {}) {
   return { element: place, close: () => { closed = true; off(); list.close(); } };
 }
 
-/** The whole audit, or that of one mission or device. */
+/** The audit of all commands, or of those of a mission or device. */
 export function auditView({ mission, device }) {
   const table = auditTable({ mission, device, limit: 200 });
   const choice = (name, values, chosen, words) => {
@@ -119,13 +119,13 @@ export function auditView({ mission, device }) {
 }
 
 function row(entry) {
-  const refused = entry.error !== undefined || entry.result === 'error';
+  const rejected = entry.error !== undefined || entry.result === 'error';
   return h('tr', null,
     h('td.numbers.when', null, dateTime(entry.time)),
     h('td.who', null, entry.user),
     h('td.command', null, t(`missions.targets.${TARGETS[entry.target] ?? 'other'}`), ' ', h('strong', null, entry.command ?? '–')),
     h('td.about', null, aboutOf(entry.about)),
-    h('td', { class: refused ? 'bad' : '' }, refused ? t('missions.refusedBecause', { reason: readable(entry.reason ?? entry.error) }) : plain(entry.result)));
+    h('td', { class: rejected ? 'bad' : '' }, rejected ? t('missions.refusedBecause', { reason: readable(entry.reason ?? entry.error) }) : plain(entry.result)));
 }
 
 function aboutOf(about = {}) {
@@ -138,7 +138,7 @@ function aboutOf(about = {}) {
   ].filter(Boolean).flatMap((each, index) => (index ? [' · ', each] : [each]));
 }
 
-/** Moments of replays are times of the events. */
+/** Formats times of replays as event times. */
 function textOf(name, value) {
   return ['from', 'to', 'start', 'until'].includes(name) && Number.isFinite(value) && value > 1e11 ? dateTime(value) : plain(value);
 }

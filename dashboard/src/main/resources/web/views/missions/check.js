@@ -1,18 +1,21 @@
-/** What is known of the devices of a plan before a mission starts. */
+/** Checks the devices of a plan before a mission starts. */
 import { chargeOf } from '../../core/readings.js';
 import { store } from '../../core/store.js';
 
 const LOW_BATTERY = 20;
 const OLD_REPORT = 5 * 60_000;
-/** Devices of a group that are checked one by one. */
-const CHECKED = 200;
+/** Maximum number of devices of a group that are checked individually. */
+const MAX_CHECKED = 200;
 const ORDER = ['ok', 'unknown', 'warning', 'problem'];
 
 /**
- * @typedef {{level: 'ok'|'warning'|'problem'|'unknown', what: 'reach'|'battery'|'place'|'use', text: string, values: Object}} Finding text: a key of the page's texts
+ * A finding about a device.
+ *
+ * @typedef {{level: 'ok'|'warning'|'problem'|'unknown', what: 'reach'|'battery'|'place'|'use', text: string, values: Object}} Finding text: a key of
+ *     the page's texts
  */
 
-/** What is known now: what a replay shows says nothing of it. */
+/** The current state of the farm; entities of a replay are not used. */
 export function farmNow(mission) {
   const entities = new Map(store.isReplay ? [] : store.entities);
   store.isReplay || store.devices.forEach((each, id) => { const entity = store.entityOf(each); entity && entities.set(id, entity); });
@@ -20,10 +23,12 @@ export function farmNow(mission) {
 }
 
 /**
+ * Checks a plan.
+ *
  * @param {(string|Object)[]} groups of a plan or template
  * @param {string} domain
- * @param {{mission: string|null, now: number, devices: Map, entities: Map, missions: Map, fields: Map}} farm what is known; `now` in epoch ms
- * @returns {{name: string, findings: Finding[], worst: string}[]} one for each device, and one for those of a group that are yet to be made
+ * @param {{mission: string|null, now: number, devices: Map, entities: Map, missions: Map, fields: Map}} farm `now` in epoch ms
+ * @returns {{name: string, findings: Finding[], worst: string}[]} one per device, and one for all devices of a group that do not exist yet
  */
 export function checkPlan(groups, domain, farm) {
   return groups.flatMap((group) => checkGroup(typeof group === 'string' ? { id: group, outside: true } : group, domain, farm));
@@ -34,12 +39,12 @@ function checkGroup(group, domain, farm) {
     return [checkDevice(group.id, group, domain, farm)];
   }
   const count = group.count ?? 1;
-  const ids = Array.from({ length: Math.min(count, CHECKED) }, (_, index) => `urn:ngsi-ld:${group.type}:${farm.mission}-${index + 1}`);
-  const made = ids.filter((id) => farm.devices.has(id));
-  const rest = count - made.length;
+  const ids = Array.from({ length: Math.min(count, MAX_CHECKED) }, (_, index) => `urn:ngsi-ld:${group.type}:${farm.mission}-${index + 1}`);
+  const existing = ids.filter((id) => farm.devices.has(id));
+  const rest = count - existing.length;
   return [
-    ...made.map((id) => checkDevice(id, group, domain, farm)),
-    ...(rest > 0 ? [judged(group.name ?? group.type, [atStart(group, rest), place(group, null, domain, farm)])] : []),
+    ...existing.map((id) => checkDevice(id, group, domain, farm)),
+    ...(rest > 0 ? [withWorst(group.name ?? group.type, [atStart(group, rest), place(group, null, domain, farm)])] : []),
   ];
 }
 
@@ -51,17 +56,17 @@ function checkDevice(id, group, domain, farm) {
   const listed = farm.devices.get(id);
   const entity = farm.entities.get(id);
   if (!listed && !entity && !group.outside) {
-    return judged(id, [atStart(group, 1), place(group, null, domain, farm)]);
+    return withWorst(id, [atStart(group, 1), place(group, null, domain, farm)]);
   }
-  return judged(id, [use(listed, farm), reach(listed, entity, group, farm), battery(listed, entity), place(group, entity, domain, farm)].filter(Boolean));
+  return withWorst(id, [use(listed, farm), reach(listed, entity, group, farm), battery(listed, entity), place(group, entity, domain, farm)].filter(Boolean));
 }
 
-function judged(name, findings) {
+function withWorst(name, findings) {
   const worst = findings.reduce((worse, each) => (ORDER.indexOf(each.level) > ORDER.indexOf(worse) ? each.level : worse), 'ok');
   return { name, findings, worst };
 }
 
-/** A simulated device that its host has switched off is silent rightly, until the mission starts. */
+/** A simulated device that its host switched off is expected to be silent until the mission starts. */
 function reach(listed, entity, { outside }, { now }) {
   if (!outside && listed?.wanted === 'stopped') {
     return { level: 'ok', what: 'reach', text: 'off', values: {} };
@@ -88,7 +93,7 @@ function use(listed, { missions, mission }) {
   return other?.running && listed.wanted !== 'stopped' ? { level: 'problem', what: 'use', text: 'used', values: { mission: listed.mission } } : null;
 }
 
-/** Where it is, or begins; a device that is to roam a field is in it. */
+/** Checks the position or start position of a device; a device that roams a field is inside it. */
 function place(group, entity, domain, { fields }) {
   const roamed = typeof group.area === 'string' ? group.area : null;
   if (!entity?.position && roamed) {
@@ -110,7 +115,7 @@ function place(group, entity, domain, { fields }) {
     : { level: 'warning', what: 'place', text: 'outside', values: {} };
 }
 
-/** Even-odd rule over all rings, degrees taken as a plane: exact enough for fields of a farm. */
+/** Whether a point is inside, by the even-odd rule over all rings; degrees are treated as a plane, which is exact enough for fields. */
 export function isInside(geometry, [x, y]) {
   const polygons = geometry?.type === 'Polygon' ? [geometry.coordinates] : geometry?.type === 'MultiPolygon' ? geometry.coordinates : [];
   return polygons.some((rings) => {

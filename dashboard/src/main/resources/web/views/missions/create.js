@@ -1,4 +1,4 @@
-/** A new mission from a template or a list of devices, checked before it starts. */
+/** Creates a mission from a template or a list of devices, and checks the devices first. */
 import { api } from '../../core/api.js';
 import { h, replace } from '../../core/dom.js';
 import { duration } from '../../core/format.js';
@@ -10,14 +10,14 @@ import { formRow, openDialog } from './dialog.js';
 import { findingsList, summaryOf } from './findings.js';
 
 const NAME = '[A-Za-z0-9_\\-]{1,64}';
-/** Chosen instead of a template. */
+/** The choice of no template. */
 const OWN = ' own';
 const DEBOUNCE = 300;
 
 const TYPES = ['Thermometer', 'WeatherStation', 'Camera', 'Robot'];
 const PERIODS = [['PT1S', 1_000], ['PT10S', 10_000], ['PT1M', 60_000], ['PT15M', 900_000], ['PT1H', 3_600_000]];
 
-/** Devices of one type; `group()` is the element of the plan. */
+/** A row for devices of one type; `group()` returns the element of the plan. */
 function kindRow(changed) {
   const type = h('input', { required: true, list: 'device-types', pattern: '[A-Za-z][A-Za-z0-9]{0,63}', value: TYPES[0], autocomplete: 'off' });
   const count = h('input', { type: 'number', required: true, min: 1, max: 10_000, step: 1, value: 1, inputmode: 'numeric' });
@@ -37,7 +37,7 @@ export async function createMission() {
   const ids = h('textarea', { spellcheck: 'false', placeholder: 'urn:ngsi-ld:Thermometer:1' });
   const kinds = h('div.stack');
   const own = h('div.stack', { hidden: true }, h('datalist', { id: 'device-types' }, TYPES.map((type) => h('option', { value: type }))), kinds,
-    h('button.button', { type: 'button', on: { click: () => kinds.append(kindRow(soon)) } }, icon('plus', 16), t('missions.moreDevices2')),
+    h('button.button', { type: 'button', on: { click: () => kinds.append(kindRow(schedule)) } }, icon('plus', 16), t('missions.moreDevices2')),
     formRow(t('missions.ids'), ids, t('missions.ownHint')));
   const about = h('p.small.muted');
   const check = h('div.stack', { 'aria-live': 'polite' });
@@ -57,13 +57,13 @@ export async function createMission() {
     submit: t('missions.create'),
     work: async () => {
       const plan = { domain: domain.value, ...(template.value === OWN ? { devices: groups() } : { template: template.value }) };
-      const lasts = minutes.value ? { duration: `PT${Number(minutes.value)}M` } : {};
-      if (created !== name.value) { // a start alone would replace the devices of one that exists
+      const length = minutes.value ? { duration: `PT${Number(minutes.value)}M` } : {};
+      if (created !== name.value) { // starting alone would replace the devices of an existing mission
         await api.post('/api/missions', { mission: name.value, ...plan });
         created = name.value;
       }
       if (now.checked) {
-        await api.post(`/api/missions/${encodeURIComponent(name.value)}/start`, { ...plan, ...lasts });
+        await api.post(`/api/missions/${encodeURIComponent(name.value)}/start`, { ...plan, ...length });
       }
       dialog.dispatchEvent(new CustomEvent('created', { detail: name.value }));
     },
@@ -75,16 +75,16 @@ export async function createMission() {
     replace(check, checked.length > 0 && [h('h3', null, summaryOf(checked)), findingsList(checked)]);
   };
   const choose = async () => {
-    const wanted = template.value;
-    own.hidden = wanted !== OWN;
-    replace(kinds, wanted === OWN && kindRow(soon));
+    const selected = template.value;
+    own.hidden = selected !== OWN;
+    replace(kinds, selected === OWN && kindRow(schedule));
     chosen = null;
     replace(about);
-    replace(check, wanted && wanted !== OWN && h('div.skeleton', null, '…'));
-    if (wanted && wanted !== OWN) {
+    replace(check, selected && selected !== OWN && h('div.skeleton', null, '…'));
+    if (selected && selected !== OWN) {
       try {
-        const found = await api.get(`/api/templates/${encodeURIComponent(wanted)}`);
-        if (template.value !== wanted) {
+        const found = await api.get(`/api/templates/${encodeURIComponent(selected)}`);
+        if (template.value !== selected) {
           return;
         }
         chosen = found;
@@ -97,14 +97,14 @@ export async function createMission() {
     draw();
   };
   let pending;
-  const soon = () => {
+  const schedule = () => {
     clearTimeout(pending);
     pending = setTimeout(draw, DEBOUNCE);
   };
   template.addEventListener('change', choose);
   domain.addEventListener('change', draw);
-  name.addEventListener('input', soon);
-  ids.addEventListener('input', soon);
+  name.addEventListener('input', schedule);
+  ids.addEventListener('input', schedule);
   now.addEventListener('change', () => (minutes.disabled = !now.checked));
   dialog.addEventListener('close', () => clearTimeout(pending));
   action.disabled = domain.options.length === 0;

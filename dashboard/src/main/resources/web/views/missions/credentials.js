@@ -1,4 +1,4 @@
-/** What real devices need to report: broker, login, topics, names; as text, as a file, and as a code for a camera. */
+/** Shows what real devices need to report: broker, login, topics and attribute names; as text, as a file, and as a QR code. */
 import { api } from '../../core/api.js';
 import { h, replace } from '../../core/dom.js';
 import { shortId } from '../../core/format.js';
@@ -37,7 +37,7 @@ export async function showCredentials(mission) {
   }
 }
 
-/** Closed until it is looked at: a password is not for everyone in the room. */
+/** An entry is closed at first, so that passwords are not visible to bystanders. */
 function entry(device, urls) {
   const content = h('div.stack');
   const details = h('details', { on: { toggle: () => details.open && content.childElementCount === 0 && fill(content, device, urls) } },

@@ -1,4 +1,4 @@
-/** One mission: how far it is, each of its devices, and who commanded what. */
+/** Shows a mission: its progress, its devices, and the commands sent to it. */
 import { api } from '../../core/api.js';
 import { age, dateTime, duration, shortId } from '../../core/format.js';
 import { h, replace } from '../../core/dom.js';
@@ -15,7 +15,7 @@ import { findingsList, summaryOf } from './findings.js';
 import { statePill } from './list.js';
 import { redraw } from './redraw.js';
 
-const SHOWN = 200;
+const MAX_SHOWN = 200;
 
 export class MissionDetail {
   /** @param {string} name of the mission */
@@ -31,7 +31,7 @@ export class MissionDetail {
     const path = encodeURIComponent(name);
     this.mission = resource(`/api/missions/${path}`, { topics: ['service.missions', 'service.missions.status'], interval: 10_000 });
     this.list = resource(`/api/devices?mission=${path}`, { topics: ['service.devices', 'service.devices.status'], interval: 5_000 });
-    this.offs = [this.mission.on(() => this.draw()), this.list.on(() => this.draw()), store.on('me', () => this.draw())];
+    this.subscriptions = [this.mission.on(() => this.draw()), this.list.on(() => this.draw()), store.on('me', () => this.draw())];
     replace(this.head, h('h2', null, name), h('div.skeleton', null, '…'));
   }
 
@@ -112,8 +112,8 @@ export class MissionDetail {
     redraw(this.devices, h('h3.section-title', null, h('span', null, t('missions.devices')), h('span.numbers', null, devices.length)),
       h('div.table-frame.device-table', { tabindex: '0', role: 'group', 'aria-label': t('missions.devices') }, h('table.table', null,
         h('thead', null, h('tr', null, ['device', 'state', 'health', 'battery', 'seen', 'audit'].map((name) => h('th', { scope: 'col', class: name === 'battery' || name === 'seen' ? 'numbers' : '' }, t(`missions.deviceColumns.${name}`))))),
-        h('tbody', null, devices.slice(0, SHOWN).map((each) => this.row(each, now))))),
-      devices.length > SHOWN && h('p.small.muted', null, t('missions.moreDevices', { count: devices.length - SHOWN })));
+        h('tbody', null, devices.slice(0, MAX_SHOWN).map((each) => this.row(each, now))))),
+      devices.length > MAX_SHOWN && h('p.small.muted', null, t('missions.moreDevices', { count: devices.length - MAX_SHOWN })));
   }
 
   row(device, now) {
@@ -131,7 +131,7 @@ export class MissionDetail {
   }
 
   close() {
-    this.offs.forEach((off) => off());
+    this.subscriptions.forEach((unsubscribe) => unsubscribe());
     this.mission.close();
     this.list.close();
     this.audit.close();

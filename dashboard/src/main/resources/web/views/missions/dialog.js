@@ -1,12 +1,14 @@
-/** Dialogs: a form, its failure, and its buttons. */
+/** Opens dialogs with a form, its failure and its buttons. */
 import { h, replace } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
 import { t } from '../../texts.js';
 import { focusAct } from './redraw.js';
 
 /**
- * @param {{title: string, body: Node[], submit: string, danger: boolean=, work: function(): Promise<boolean|void>}} options
- *   work throws what is said to the user, and answers true where the dialog stays open
+ * Opens a dialog.
+ *
+ * @param {{title: string, body: Node[], submit: string, danger: boolean=, work: function(): Promise<boolean|void>}} options `work` throws errors to
+ *     be shown, and returns true if the dialog stays open
  */
 export function openDialog({ title, body, submit, danger = false, work }) {
   const failure = h('div', { role: 'alert' });

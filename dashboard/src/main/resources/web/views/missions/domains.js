@@ -1,4 +1,4 @@
-/** Domains, and the fields that were imported. */
+/** Lists domains, and the imported fields. */
 import { api } from '../../core/api.js';
 import { h } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
@@ -23,7 +23,7 @@ export class Domains {
         store.may('operate') && importFields(event.dataTransfer);
       }
     });
-    this.offs = ['domains', 'missions', 'fields', 'me'].map((name) => store.on(name, () => this.draw()));
+    this.subscriptions = ['domains', 'missions', 'fields', 'me'].map((name) => store.on(name, () => this.draw()));
     this.draw();
   }
 
@@ -52,7 +52,7 @@ export class Domains {
   }
 
   close() {
-    this.offs.forEach((off) => off());
+    this.subscriptions.forEach((unsubscribe) => unsubscribe());
   }
 }
 
@@ -80,7 +80,7 @@ function missionsOf(domain) {
   return [...store.missions.values()].filter((each) => each.domain === domain);
 }
 
-/** Those that name the domain, and those that it lists. */
+/** The fields that name the domain, and those that it lists. */
 function fieldsOf({ domain, fields }) {
   return [...store.fields.values()].filter((each) => each.properties.Domain === domain || fields?.includes(each.id));
 }

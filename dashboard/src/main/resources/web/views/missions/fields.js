@@ -1,4 +1,4 @@
-/** The fields of the farm: a table, and how one is renamed, ended or deleted. */
+/** Shows the fields of the farm as a table; renames, ends and deletes them. */
 import { api } from '../../core/api.js';
 import { dateTime } from '../../core/format.js';
 import { h } from '../../core/dom.js';

@@ -1,4 +1,4 @@
-/** The findings of a check as a list of devices. */
+/** Shows the findings of a check as a list of devices. */
 import { duration, shortId } from '../../core/format.js';
 import { h } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
@@ -21,7 +21,7 @@ function sentence({ text, values }) {
   return t(`missions.findings.${text}`, { ...values, ago: values.ago === undefined ? '' : duration(values.ago) });
 }
 
-/** What is in the way first. */
+/** Summarizes a check; problems come first. */
 export function summaryOf(checked) {
   const count = (level) => checked.filter((each) => each.worst === level).length;
   const [problems, bad] = [count('problem'), count('warning')];

@@ -1,4 +1,4 @@
-/** Fields of a file, and what came of them. */
+/** Imports fields from a file, and shows the result. */
 import { api } from '../../core/api.js';
 import { h, replace } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
@@ -6,10 +6,10 @@ import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 import { formRow, openDialog } from './dialog.js';
 
-const LARGEST = 16 << 20;
+const MAX_BYTES = 16 << 20;
 const GEOPACKAGE = /\.gpkg$/i;
 
-/** @param {DataTransfer=} dropped whose file is chosen already */
+/** @param {DataTransfer=} dropped with the chosen file */
 export function importFields(dropped) {
   const file = h('input', { type: 'file', required: true, accept: '.geojson,.json,.gpkg,application/geo+json,application/json' });
   const domain = h('select', null, h('option', { value: '' }, t('missions.asFeaturesSay')), [...store.domains.keys()].map((each) => h('option', { value: each }, each)));
@@ -48,7 +48,7 @@ export function importFields(dropped) {
 }
 
 async function previewOf(file) {
-  if (file.size > LARGEST) {
+  if (file.size > MAX_BYTES) {
     return { bad: true, text: t('missions.tooLarge', { size: Math.ceil(file.size / (1 << 20)) }) };
   }
   if (GEOPACKAGE.test(file.name)) {
@@ -68,14 +68,14 @@ async function previewOf(file) {
 }
 
 function showResult(place, answer) {
-  const refused = answer.refused ?? [];
-  const mended = answer.fields.filter((each) => each.mended?.length);
+  const rejected = answer.refused ?? [];
+  const repaired = answer.fields.filter((each) => each.mended?.length);
   replace(place,
-    h('p.row', { class: refused.length ? 'warn' : 'good' }, icon(refused.length ? 'warning' : 'check', 18), h('strong', null, t('missions.imported', { imported: answer.imported, unchanged: answer.unchanged }))),
-    mended.length > 0 && h('h3', null, t('missions.mendedFields', { count: mended.length })),
-    mended.length > 0 && h('ul.findings', null, mended.map((each) => h('li.finding.is-warning', null, icon('warning', 18),
+    h('p.row', { class: rejected.length ? 'warn' : 'good' }, icon(rejected.length ? 'warning' : 'check', 18), h('strong', null, t('missions.imported', { imported: answer.imported, unchanged: answer.unchanged }))),
+    repaired.length > 0 && h('h3', null, t('missions.mendedFields', { count: repaired.length })),
+    repaired.length > 0 && h('ul.findings', null, repaired.map((each) => h('li.finding.is-warning', null, icon('warning', 18),
       h('div', null, h('strong', null, each.name || each.id), h('p.small.muted', null, each.mended.join('; ')))))),
-    refused.length > 0 && h('h3', null, t('missions.refusedFields', { count: refused.length })),
-    refused.length > 0 && h('ul.findings', null, refused.map((each) => h('li.finding.is-problem', null, icon('close', 18),
+    rejected.length > 0 && h('h3', null, t('missions.refusedFields', { count: rejected.length })),
+    rejected.length > 0 && h('ul.findings', null, rejected.map((each) => h('li.finding.is-problem', null, icon('close', 18),
       h('div', null, h('strong', null, t('missions.feature', { number: each.feature, id: each.id ?? '' })), h('p.small.muted', null, each.reason))))));
 }

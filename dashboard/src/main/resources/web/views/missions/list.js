@@ -1,4 +1,4 @@
-/** The missions there are, those at work first. */
+/** Lists missions, running ones first. */
 import { duration } from '../../core/format.js';
 import { h } from '../../core/dom.js';
 import { store } from '../../core/store.js';

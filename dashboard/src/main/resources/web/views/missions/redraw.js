@@ -1,7 +1,7 @@
-/** Replaces what a place holds; focus, and how far its tables are scrolled, stay. */
+/** Redraws content; the focus and the scroll positions of tables are retained. */
 import { replace } from '../../core/dom.js';
 
-/** What takes the focus again has `data-act`, one of its kind in the place. */
+/** Replaces content. The element with the same `data-act` as the focused one receives the focus. */
 export function redraw(place, ...content) {
   const act = place.contains(document.activeElement) ? document.activeElement.dataset.act : null;
   const scrolled = [...place.querySelectorAll('.table-frame')].map((each) => [each.scrollLeft, each.scrollTop]);

@@ -1,9 +1,9 @@
-/** How long reports take from hop to hop, from the times in their headers. */
+/** Measures how long reports take from hop to hop, by the times in their headers. */
 
-const KEPT_MILLIS = 60_000;
-const MOST = 4_000;
+const WINDOW_MILLIS = 60_000;
+const MAX_SAMPLES = 4_000;
 
-/** Where a time was taken: at the device, when the NGSI source had it, when ingest routed it, when it came to this page. */
+/** Hops: from the device to the NGSI source, from there to ingest, from there to this page. */
 export const HOPS = ['device', 'source', 'page'];
 
 export class HopDelays {
@@ -17,13 +17,13 @@ export class HopDelays {
     const [device, source, ingest] = [of('ts-device'), of('ts-source'), of('ts-ingest')];
     if (record.kind === 'event' && device > 0 && source > 0 && ingest > 0) {
       this.samples.push({ at: now, delays: [source - device, ingest - source, now - ingest] });
-      this.samples.length > MOST && this.samples.shift();
+      this.samples.length > MAX_SAMPLES && this.samples.shift();
     }
   }
 
-  /** @returns {{name: string, p50: number, p95: number, p99: number}[]|null} ms, of the last minute; then that of all hops together */
+  /** @returns {{name: string, p50: number, p95: number, p99: number}[]|null} ms, of the last minute; the last entry covers all hops together */
   summary(now) {
-    this.samples = this.samples.filter((each) => now - each.at < KEPT_MILLIS);
+    this.samples = this.samples.filter((each) => now - each.at < WINDOW_MILLIS);
     if (this.samples.length < 5) {
       return null;
     }

@@ -1,6 +1,6 @@
-/** The form of a new replay: of which missions, from when to when, how fast. */
+/** The form of a new replay: missions, range and speed. */
 import { h, replace, setText } from '../../core/dom.js';
-import { dateTime, duration, zone } from '../../core/format.js';
+import { duration, zone } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
 import { ANALYTICS } from '../../core/jobs.js';
 import { TimeInput } from '../../core/local-time.js';
@@ -44,7 +44,7 @@ export class Plan {
     this.show([]);
   }
 
-  /** @param {string[]} missions @param {number=} at where to begin, epoch ms */
+  /** Shows the form. @param {string[]} missions @param {number=} at where to begin, epoch ms */
   show(missions, at) {
     const changed = missions.join() !== this.missions.join();
     this.missions = missions;
@@ -71,7 +71,7 @@ export class Plan {
   }
 
   ready() {
-    this.start.disabled = this.busy || !this.rangeIsRight();
+    this.start.disabled = this.busy || !this.isRangeValid();
     replace(this.start, icon('play', 18), t(this.busy ? 'replays.starting' : 'replays.start'));
   }
 
@@ -79,8 +79,8 @@ export class Plan {
     return new TimeInput(h('input', { type: 'datetime-local', step: '1', id, on: { input: () => { this.rangeShown(); this.ready(); } } }), last);
   }
 
-  /** One that holds a single event has no length, and can be played. */
-  rangeIsRight() {
+  /** Whether the range is valid. A recording with a single event has no length, and can be replayed. */
+  isRangeValid() {
     const [from, to] = this.range();
     return to > from || (to === from && !this.to.isChosen);
   }
@@ -93,7 +93,7 @@ export class Plan {
     const [from, to] = this.range();
     setText(this.fromLabel, t('replays.from', { zone: zone(from || Date.now()) }));
     setText(this.toLabel, t('replays.to', { zone: zone(to || Date.now()) }));
-    setText(this.length, this.rangeIsRight() ? `${t('replays.length')}: ${duration(to - from)}` : t('replays.wrongRange'));
+    setText(this.length, this.isRangeValid() ? `${t('replays.length')}: ${duration(to - from)}` : t('replays.wrongRange'));
   }
 
   async submit(event) {
@@ -123,9 +123,4 @@ export class Plan {
       this.ready();
     }
   }
-}
-
-/** For people: when a mission was recorded. */
-export function recordedWhen({ first }) {
-  return dateTime(first);
 }

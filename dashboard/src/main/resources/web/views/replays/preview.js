@@ -1,4 +1,4 @@
-/** Small pictures of how the events of a mission lie in time. */
+/** Small charts of the events of a mission over time. */
 import { api } from '../../core/api.js';
 import { h } from '../../core/dom.js';
 import { palette, sharp } from '../../timeline/draw.js';
@@ -6,9 +6,9 @@ import { palette, sharp } from '../../timeline/draw.js';
 const WIDTH = 168;
 const HEIGHT = 28;
 const BUCKETS = 56;
-const AGAIN = 1_500;
+const POLL_INTERVAL = 1_500;
 
-/** Asks for a mission once, and again while it is counted. */
+/** Loads the chart once, and again while events are being counted. */
 export class Preview {
   /** @param {string} mission @param {function()} counted called when the number of events is known */
   constructor(mission, counted) {
@@ -20,25 +20,25 @@ export class Preview {
     this.load();
   }
 
-  /** Asks anew where the mission has gone on. */
+  /** Reloads if the mission was recorded further. */
   update(last) {
     if (this.timeline && last - this.timeline.last > (this.timeline.width || 1)) {
       this.load();
     }
   }
 
-  async load(tries = 20) {
+  async load(attempts = 20) {
     clearTimeout(this.timer);
     try {
       this.timeline = await api.get(`/api/recordings/${encodeURIComponent(this.mission)}/timeline?buckets=${BUCKETS}`);
       this.events = this.timeline.complete ? this.timeline.counts.reduce((sum, count) => sum + count, 0) : null;
       this.draw();
       this.counted();
-      if (!this.timeline.complete && tries > 0) {
-        this.timer = setTimeout(() => this.load(tries - 1), AGAIN);
+      if (!this.timeline.complete && attempts > 0) {
+        this.timer = setTimeout(() => this.load(attempts - 1), POLL_INTERVAL);
       }
     } catch {
-      this.element.hidden = true; // the list says more important things
+      this.element.hidden = true; // the chart is dispensable
     }
   }
 
@@ -59,8 +59,8 @@ export class Preview {
     counts.forEach((count, index) => {
       const left = Math.max(0, (from + index * width - first) * per);
       const right = Math.min(WIDTH, (from + (index + 1) * width - first) * per);
-      const tall = count ? Math.max(2, (count / highest) * (HEIGHT - 2)) : 0;
-      g.fillRect(left, HEIGHT - tall, Math.max(1, right - left - 0.75), tall);
+      const barHeight = count ? Math.max(2, (count / highest) * (HEIGHT - 2)) : 0;
+      g.fillRect(left, HEIGHT - barHeight, Math.max(1, right - left - 0.75), barHeight);
     });
     g.globalAlpha = 1;
   }

@@ -1,4 +1,4 @@
-/** The replays that run, each with what it does and how to join or end it. */
+/** Lists running replays with their states, links and commands. */
 import { h, replace, setText } from '../../core/dom.js';
 import { clock, span } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
@@ -9,7 +9,7 @@ import { steer, stop } from '../../timeline/control.js';
 
 const PILLS = { __proto__: null, running: 'good', paused: 'info', waiting: 'warn', starting: 'info', failed: 'bad', ended: '', stopped: '', over: '' };
 
-/** Replays of a group are one. @returns {{key: string, group: string|undefined, missions: string[], members: Object[]}[]} */
+/** Combines the replays of a group. @returns {{key: string, group: string|undefined, missions: string[], members: Object[]}[]} */
 export function grouped(replays) {
   const byKey = new Map();
   for (const each of replays) {
@@ -28,7 +28,7 @@ export function stateOfReplay({ status }) {
   return !status ? 'starting' : status.state === 'running' && status.progress?.waiting ? 'waiting' : status.state;
 }
 
-/** The link to a moment; also of a replay that is over by then, which can be started there. */
+/** A link to a moment. If the replay no longer exists, the link offers to start one there. */
 export function linkToMoment({ replay, mission, group }, missions, time) {
   return new URL(linkTo('map', { replay, mission: (group ? missions : [mission]).join(), at: new Date(time).toISOString() }), location.href).href;
 }
@@ -74,7 +74,7 @@ export class RunningReplay {
     setText(this.watch.lastChild, t(watched ? 'replays.watching' : 'replays.watch'));
     const may = store.may('operate');
     this.again.hidden = !over || !may;
-    this.end.hidden = !may || (over && state !== 'ended'); // which rests until it is stopped or forgotten
+    this.end.hidden = !may || (over && state !== 'ended'); // an ended replay stays until it is stopped or deleted
   }
 
   watchIt() {
@@ -113,7 +113,7 @@ export class RunningReplay {
   }
 }
 
-/** Keeps elements of entries, so that nothing that has the focus is made anew. */
+/** Updates the list and retains existing elements, so that the focus is not lost. */
 export function drawRunning(list, drawn, entries, announce) {
   for (const [key, each] of drawn) {
     if (!entries.some((entry) => entry.key === key)) {
@@ -126,9 +126,9 @@ export function drawRunning(list, drawn, entries, announce) {
     if (existing) {
       existing.update(entry);
     } else {
-      const made = new RunningReplay(entry, announce);
-      drawn.set(entry.key, made);
-      list.append(made.element);
+      const created = new RunningReplay(entry, announce);
+      drawn.set(entry.key, created);
+      list.append(created.element);
     }
   }
   if (!entries.length) {

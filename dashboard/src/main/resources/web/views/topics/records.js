@@ -1,12 +1,12 @@
-/** The newest records of the topics that are chosen, as they come. */
+/** Shows the newest records of the chosen topics as they arrive. */
 import { bytes, clock, plain, shortId } from '../../core/format.js';
 import { h, replace, setText } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
 import { streams } from '../../core/stream.js';
 import { t } from '../../texts.js';
 
-const KEPT = 200;
-const SHOWN = 100;
+const MAX_STORED = 200;
+const MAX_SHOWN = 100;
 const REDRAW_MILLIS = 300;
 const MAX_TEXT = 20_000;
 
@@ -45,24 +45,24 @@ export class Records {
   }
 
   follow(topic) {
-    const followed = { gap: 0, state: 'connecting', close: () => stream.close() };
+    const subscription = { gap: 0, state: 'connecting', close: () => stream.close() };
     const stream = streams.subscribe(topic, { mode: 'all', prime: false }, {
       records: (records) => this.append(records),
-      gap: (missed) => { followed.gap += missed; this.soon(); },
-      state: (state, reason) => { Object.assign(followed, { state, reason }); this.soon(); },
+      gap: (missed) => { subscription.gap += missed; this.schedule(); },
+      state: (state, reason) => { Object.assign(subscription, { state, reason }); this.schedule(); },
     });
-    return followed;
+    return subscription;
   }
 
   append(records) {
     if (!this.paused) {
       this.records.push(...records);
-      this.records.splice(0, this.records.length - KEPT);
-      this.soon();
+      this.records.splice(0, this.records.length - MAX_STORED);
+      this.schedule();
     }
   }
 
-  soon() {
+  schedule() {
     this.timer ??= setTimeout(() => { this.timer = null; this.draw(); }, REDRAW_MILLIS);
   }
 
@@ -78,24 +78,24 @@ export class Records {
     this.hint.hidden = chosen;
     this.frame.hidden = this.bar.hidden = !chosen;
     this.frame.classList.toggle('single', this.streams.size === 1);
-    const shown = this.records.filter((each) => this.key === '' || String(each.key ?? '').toLowerCase().includes(this.key)).slice(-SHOWN).reverse();
+    const shown = this.records.filter((each) => this.key === '' || String(each.key ?? '').toLowerCase().includes(this.key)).slice(-MAX_SHOWN).reverse();
     setText(this.note, this.stateOf(shown));
     const rows = [...this.body.children];
     const existingRows = new Map(rows.map((each) => [each.dataset.at, each]));
-    const wanted = shown.flatMap((record) => this.rowsOf(record, existingRows));
-    wanted.forEach((row, index) => this.body.children[index] !== row && this.body.insertBefore(row, this.body.children[index] ?? null));
-    while (this.body.children.length > wanted.length) {
+    const visible = shown.flatMap((record) => this.rowsOf(record, existingRows));
+    visible.forEach((row, index) => this.body.children[index] !== row && this.body.insertBefore(row, this.body.children[index] ?? null));
+    while (this.body.children.length > visible.length) {
       this.body.lastChild.remove();
     }
   }
 
   stateOf(shown) {
-    const followed = [...this.streams.values()];
-    const refused = followed.find((each) => each.state === 'refused' || each.state === 'waiting');
-    const gaps = followed.reduce((sum, each) => sum + each.gap, 0);
+    const subscriptions = [...this.streams.values()];
+    const failed = subscriptions.find((each) => each.state === 'refused' || each.state === 'waiting');
+    const gaps = subscriptions.reduce((sum, each) => sum + each.gap, 0);
     const parts = [this.paused ? t('topics.paused') : t('topics.count', { count: shown.length })];
     gaps && parts.push(t('topics.gaps', { count: gaps }));
-    refused && parts.push(refused.reason ?? t('topics.waiting'));
+    failed && parts.push(failed.reason ?? t('topics.waiting'));
     return parts.join(' · ');
   }
 
@@ -133,7 +133,7 @@ function lineOf(record) {
   return text.slice(0, 300);
 }
 
-/** The key of a pair has the ids of both. */
+/** The key of a pair consists of both ids. */
 function nameOf(key) {
   return key.split(/-(?=urn:)/).map(shortId).join(' – ');
 }

@@ -1,18 +1,20 @@
-/** Topics in the order in which people look for them: of all, of each domain and its missions, of replays, of requests and states. */
+/** Arranges topics by use: all reports, results, domains with their missions, replays, control topics, others. */
 import { ANALYTICS } from '../../core/jobs.js';
 
 const RESULTS = [...ANALYTICS.map((job) => `data.${job}`), 'data.clocks', 'data.images', 'data.context', 'data.catalog'];
-/** Shown although there is no such topic yet. */
+/** Shown even if the topic does not exist yet. */
 const ALWAYS = 'data.collision';
 const CANARY = 'canary';
 const EVERYTHING = ['data.raw', 'data.latest', 'ngsi.notifications'];
 
 /**
+ * Arranges topics.
+ *
  * @param {{name: string}[]} topics
- * @param {Iterable<string>} domains those that the managers know, with or without a topic
+ * @param {Iterable<string>} domains of the managers, with or without a topic
  * @param {Iterable<{mission: string, domain: string}>} missions
  * @returns {{all: string[], results: string[], domains: {domain: string, topic: string|null, missions: {mission: string, topic: string|null}[]}[],
- *     replays: string[], service: string[], other: string[], absent: string[]}} absent are those of the results that there are not yet
+ *     replays: string[], service: string[], other: string[], absent: string[]}} `absent` are results whose topics do not exist yet
  */
 export function arrange(topics, domains, missions) {
   const names = new Set(topics.map((each) => each.name));
@@ -47,7 +49,7 @@ function domainsOf(names, domains, missions, claimed) {
       missing.delete(name);
     }
   }
-  // a mission that nothing was reported of yet has no topic
+  // a mission without reports has no topic yet
   missing.forEach((each) => of(each.domain).missions.push({ mission: each.mission, topic: null }));
   const ordered = [...byName.values()].sort((a, b) => (a.domain === CANARY) - (b.domain === CANARY) || (a.domain < b.domain ? -1 : 1));
   ordered.forEach((each) => each.missions.sort((a, b) => (a.mission < b.mission ? -1 : 1)));

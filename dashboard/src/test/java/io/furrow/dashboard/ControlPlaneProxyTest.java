@@ -64,7 +64,10 @@ class ControlPlaneProxyTest {
         }
     }
 
-    /** Says nothing of closing, and closes when the connection is used again, or the other side has closed it. */
+    /**
+     * Answers one request without {@code Connection: close}, and closes the connection when it is reused or the peer
+     * has closed it.
+     */
     private void answerOnce(Socket socket) {
         try (socket) {
             BufferedReader reader = new BufferedReader(new InputStreamReader(socket.getInputStream(), US_ASCII));
@@ -93,17 +96,17 @@ class ControlPlaneProxyTest {
     }
 
     @Test
-    void sendsAReadOnceMoreWhenItsConnectionIsClosedUnderIt() {
+    void retriesAReadWhoseReusedConnectionIsClosed() {
         for (int round = 0; round < 3; round++) {
-            List<CompletableFuture<Integer>> together =
+            List<CompletableFuture<Integer>> concurrent =
                     Stream.generate(() -> request("GET", "")).limit(8).toList();
-            assertThat(together).allMatch(answer -> answer.join() == 200);
+            assertThat(concurrent).allMatch(answer -> answer.join() == 200);
         }
         assertThat(processed).hasSize(24);
     }
 
     @Test
-    void sendsEachCommandOnceOnAConnectionOfItsOwn() {
+    void sendsEachCommandOnceOnANewConnection() {
         assertThat(request("GET", "").join()).isEqualTo(200);
         assertThat(request("POST", "{}").join()).isEqualTo(200);
         assertThat(request("POST", "").join()).isEqualTo(200);
@@ -113,7 +116,7 @@ class ControlPlaneProxyTest {
     }
 
     @Test
-    void givesIdleConnectionsUpLongBeforeAServerDoes() {
+    void closesIdleConnectionsLongBeforeAServerDoes() {
         assertThat(proxy.getHttpClient().getIdleTimeout()).isLessThanOrEqualTo(connector.getIdleTimeout() / 2);
     }
 

@@ -21,7 +21,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.catchThrowable;
 import static org.awaitility.Awaitility.await;
 
-/** What users write to topics and ask of the control plane, in their own names. */
+/** Commands that users write to topics or send to the control plane, in their own name. */
 class DashboardCommandsIT extends DashboardFixture {
     @Test
     void forwardsToTheControlPlaneWithTheTokenOfTheUser() throws Exception {
@@ -46,7 +46,7 @@ class DashboardCommandsIT extends DashboardFixture {
     }
 
     @Test
-    void rejectsAViewerWhoCommandsAndHandsNothingOn() throws Exception {
+    void rejectsCommandsOfAViewerWithoutForwardingThem() throws Exception {
         List<String> managers =
                 List.of(Topics.DOMAIN_MANAGER, Topics.MISSION_MANAGER, Topics.REPLAY_MANAGER, Topics.ALARM_MANAGER);
         long before = managers.stream().mapToLong(DashboardFixture::ends).sum();
@@ -72,17 +72,17 @@ class DashboardCommandsIT extends DashboardFixture {
         assertThat(json(deleted).path("reason").asText())
                 .isEqualTo("this needs the role admin, and 'olga' is operator");
 
-        // what an operator commands comes through behind it, and is the only thing that does
-        CompletableFuture<HttpResponse<String>> commanded =
-                http.sendAsync(commanding("POST /api/domains", OLGA), HttpResponse.BodyHandlers.ofString());
+        // an operator's command is written after the rejected ones, and is the only one written
+        CompletableFuture<HttpResponse<String>> accepted =
+                http.sendAsync(commandRequest("POST /api/domains", OLGA), HttpResponse.BodyHandlers.ofString());
         await().until(() -> managers.stream().mapToLong(DashboardFixture::ends).sum() > before);
         assertThat(managers.stream().mapToLong(DashboardFixture::ends).sum()).isEqualTo(before + 1);
         assertThat(last(Topics.DOMAIN_MANAGER).value()).contains("\"olga\"").doesNotContain("vera");
         assertThat(ends(Topics.AUDIT)).isEqualTo(audited);
-        commanded.cancel(true); // no manager runs here
+        accepted.cancel(true); // no manager runs here
     }
 
-    private HttpRequest commanding(String command, String token) {
+    private HttpRequest commandRequest(String command, String token) {
         String[] words = command.split(" ");
         return HttpRequest.newBuilder(dashboard.uri().resolve(words[1]))
                 .header("Authorization", "Bearer " + token)
@@ -92,11 +92,11 @@ class DashboardCommandsIT extends DashboardFixture {
     }
 
     private HttpResponse<String> command(String command, String token) throws Exception {
-        return http.send(commanding(command, token), HttpResponse.BodyHandlers.ofString());
+        return http.send(commandRequest(command, token), HttpResponse.BodyHandlers.ofString());
     }
 
     @Test
-    void writesWhatAnOperatorSendsInTheirOwnName() throws Exception {
+    void writesMessagesOfAnOperatorInTheirOwnName() throws Exception {
         SocketClient client = SocketClient.open(http, socket(Topics.DOMAIN_MANAGER + "?format=record", OLGA));
         client.send("{\"type\":\"request\",\"domain\":\"north\",\"requestId\":\"r-1\",\"user\":\"somebody\"}");
 
@@ -108,20 +108,20 @@ class DashboardCommandsIT extends DashboardFixture {
     }
 
     @Test
-    void writesForAnAdminOnlyWhatTheRestApiDoesForAnAdminOnly() throws Exception {
+    void writesForAdminsAloneTheCommandsThatTheRestApiReservesForThem() throws Exception {
         SocketClient olga = SocketClient.open(http, socket(Topics.DOMAIN_MANAGER, OLGA));
-        SocketClient ofMissions = SocketClient.open(http, socket(Topics.MISSION_MANAGER, OLGA));
+        SocketClient missions = SocketClient.open(http, socket(Topics.MISSION_MANAGER, OLGA));
         SocketClient anna = SocketClient.open(http, socket(Topics.DOMAIN_MANAGER + "?format=record", ANNA));
         String delete = "{\"type\":\"request\",\"command\":\"delete\",\"domain\":\"farm\",\"force\":true}";
         long before = ends(Topics.DOMAIN_MANAGER);
 
         olga.send(delete);
-        ofMissions.send("{\"type\":\"request\",\"command\":\"delete-template\",\"template\":\"hoeing\"}");
-        ofMissions.send("{\"type\":\"request\",\"command\":\"rotate-credentials\",\"device\":\"urn:x\"}");
+        missions.send("{\"type\":\"request\",\"command\":\"delete-template\",\"template\":\"hoeing\"}");
+        missions.send("{\"type\":\"request\",\"command\":\"rotate-credentials\",\"device\":\"urn:x\"}");
 
-        await().until(() -> olga.frames().size() == 1 && ofMissions.frames().size() == 2);
+        await().until(() -> olga.frames().size() == 1 && missions.frames().size() == 2);
         assertThat(olga.frames()).allMatch(frame -> frame.contains("needs the role admin, and 'olga' is operator"));
-        assertThat(ofMissions.frames()).allMatch(frame -> frame.contains("needs the role admin"));
+        assertThat(missions.frames()).allMatch(frame -> frame.contains("needs the role admin"));
         assertThat(ends(Topics.MISSION_MANAGER)).isZero();
         anna.send(delete);
         await().until(() -> anna.frames().stream().anyMatch(frame -> frame.startsWith("{\"written\"")));
@@ -145,7 +145,7 @@ class DashboardCommandsIT extends DashboardFixture {
     }
 
     @Test
-    void writesNothingForAViewerNothingElsewhereAndNothingThatIsNoRequest() throws Exception {
+    void rejectsMessagesOfViewersToOtherTopicsAndInvalidOnes() throws Exception {
         SocketClient viewer = SocketClient.open(http, socket(Topics.MISSION_MANAGER, VERA));
         SocketClient operator = SocketClient.open(http, socket(Topics.MISSION_MANAGER, OLGA));
         SocketClient elsewhere = SocketClient.open(http, socket(TOPIC, OLGA));
@@ -155,7 +155,7 @@ class DashboardCommandsIT extends DashboardFixture {
         operator.send("stop!");
         elsewhere.send("{\"id\":\"forged\"}");
         Throwable cut = catchThrowable(() -> large.send("{\"type\":\"" + "x".repeat(1024 * 1024) + "\"}"));
-        if (cut != null) { // while it was sent
+        if (cut != null) { // the connection was closed while sending
             assertThat(cut).hasRootCauseInstanceOf(java.io.IOException.class);
         }
 

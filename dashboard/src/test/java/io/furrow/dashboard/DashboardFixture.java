@@ -41,8 +41,10 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** A dashboard in front of a real Kafka and a real REST API of the control plane, which all classes of tests share. */
-@ExtendWith(DashboardFixture.Shared.class)
+/**
+ * Starts a dashboard in front of a real Kafka and a real REST API of the control plane, which all test classes share.
+ */
+@ExtendWith(DashboardFixture.SharedServers.class)
 abstract class DashboardFixture {
     static final String VERA = "vera-reads-only-0001";
     static final String OLGA = "olga-commands-000001";
@@ -59,19 +61,20 @@ abstract class DashboardFixture {
     @AutoClose
     Dashboard dashboard;
 
-    /** Keeps them from the first class of tests to the last of a JVM. */
-    static final class Shared implements BeforeAllCallback {
-        private static final ExtensionContext.Namespace NAMESPACE = ExtensionContext.Namespace.create(Shared.class);
+    /** Keeps Kafka and the REST API running from the first test class of a JVM to the last. */
+    static final class SharedServers implements BeforeAllCallback {
+        private static final ExtensionContext.Namespace NAMESPACE =
+                ExtensionContext.Namespace.create(SharedServers.class);
 
         @Override
         public void beforeAll(ExtensionContext context) {
             context.getRoot()
                     .getStore(NAMESPACE)
-                    .getOrComputeIfAbsent("others", key -> startTheOthers(), AutoCloseable.class);
+                    .getOrComputeIfAbsent("servers", key -> startServers(), AutoCloseable.class);
         }
     }
 
-    private static AutoCloseable startTheOthers() {
+    private static AutoCloseable startServers() {
         try {
             Path directory = Files.createTempDirectory("dashboard");
             kafka = EmbeddedKafka.start(directory.resolve("kafka"));
@@ -96,7 +99,7 @@ abstract class DashboardFixture {
         }
     }
 
-    /** Names of topics as what is to be made. */
+    /** Topics of one partition. */
     static List<NewTopic> topics(String... names) {
         return List.of(names).stream()
                 .map(name -> new NewTopic(name, Optional.of(1), Optional.empty()))
@@ -144,7 +147,7 @@ abstract class DashboardFixture {
                 + json(answer).path("socket").asText());
     }
 
-    /** Opened, and told of every record from now on. */
+    /** Opens a socket and waits until it receives new records. */
     SocketClient open(String topicAndQuery) throws Exception {
         return open(topicAndQuery, true);
     }
@@ -172,18 +175,18 @@ abstract class DashboardFixture {
     }
 
     static StreamLimits limits(int waiting, int streams) {
-        StreamLimits usual = StreamLimits.DEFAULT;
+        StreamLimits defaults = StreamLimits.DEFAULT;
         return new StreamLimits(
                 streams,
                 streams,
                 3,
-                usual.ticketLife(),
+                defaults.ticketLife(),
                 waiting,
-                usual.waitingBytes(),
+                defaults.waitingBytes(),
                 10_000,
-                usual.messageBytes(),
+                defaults.messageBytes(),
                 5,
-                usual.primeRecords());
+                defaults.primeRecords());
     }
 
     static int status(Throwable failure) {

@@ -25,10 +25,10 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** What the dashboard tells of topics, of Kafka and the control plane, and of itself. */
+/** What the dashboard reports about topics, Kafka, the control plane and itself. */
 class DashboardStatusIT extends DashboardFixture {
     @Test
-    void answersWithTheHistoryOfATopic() throws Exception {
+    void returnsTheHistoryOfATopic() throws Exception {
         long before = System.currentTimeMillis();
         send("data.farm.realtime", "history", "{\"n\":7}");
 
@@ -50,7 +50,7 @@ class DashboardStatusIT extends DashboardFixture {
 
     @Tag("full")
     @Test
-    void countsTheRecordsOfATopicBucketByBucket() throws Exception {
+    void countsTheRecordsOfATopicPerBucket() throws Exception {
         String topic = "data.canary.realtime";
         long begin = 1_700_000_000_000L;
         for (long after : new long[] {0, 1, 999, 2_500, 2_600, 9_000}) {
@@ -62,7 +62,7 @@ class DashboardStatusIT extends DashboardFixture {
         JsonNode answer = json(get(path + "?width=1000&from=" + (begin + 300) + "&to=" + (begin + 4_000), VERA));
         assertThat(answer.path("from").asLong()).as(answer.toString()).isEqualTo(begin);
         assertThat(answer.path("counts").toString()).isEqualTo("[3,0,2,0]");
-        // once more, from what is remembered, and up to the end of the topic
+        // again, partly from the cache, and up to the end of the topic
         answer = json(get(path + "?width=1000&from=" + begin + "&to=" + (begin + 10_000), VERA));
         assertThat(answer.path("counts").toString()).isEqualTo("[3,0,2,0,0,0,0,0,0,1]");
 
@@ -78,7 +78,7 @@ class DashboardStatusIT extends DashboardFixture {
 
     @Tag("full")
     @Test
-    void reportsLagAndTheDeadLettersThatAreStillThere() throws Exception {
+    void reportsLagAndRetainedDeadLetters() throws Exception {
         String topic = "counted";
         String dead = "counted.dead";
         try (Admin admin = Admin.create(kafka.client())) {
@@ -98,29 +98,29 @@ class DashboardStatusIT extends DashboardFixture {
         JsonNode platform = json(get("/api/platform", VERA));
 
         assertThat(platform.at("/kafka/state").asText()).isEqualTo("up");
-        assertThat(named(platform.path("deadLetters"), "topic", dead)
+        assertThat(find(platform.path("deadLetters"), "topic", dead)
                         .path("records")
                         .asInt())
                 .isEqualTo(2);
-        assertThat(named(platform.path("groups"), "group", "counting")
+        assertThat(find(platform.path("groups"), "group", "counting")
                         .at("/topics/" + topic)
                         .asInt())
                 .isEqualTo(4);
         assertThat(error("/api/platform", null)).isEqualTo("401 unauthorized");
     }
 
-    private static JsonNode named(JsonNode list, String member, String name) {
+    private static JsonNode find(JsonNode list, String member, String name) {
         for (JsonNode each : list) {
             if (name.equals(each.path(member).asText())) {
                 return each;
             }
         }
-        return list.path("nothing");
+        return list.path("missing");
     }
 
     @Tag("full")
     @Test
-    void reportsHowItIsAndWhatItDid() throws Exception {
+    void reportsHealthReadinessAndMetrics() throws Exception {
         await().until(() -> get("/ready", null).statusCode() == 200);
         assertThat(json(get("/health", null)).path("status").asText()).isEqualTo("up");
         assertThat(json(get("/ready", null)).at("/parts/kafka/state").asText()).isEqualTo("up");
@@ -128,9 +128,9 @@ class DashboardStatusIT extends DashboardFixture {
                 .isEqualTo("up");
 
         SocketClient client = open(TOPIC + "?format=record");
-        SocketClient writing = SocketClient.open(http, socket(Topics.DOMAIN_MANAGER + "?format=record", OLGA));
-        writing.send("{\"type\":\"request\"}");
-        writing.send("[]");
+        SocketClient writer = SocketClient.open(http, socket(Topics.DOMAIN_MANAGER + "?format=record", OLGA));
+        writer.send("{\"type\":\"request\"}");
+        writer.send("[]");
         error("/api/register/" + TOPIC, null);
         error("/api/register/data.raw.dead", OLGA);
         await().until(() -> metric("refused_total{reason=\"not-json\"}") == 1);
@@ -164,10 +164,10 @@ class DashboardStatusIT extends DashboardFixture {
         assertThat(get("/health", null).statusCode()).isEqualTo(200);
     }
 
-    /** More requests than the server has threads wait for a control plane that is silent. */
+    /** More requests than the server has threads wait for a control plane that does not respond. */
     @Tag("full")
     @Test
-    void reportsHowItIsAndGivesThePageOutWhileTheControlPlaneIsSilent() throws Exception {
+    void servesHealthAndThePageWhileTheControlPlaneDoesNotRespond() throws Exception {
         try (ServerSocket silent = new ServerSocket(0, 500, InetAddress.getLoopbackAddress())) {
             restart(DashboardSettings.of(0, kafka.client(), URI.create("http://127.0.0.1:" + silent.getLocalPort())));
             await().until(() -> {
@@ -181,9 +181,9 @@ class DashboardStatusIT extends DashboardFixture {
                 int health = get("/health", null).statusCode();
                 int page = get("/app.js", null).statusCode();
                 int config = get("/config.json", null).statusCode();
-                boolean waited = waiting.stream().noneMatch(CompletableFuture::isDone);
+                boolean blocked = waiting.stream().noneMatch(CompletableFuture::isDone);
                 waiting.forEach(each -> each.cancel(true));
-                return waited && health == 200 && page == 200 && config == 200;
+                return blocked && health == 200 && page == 200 && config == 200;
             });
         }
     }

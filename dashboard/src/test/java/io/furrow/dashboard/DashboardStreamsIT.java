@@ -22,10 +22,10 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** What a stream delivers, in which order, and what becomes of one that is slow or dropped. */
+/** Records of streams, their order, and streams that are slow or dropped. */
 class DashboardStreamsIT extends DashboardFixture {
     @Test
-    void deliversEveryRecordOfATopicInItsOrderWithAllThatBelongsToIt() throws Exception {
+    void sendsEveryRecordOfATopicInOrderWithKeyTimeAndHeaders() throws Exception {
         SocketClient client = open(TOPIC + "?format=record");
         for (int i = 0; i < 500; i++) {
             producer.send(new ProducerRecord<>(
@@ -57,7 +57,7 @@ class DashboardStreamsIT extends DashboardFixture {
 
     @Tag("full")
     @Test
-    void deliversValuesAsTheyAreUnlessMoreIsRequested() throws Exception {
+    void sendsUnchangedValuesByDefault() throws Exception {
         SocketClient client = open(TOPIC);
         send(TOPIC, "a", "{\"id\": \"a\" }");
 
@@ -65,7 +65,7 @@ class DashboardStreamsIT extends DashboardFixture {
     }
 
     @Test
-    void sendsWhatWasKnownFirst() throws Exception {
+    void sendsTheInitialStateFirst() throws Exception {
         send(Topics.LATEST, "r1", entity("r1", "farm", "weeding", 1));
         send(Topics.LATEST, "r1", entity("r1", "farm", "weeding", 2));
         send(Topics.LATEST, "r2", entity("r2", "farm", "other", 3));
@@ -96,14 +96,14 @@ class DashboardStreamsIT extends DashboardFixture {
     }
 
     @Test
-    void findsOfAReplayWhatItsNewestEpochReported() throws Exception {
+    void sendsTheNewestEpochOfAReplay() throws Exception {
         String topic = REPLAY;
-        replayed(topic, "a", "{\"n\":1}", 0, "event");
-        replayed(topic, "b", "{\"n\":2}", 0, "event");
-        replayed(topic, null, "{}", 0, "end");
-        replayed(topic, "a", "{\"n\":3}", 1, "prime");
-        replayed(topic, "a", "{\"n\":4}", 1, "event");
-        replayed(topic, null, "{}", 1, "end");
+        sendReplayed(topic, "a", "{\"n\":1}", 0, "event");
+        sendReplayed(topic, "b", "{\"n\":2}", 0, "event");
+        sendReplayed(topic, null, "{}", 0, "end");
+        sendReplayed(topic, "a", "{\"n\":3}", 1, "prime");
+        sendReplayed(topic, "a", "{\"n\":4}", 1, "event");
+        sendReplayed(topic, null, "{}", 1, "end");
 
         SocketClient client = SocketClient.open(http, socket(topic + "?format=record&prime=true", VERA));
 
@@ -114,14 +114,14 @@ class DashboardStreamsIT extends DashboardFixture {
     }
 
     @Test
-    void findsTheLastHourOfATopicThatIsNotCompactedHoweverMuchIsBeforeIt() throws Exception {
+    void sendsTheLastHourOfATopicThatIsNotCompactedWhateverItsSize() throws Exception {
         String topic = "data.history";
         kafka.createTopics(topics(topic));
         long now = System.currentTimeMillis();
         for (int i = 0; i < 100_000; i++) {
-            long then = now - Duration.ofHours(2).toMillis() + i;
+            long time = now - Duration.ofHours(2).toMillis() + i;
             producer.send(
-                    new ProducerRecord<>(topic, 0, then, "pair-" + i % 50, "{\"phase\":\"ongoing\"}".getBytes(UTF_8)));
+                    new ProducerRecord<>(topic, 0, time, "pair-" + i % 50, "{\"phase\":\"ongoing\"}".getBytes(UTF_8)));
         }
         send(topic, "pair-of-now", "{\"phase\":\"started\"}");
         List<SocketClient> clients = new ArrayList<>();
@@ -139,7 +139,7 @@ class DashboardStreamsIT extends DashboardFixture {
                         .containsExactly("pair-of-now"));
     }
 
-    private static void replayed(String topic, String key, String value, int epoch, String kind) throws Exception {
+    private static void sendReplayed(String topic, String key, String value, int epoch, String kind) throws Exception {
         ProducerRecord<String, byte[]> record = new ProducerRecord<>(topic, key, value.getBytes(UTF_8));
         record.headers().add("replay-epoch", Integer.toString(epoch).getBytes(UTF_8));
         record.headers().add("replay-kind", kind.getBytes(UTF_8));
@@ -147,7 +147,7 @@ class DashboardStreamsIT extends DashboardFixture {
     }
 
     @Test
-    void closesASocketThatIsTooSlowAndHarmsNoOther() throws Exception {
+    void closesASocketThatIsTooSlowWithoutDelayingOthers() throws Exception {
         restart(settings().withLimits(limits(2_000, 50)));
         SocketClient quick = open(TOPIC + "?format=record");
         SocketClient slow = open(TOPIC + "?format=record", false);
@@ -168,9 +168,9 @@ class DashboardStreamsIT extends DashboardFixture {
         assertThat(without(quick.records(), "probe")).hasSize(10_000);
         assertThat(quick.isOver()).isFalse();
         await().until(() -> dashboard.streams().open() == 2);
-        slow.readOn();
+        slow.resume();
         await().until(slow::isOver);
-        merging.readOn();
+        merging.resume();
         await().until(() -> highest(merging) == 9_999);
         assertThat(merging.merged()).isPositive();
         assertThat(without(merging.records(), "probe").size() + merging.merged())
@@ -178,7 +178,7 @@ class DashboardStreamsIT extends DashboardFixture {
         assertThat(merging.isOver()).isFalse();
     }
 
-    /** A newer record takes the place of an older one, not the last. */
+    /** The last record need not be the newest, as newer records take the position of older ones. */
     private static int highest(SocketClient client) throws Exception {
         return client.records().stream()
                 .mapToInt(record -> record.at("/value/n").asInt(-1))
@@ -211,7 +211,7 @@ class DashboardStreamsIT extends DashboardFixture {
 
     @Tag("full")
     @Test
-    void freesEverythingWhenSocketsAreDropped() throws Exception {
+    void releasesEverythingWhenSocketsAreDropped() throws Exception {
         for (int round = 0; round < 10; round++) {
             List<SocketClient> clients = new ArrayList<>();
             for (int i = 0; i < 30; i++) {
@@ -225,13 +225,15 @@ class DashboardStreamsIT extends DashboardFixture {
                 dashboard.streams().open() == 0 && dashboard.streams().feeds().size() == 0);
         await().until(() -> Thread.getAllStackTraces().keySet().stream()
                 .noneMatch(thread -> thread.getName().startsWith("feed-")));
-        open(TOPIC).close(); // and it continues
+        open(TOPIC).close(); // topics can be read again
     }
 
-    /** Such as one that asks for what the server cannot do: its ticket is used, and no socket reports its end. */
+    /**
+     * Negotiates an unsupported extension, so the handshake fails after its ticket was used, and no socket is closed.
+     */
     @Tag("full")
     @Test
-    void freesTheStreamOfAHandshakeThatFailed() throws Exception {
+    void releasesTheStreamOfAFailedHandshake() throws Exception {
         URI socket = socket(TOPIC, OLGA);
         assertThat(Handshake.status(
                         socket, socket.getAuthority(), "Sec-WebSocket-Extensions", "permessage-deflate; unknown=1"))
@@ -244,7 +246,7 @@ class DashboardStreamsIT extends DashboardFixture {
 
     @Tag("full")
     @Test
-    void endsTheStreamsOfADeletedTopicAndReadsItWhenItIsMadeAgain() throws Exception {
+    void endsTheStreamsOfADeletedTopicAndReadsItAfterItIsCreatedAgain() throws Exception {
         String topic = "data.m.replay.1a2b3c4d";
         kafka.createTopics(topics(topic));
         SocketClient client = open(topic);
@@ -253,7 +255,7 @@ class DashboardStreamsIT extends DashboardFixture {
             admin.deleteTopics(List.of(topic)).all().get();
             await().until(client::isOver);
             assertThat(client.reason()).isEqualTo("topic 'data.m.replay.1a2b3c4d' is not there any more");
-            await().ignoreExceptions() // while the one before is being deleted
+            await().ignoreExceptions() // while the old topic is being deleted
                     .until(() -> admin.createTopics(topics(topic)).all().get() == null);
         }
         open(topic).close();
@@ -277,7 +279,7 @@ class DashboardStreamsIT extends DashboardFixture {
     }
 
     @Test
-    void givesTheSameAsEvents() throws Exception {
+    void sendsTheSameRecordsAsServerSentEvents() throws Exception {
         HttpRequest request = HttpRequest.newBuilder(dashboard.uri().resolve("/api/stream/" + TOPIC + "?prime=false"))
                 .header("Authorization", "Bearer " + VERA)
                 .build();

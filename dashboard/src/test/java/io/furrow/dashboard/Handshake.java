@@ -8,11 +8,11 @@ import java.net.URI;
 
 import static java.nio.charset.StandardCharsets.US_ASCII;
 
-/** The first request of a socket, with headers that clients do not let anybody set. */
+/** Sends the first request of a WebSocket with headers that Java's clients do not allow to set. */
 final class Handshake {
     private Handshake() {}
 
-    /** @return the status that it is answered with */
+    /** @return the status of the response */
     static int status(URI socket, String host, String... headers) throws IOException {
         StringBuilder request = new StringBuilder("GET %s HTTP/1.1\r\nHost: %s\r\n".formatted(socket.getPath(), host))
                 .append("Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n")

@@ -42,16 +42,16 @@ class LongEventStreamIT {
     private static final String OLGA = "olga-commands-000001";
     private static final String TOPIC = "data.farm.realtime.quiet";
     private static final Duration TIMEOUT = Duration.ofSeconds(120);
-    /** A comment each 15 s; the server closes a connection on which nothing is sent for 30 s. */
-    private static final int LONGER_THAN_IDLE = 3;
+    /** A comment is sent every 15 s; the server closes a connection that is idle for 30 s. */
+    private static final int MIN_PINGS = 3;
 
     private final HttpClient http = HttpClient.newHttpClient();
 
-    /** What was read of a stream. */
+    /** Reads a stream on its own thread. */
     private static final class Reader implements Runnable {
         private final InputStream in;
         private final StringBuilder text = new StringBuilder();
-        private volatile boolean over;
+        private volatile boolean ended;
 
         Reader(InputStream in) {
             this.in = in;
@@ -74,24 +74,24 @@ class LongEventStreamIT {
                     text.append("broken: ").append(e);
                 }
             }
-            over = true;
+            ended = true;
         }
 
-        synchronized long lines(String begin) {
+        synchronized long lines(String prefix) {
             return text.toString()
                     .lines()
-                    .filter(line -> line.startsWith(begin))
+                    .filter(line -> line.startsWith(prefix))
                     .count();
         }
 
-        /** Comments that keep the connection in use. */
+        /** Comments that prevent an idle timeout. */
         long pings() {
             return lines(":") - lines(": " + TOPIC);
         }
     }
 
     @Test
-    void lastWithoutARecordAndEndWhenTheirTokenIsTakenBack(@TempDir Path directory) throws Exception {
+    void streamsStayOpenWithoutRecordsAndEndWhenTheirTokenIsRevoked(@TempDir Path directory) throws Exception {
         Path tokens = directory.resolve("tokens");
         Files.writeString(tokens, "vera %s viewer%nolga %s operator%n".formatted(VERA, OLGA));
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory.resolve("kafka"))) {
@@ -109,21 +109,20 @@ class LongEventStreamIT {
                 Reader vera = new Reader(stream(dashboard, VERA).body());
                 Reader olga = new Reader(stream(dashboard, OLGA).body());
 
-                await().atMost(TIMEOUT)
-                        .until(() -> vera.pings() >= LONGER_THAN_IDLE && olga.pings() >= LONGER_THAN_IDLE);
+                await().atMost(TIMEOUT).until(() -> vera.pings() >= MIN_PINGS && olga.pings() >= MIN_PINGS);
                 producer.send(new ProducerRecord<>(TOPIC, "k", "{\"n\":1}".getBytes(UTF_8)))
                         .get();
                 await().atMost(TIMEOUT)
                         .until(() -> vera.lines("data: {\"records\"") == 1 && olga.lines("data: {\"records\"") == 1);
 
-                SocketClient commanding = SocketClient.open(http, socket(dashboard, OLGA));
+                SocketClient writer = SocketClient.open(http, socket(dashboard, OLGA));
                 Files.writeString(tokens, "olga %s viewer%n".formatted(OLGA));
                 await().atMost(TIMEOUT).until(() -> {
-                    commanding.send("[]");
-                    return commanding.frames().stream().anyMatch(frame -> frame.contains("'olga' is viewer"));
+                    writer.send("[]");
+                    return writer.frames().stream().anyMatch(frame -> frame.contains("'olga' is viewer"));
                 });
-                assertThat(commanding.isOver()).isFalse();
-                await().atMost(TIMEOUT).until(() -> vera.over);
+                assertThat(writer.isOver()).isFalse();
+                await().atMost(TIMEOUT).until(() -> vera.ended);
                 assertThat(vera.lines("broken")).isZero();
                 assertThat(stream(dashboard, VERA).statusCode()).isEqualTo(401);
                 assertThat(dashboard.streams().open()).isEqualTo(2);

@@ -31,15 +31,15 @@ class RequestWorkersTest {
     private static final int SERVER_THREADS = 8;
 
     private final CountDownLatch released = new CountDownLatch(1);
-    private final AtomicInteger working = new AtomicInteger();
-    private final List<Problem> refused = new CopyOnWriteArrayList<>();
+    private final AtomicInteger running = new AtomicInteger();
+    private final List<Problem> rejections = new CopyOnWriteArrayList<>();
     private final HttpClient http =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
     private final Server server = new Server(new QueuedThreadPool(SERVER_THREADS));
     private URI uri;
 
-    /** Below {@code /api/} it waits until it is released. */
-    private final class Waiting extends Handler.Abstract {
+    /** Blocks requests below {@code /api/} until they are released. */
+    private final class BlockingHandler extends Handler.Abstract {
         @Override
         public boolean handle(Request request, Response response, Callback callback) throws Exception {
             String path = Request.getPathInContext(request);
@@ -48,7 +48,7 @@ class RequestWorkersTest {
             } else if (path.equals("/api/broken")) {
                 throw new IllegalStateException("broken");
             } else if (path.startsWith("/api/")) {
-                working.incrementAndGet();
+                running.incrementAndGet();
                 released.await();
             }
             response.write(true, null, callback);
@@ -61,7 +61,7 @@ class RequestWorkersTest {
         ServerConnector connector = new ServerConnector(server, 1, 1);
         connector.setHost("127.0.0.1");
         server.addConnector(connector);
-        server.setHandler(new RequestWorkers(path -> path.startsWith("/api/"), refused::add, new Waiting()));
+        server.setHandler(new RequestWorkers(path -> path.startsWith("/api/"), rejections::add, new BlockingHandler()));
         server.start();
         uri = URI.create("http://127.0.0.1:" + connector.getLocalPort());
     }
@@ -77,22 +77,22 @@ class RequestWorkersTest {
     }
 
     @Test
-    void answersTheOthersWhileRequestsWait() {
+    void answersOtherRequestsWhileSomeWait() {
         List<CompletableFuture<HttpResponse<String>>> waiting = IntStream.range(
                         0, RequestWorkers.THREADS + SERVER_THREADS)
                 .mapToObj(i -> request("/api/topics"))
                 .toList();
-        await().until(() -> working.get() == RequestWorkers.THREADS);
+        await().until(() -> running.get() == RequestWorkers.THREADS);
 
         assertThat(request("/health").join().statusCode()).isEqualTo(200);
         assertThat(waiting).noneMatch(CompletableFuture::isDone);
         released.countDown();
         assertThat(waiting).allMatch(each -> each.join().statusCode() == 200);
-        assertThat(working).hasValue(RequestWorkers.THREADS + SERVER_THREADS);
+        assertThat(running).hasValue(RequestWorkers.THREADS + SERVER_THREADS);
     }
 
     @Test
-    void rejectsMoreThanMayWait() {
+    void rejectsRequestsBeyondTheQueue() {
         List<CompletableFuture<HttpResponse<String>>> waiting = IntStream.range(
                         0, RequestWorkers.THREADS + RequestWorkers.WAITING + 1)
                 .mapToObj(i -> request("/api/topics"))
@@ -107,14 +107,14 @@ class RequestWorkersTest {
         assertThat(answer.statusCode()).isEqualTo(503);
         assertThat(answer.body()).contains("overloaded");
         assertThat(answer.headers().firstValue("Retry-After")).contains("1");
-        assertThat(refused).extracting(Problem::error).containsOnly("overloaded");
+        assertThat(rejections).extracting(Problem::error).containsOnly("overloaded");
         released.countDown();
         assertThat(waiting.stream().filter(each -> each.join().statusCode() == 200))
                 .hasSize(RequestWorkers.THREADS + RequestWorkers.WAITING);
     }
 
     @Test
-    void answersForAHandlerThatDoesNotOrFails() {
+    void answersWith404Or500IfTheHandlerDoesNotHandleOrFails() {
         assertThat(request("/api/nothing").join().statusCode()).isEqualTo(404);
         assertThat(request("/api/broken").join().statusCode()).isEqualTo(500);
     }

@@ -14,7 +14,7 @@ import io.furrow.model.ngsi.NgsiJson;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** A socket that keeps the text frames it got. */
+/** A WebSocket that collects the text frames it receives. */
 final class SocketClient implements WebSocket.Listener {
     private final List<String> frames = new CopyOnWriteArrayList<>();
     private final StringBuilder text = new StringBuilder();
@@ -32,7 +32,7 @@ final class SocketClient implements WebSocket.Listener {
         return open(http, at, true);
     }
 
-    /** @param reads whether it takes more than the first frame */
+    /** @param reads whether it receives more than the first frame */
     static SocketClient open(HttpClient http, URI at, boolean reads) {
         SocketClient client = new SocketClient(reads);
         client.socket = http.newWebSocketBuilder().buildAsync(at, client).join();
@@ -43,7 +43,7 @@ final class SocketClient implements WebSocket.Listener {
         return frames;
     }
 
-    /** All records of all frames. */
+    /** The records of all frames. */
     List<JsonNode> records() throws Exception {
         List<JsonNode> records = new ArrayList<>();
         for (String frame : frames) {
@@ -52,7 +52,7 @@ final class SocketClient implements WebSocket.Listener {
         return records;
     }
 
-    /** Records that newer ones have taken the place of. */
+    /** The number of records that newer ones replaced. */
     long merged() throws Exception {
         long merged = 0;
         for (String frame : frames) {
@@ -61,7 +61,7 @@ final class SocketClient implements WebSocket.Listener {
         return merged;
     }
 
-    /** −1 while it is open. */
+    /** −1 while the socket is open. */
     int code() {
         return code;
     }
@@ -86,7 +86,7 @@ final class SocketClient implements WebSocket.Listener {
         socket.sendClose(WebSocket.NORMAL_CLOSURE, "").join();
     }
 
-    void readOn() {
+    void resume() {
         socket.request(Long.MAX_VALUE);
     }
 

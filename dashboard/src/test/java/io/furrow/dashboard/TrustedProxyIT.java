@@ -37,15 +37,15 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** Users that a proxy signs in, before a real REST API of the control plane. The test itself is the proxy. */
+/** Users whom a proxy signs in, with a real REST API of the control plane. The test acts as the proxy. */
 @Tag("full")
 class TrustedProxyIT {
     private static final String OLGA = "olga-commands-000001";
     private static final String DASHBOARD = "the-dashboards-own-token";
-    private static final String LIMITED = "a-token-of-operators-only";
+    private static final String OPERATORS_ONLY = "a-token-of-operators-only";
     private static final String NOT_FOR_USERS = "a-token-for-nobody-else";
     private static final String TOPIC = "data.farm.realtime.weeding";
-    private static final String HERE = "127.0.0.1";
+    private static final String LOOPBACK = "127.0.0.1";
     private static final String USER = "X-Forwarded-User";
     private static final String GROUPS = "X-Forwarded-Groups";
     private static final Duration TIMEOUT = Duration.ofSeconds(30);
@@ -55,7 +55,7 @@ class TrustedProxyIT {
 
     private static EmbeddedKafka kafka;
     private static RestApi api;
-    private static RestApi open;
+    private static RestApi apiWithoutTokens;
 
     private final HttpClient http = HttpClient.newHttpClient();
 
@@ -63,7 +63,7 @@ class TrustedProxyIT {
     private Dashboard dashboard;
 
     @BeforeAll
-    static void startTheOthers() throws Exception {
+    static void startServers() throws Exception {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
         Path tokens = directory.resolve("tokens");
         Files.writeString(tokens, """
@@ -71,20 +71,21 @@ class TrustedProxyIT {
                 dashboard %s admin for-users
                 dashboard %s operator for-users
                 other %s admin
-                """.formatted(OLGA, DASHBOARD, LIMITED, NOT_FOR_USERS));
+                """.formatted(OLGA, DASHBOARD, OPERATORS_ONLY, NOT_FOR_USERS));
         api = RestApi.start(
                 ControlSettings.of(kafka.client()),
                 RestSettings.on(0).withTokens(tokens),
                 new Readiness(Clock.systemUTC()));
-        open = RestApi.start(ControlSettings.of(kafka.client()), RestSettings.on(0), new Readiness(Clock.systemUTC()));
+        apiWithoutTokens =
+                RestApi.start(ControlSettings.of(kafka.client()), RestSettings.on(0), new Readiness(Clock.systemUTC()));
         kafka.createTopics(List.of(new NewTopic(TOPIC, Optional.of(1), Optional.empty())));
 
-        await().atMost(TIMEOUT).until(() -> api.isReady() && open.isReady());
+        await().atMost(TIMEOUT).until(() -> api.isReady() && apiWithoutTokens.isReady());
     }
 
     @AfterAll
-    static void stopTheOthers() {
-        open.close();
+    static void stopServers() {
+        apiWithoutTokens.close();
         api.close();
         kafka.close();
     }
@@ -94,10 +95,10 @@ class TrustedProxyIT {
     }
 
     private void start(URI controlPlane, String proxy, String token) throws Exception {
-        StreamLimits usual = StreamLimits.DEFAULT;
+        StreamLimits defaults = StreamLimits.DEFAULT;
         dashboard = Dashboard.start(DashboardSettings.of(0, kafka.client(), controlPlane)
                 .withLimits(new StreamLimits(
-                        10, 10, 3, usual.ticketLife(), 100, 1_000_000, 10_000, 10_000, 5, usual.primeRecords()))
+                        10, 10, 3, defaults.ticketLife(), 100, 1_000_000, 10_000, 10_000, 5, defaults.primeRecords()))
                 .withProxy(new TrustedProxy(
                         List.of(AddressRange.parse(proxy)),
                         USER,
@@ -131,8 +132,8 @@ class TrustedProxyIT {
     }
 
     @Test
-    void letsTheControlPlaneKnowTheUserThatTheProxyNames() throws Exception {
-        start(HERE, DASHBOARD);
+    void forwardsRequestsInTheNameOfTheUser() throws Exception {
+        start(LOOPBACK, DASHBOARD);
 
         assertThat(me(get("/api/me", USER, "vera@farm", GROUPS, "farmers"))).isEqualTo("vera@farm viewer");
         assertThat(me(get("/api/me", USER, "oskar", GROUPS, "choir, drivers,farmers")))
@@ -156,7 +157,7 @@ class TrustedProxyIT {
 
     @Test
     void opensSocketsInTheNameOfTheUser() throws Exception {
-        start(HERE, DASHBOARD);
+        start(LOOPBACK, DASHBOARD);
 
         SocketClient vera = socket(Topics.MISSION_MANAGER, "vera", "farmers");
         SocketClient oskar = socket(Topics.MISSION_MANAGER + "?format=record", "oskar", "drivers");
@@ -180,7 +181,7 @@ class TrustedProxyIT {
     }
 
     @Test
-    void dropsTheHeadersOfAnybodyElse() throws Exception {
+    void ignoresHeadersOfOtherClients() throws Exception {
         start("192.0.2.0/24", DASHBOARD);
 
         assertThat(error(get("/api/me", USER, "anna", GROUPS, "owners"))).isEqualTo("401 unauthorized");
@@ -196,8 +197,8 @@ class TrustedProxyIT {
     }
 
     @Test
-    void takesNoNamesForTheControlPlaneFromTheProxyEither() throws Exception {
-        start(HERE, DASHBOARD);
+    void removesHeadersForTheControlPlaneThatTheProxyForwards() throws Exception {
+        start(LOOPBACK, DASHBOARD);
 
         assertThat(me(get("/api/me", USER, "vera", GROUPS, "farmers", "Furrow-User", "anna", "Furrow-Role", "admin")))
                 .isEqualTo("vera viewer");
@@ -207,8 +208,8 @@ class TrustedProxyIT {
     }
 
     @Test
-    void rejectsWhoIsNotNamedOnceOrHasNoRole() throws Exception {
-        start(HERE, DASHBOARD);
+    void rejectsUsersWithoutExactlyOneNameOrWithoutARole() throws Exception {
+        start(LOOPBACK, DASHBOARD);
 
         assertThat(error(get("/api/me", USER, "vera"))).isEqualTo("403 no-role");
         assertThat(error(get("/api/me", USER, "vera", GROUPS, "choir"))).isEqualTo("403 no-role");
@@ -219,25 +220,25 @@ class TrustedProxyIT {
     }
 
     @Test
-    void letsNobodyDoMoreThanTheTokenOfTheDashboardMay() throws Exception {
-        start(HERE, LIMITED);
+    void limitsUsersToTheRoleOfTheDashboardsToken() throws Exception {
+        start(LOOPBACK, OPERATORS_ONLY);
 
         assertThat(me(get("/api/me", USER, "anna", GROUPS, "owners"))).isEqualTo("anna operator");
     }
 
     @Test
-    void servesNoUserWhereTheControlPlaneDoesNotTakeThem() throws Exception {
-        start(HERE, NOT_FOR_USERS);
+    void rejectsUsersIfTheControlPlaneDoesNotAcceptThem() throws Exception {
+        start(LOOPBACK, NOT_FOR_USERS);
         assertThat(error(get("/api/missions", USER, "vera", GROUPS, "farmers"))).isEqualTo("503 users-not-taken");
         dashboard.close();
 
-        start(open.uri(), HERE, DASHBOARD);
+        start(apiWithoutTokens.uri(), LOOPBACK, DASHBOARD);
         assertThat(error(get("/api/missions", USER, "vera", GROUPS, "farmers"))).isEqualTo("503 users-not-taken");
     }
 
     @Test
-    void countsTheStreamsOfEachUserAlone() throws Exception {
-        start(HERE, DASHBOARD);
+    void countsTheTicketsOfEachUserSeparately() throws Exception {
+        start(LOOPBACK, DASHBOARD);
         for (int i = 0; i < 3; i++) {
             assertThat(get("/api/register/" + TOPIC, USER, "vera", GROUPS, "farmers")
                             .statusCode())

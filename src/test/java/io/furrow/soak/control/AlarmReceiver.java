@@ -14,33 +14,33 @@ import com.sun.net.httpserver.HttpExchange;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.stub.StubServer;
 
-/** A webhook that remembers which alarms it took in which states, and answers 503 where it is told to. */
+/** A webhook that stores which alarms it received in which states, and can answer 503. */
 final class AlarmReceiver implements AutoCloseable {
-    private final Map<String, Set<Long>> taken = new ConcurrentHashMap<>();
+    private final Map<String, Set<Long>> received = new ConcurrentHashMap<>();
     private final Map<String, JsonNode> newest = new ConcurrentHashMap<>();
     private final AtomicLong count = new AtomicLong();
-    private final StubServer server = new StubServer(this::take);
-    private volatile boolean refuses;
+    private final StubServer server = new StubServer(this::receive);
+    private volatile boolean unavailable;
 
     URI uri() {
         return server.uri("");
     }
 
-    void refuse(boolean whether) {
-        refuses = whether;
+    void setUnavailable(boolean value) {
+        unavailable = value;
     }
 
-    /** Whether it took an alarm in its state of a sequence. */
+    /** Whether it received an alarm with a sequence number. */
     boolean has(String alarm, long sequence) {
-        return taken.getOrDefault(alarm, Set.of()).contains(sequence);
+        return received.getOrDefault(alarm, Set.of()).contains(sequence);
     }
 
-    /** Whether it took an alarm in any state. */
+    /** Whether it received an alarm in any state. */
     boolean has(String alarm) {
-        return taken.containsKey(alarm);
+        return received.containsKey(alarm);
     }
 
-    /** Each alarm as it was taken last. */
+    /** The newest received state of each alarm. */
     List<JsonNode> newest() {
         return List.copyOf(newest.values());
     }
@@ -49,14 +49,14 @@ final class AlarmReceiver implements AutoCloseable {
         return count.get();
     }
 
-    private void take(HttpExchange exchange) throws IOException {
+    private void receive(HttpExchange exchange) throws IOException {
         try (exchange) {
             JsonNode alarm =
                     NgsiJson.mapper().readTree(exchange.getRequestBody().readAllBytes());
-            boolean refused = refuses;
-            if (!refused) {
+            boolean rejected = unavailable;
+            if (!rejected) {
                 String id = alarm.path("alarm").asText();
-                taken.computeIfAbsent(id, any -> ConcurrentHashMap.newKeySet())
+                received.computeIfAbsent(id, any -> ConcurrentHashMap.newKeySet())
                         .add(alarm.path("sequence").asLong());
                 newest.merge(
                         id,
@@ -67,7 +67,7 @@ final class AlarmReceiver implements AutoCloseable {
                                 : other);
                 count.incrementAndGet();
             }
-            exchange.sendResponseHeaders(refused ? 503 : 204, -1);
+            exchange.sendResponseHeaders(rejected ? 503 : 204, -1);
         }
     }
 

@@ -14,7 +14,7 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 import io.furrow.soak.CommittedState;
 
-/** Follows the committed answers of all managers from the beginning, also over outages of Kafka. */
+/** Reads the committed answers of all managers from the beginning, also after outages of Kafka. */
 final class AnswerLog implements AutoCloseable {
     static final List<String> MANAGERS =
             List.of(Topics.DOMAIN_MANAGER, Topics.MISSION_MANAGER, Topics.REPLAY_MANAGER, Topics.ALARM_MANAGER);
@@ -22,17 +22,17 @@ final class AnswerLog implements AutoCloseable {
 
     private final Map<String, List<CommandResult>> answers = new ConcurrentHashMap<>();
     private final String bootstrapServers;
-    private final Thread thread = new Thread(this::follow, "answers");
+    private final Thread thread = new Thread(this::readTopics, "answers");
     private volatile boolean closed;
 
-    /** The topics must be there. */
+    /** The topics must exist. */
     AnswerLog(String bootstrapServers) {
         this.bootstrapServers = bootstrapServers;
         thread.setDaemon(true);
         thread.start();
     }
 
-    /** By the id of their request, each in the order of the topic. */
+    /** All answers by the id of their request, in the order of the topic. */
     Map<String, List<CommandResult>> answers() {
         return answers;
     }
@@ -42,21 +42,21 @@ final class AnswerLog implements AutoCloseable {
         return answers.getOrDefault(requestId, List.of());
     }
 
-    private void follow() {
+    private void readTopics() {
         try (KafkaConsumer<String, byte[]> consumer = CommittedState.consumer(bootstrapServers)) {
             CommittedState.assign(consumer, MANAGERS);
             while (!closed) {
-                consumer.poll(POLL).forEach(this::take);
+                consumer.poll(POLL).forEach(this::add);
             }
         }
     }
 
-    private void take(ConsumerRecord<String, byte[]> record) {
+    private void add(ConsumerRecord<String, byte[]> record) {
         try {
             CommandResult answer = CommandResult.read(record.value());
             answer.requestId().ifPresent(id -> answers.merge(id, List.of(answer), AnswerLog::joined));
         } catch (UnreadableException e) {
-            // A request.
+            // a request
         }
     }
 

@@ -21,11 +21,11 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 import io.furrow.soak.CommittedState;
 
-/** What differs between what was asked for and what there is. */
+/** Compares the actual state of the control plane with the state that was requested. */
 record ChaosChecks(ChaosFarm farm, List<MissionActor> actors) {
     private static final String[] TENANT = {"fiware-service", "farm", "fiware-servicepath", "/"};
 
-    /** Parts of the control planes that are not up. */
+    /** Finds parts of the control planes that are not up. */
     List<String> parts() {
         List<String> faults = new ArrayList<>();
         for (ControlProcess control : farm.controls) {
@@ -42,7 +42,7 @@ record ChaosChecks(ChaosFarm farm, List<MissionActor> actors) {
         return faults;
     }
 
-    /** Missions as both APIs show them. */
+    /** Compares the missions of both APIs. */
     List<String> missions() {
         List<String> faults = new ArrayList<>();
         for (ControlProcess control : farm.controls) {
@@ -53,7 +53,8 @@ record ChaosChecks(ChaosFarm farm, List<MissionActor> actors) {
             for (MissionActor each : actors) {
                 compare(control.name(), each, shown.remove(each.mission()), faults);
             }
-            shown.keySet().forEach(other -> faults.add(control.name() + " has a mission that nobody wants: " + other));
+            shown.keySet()
+                    .forEach(other -> faults.add(control.name() + " has a mission that was not requested: " + other));
         }
         return faults;
     }
@@ -79,7 +80,7 @@ record ChaosChecks(ChaosFarm farm, List<MissionActor> actors) {
         }
     }
 
-    /** Devices on the topic, at the agent and at the MQTT broker. */
+    /** Compares the devices on the topic, at the IoT Agent and at the MQTT broker. */
     List<String> devices() throws IOException {
         Map<String, String> expected = new TreeMap<>();
         actors.stream()
@@ -130,7 +131,7 @@ record ChaosChecks(ChaosFarm farm, List<MissionActor> actors) {
 
     private Set<String> agent(String path, String list, String member) {
         Set<String> found = new TreeSet<>();
-        URI uri = farm.agentItself().resolve(path);
+        URI uri = farm.directAgent().resolve(path);
         Http.get(uri, TENANT)
                 .body()
                 .path(list)
@@ -141,14 +142,14 @@ record ChaosChecks(ChaosFarm farm, List<MissionActor> actors) {
     private static void compare(String what, Set<String> expected, Set<String> actual, List<String> faults) {
         Set<String> missing = new TreeSet<>(expected);
         missing.removeAll(actual);
-        Set<String> undesired = new TreeSet<>(actual);
-        undesired.removeAll(expected);
-        if (!missing.isEmpty() || !undesired.isEmpty()) {
-            faults.add("%s: missing %s, not wanted %s".formatted(what, missing, undesired));
+        Set<String> unexpected = new TreeSet<>(actual);
+        unexpected.removeAll(expected);
+        if (!missing.isEmpty() || !unexpected.isEmpty()) {
+            faults.add("%s: missing %s, not wanted %s".formatted(what, missing, unexpected));
         }
     }
 
-    /** Requests that have not exactly one answer. */
+    /** Finds requests without exactly one answer. */
     List<String> answers(Requester requester, AnswerLog log) {
         List<String> faults = new ArrayList<>();
         requester.sent().forEach((id, text) -> {
@@ -160,7 +161,7 @@ record ChaosChecks(ChaosFarm farm, List<MissionActor> actors) {
         return faults;
     }
 
-    /** Alarms that were not raised, not closed, not delivered as they are, or not listed. */
+    /** Finds alarms that were not raised, not closed, not delivered in their last state, or not listed. */
     List<String> alarms(Map<String, Boolean> pairs) throws UnreadableException {
         List<String> faults = new ArrayList<>();
         Map<String, List<JsonNode>> bySubject = new HashMap<>();
@@ -178,7 +179,7 @@ record ChaosChecks(ChaosFarm farm, List<MissionActor> actors) {
                     || shown.path("sequence").asLong() != alarm.path("sequence").asLong()) {
                 faults.add("alarm %s is listed as %s".formatted(alarm, shown));
             }
-            if (isOwed(alarm)) {
+            if (isUndelivered(alarm)) {
                 faults.add("the webhook did not take alarm %s in its last state".formatted(alarm));
             }
         }
@@ -194,12 +195,12 @@ record ChaosChecks(ChaosFarm farm, List<MissionActor> actors) {
         return faults;
     }
 
-    /** Muted and inhibited alarms are owed later, or never where they closed meanwhile. */
-    private boolean isOwed(JsonNode alarm) {
+    /** Muted and inhibited alarms are delivered later, or never if they were closed meanwhile. */
+    private boolean isUndelivered(JsonNode alarm) {
         String id = alarm.path("alarm").asText();
         boolean suppressed = alarm.hasNonNull("mutedUntil") || alarm.hasNonNull("inhibitedBy");
         boolean closed = alarm.path("state").asText().equals("closed");
-        boolean needed = closed ? farm.receiver.has(id) || !suppressed : !suppressed;
-        return needed && !farm.receiver.has(id, alarm.path("sequence").asLong());
+        boolean required = closed ? farm.receiver.has(id) || !suppressed : !suppressed;
+        return required && !farm.receiver.has(id, alarm.path("sequence").asLong());
     }
 }

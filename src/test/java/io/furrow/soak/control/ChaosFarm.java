@@ -18,8 +18,8 @@ import io.furrow.simulators.host.HostSettings;
 import io.furrow.simulators.mqtt.MqttAccess;
 
 /**
- * Two control planes in processes of their own and all that they speak with: Kafka as a process, Mosquitto, context broker and IoT Agent
- * behind proxies, a webhook behind another, and a host of simulated devices.
+ * Starts two control planes as processes and their environment: Kafka as a process, Mosquitto, context broker, IoT
+ * Agent and webhook behind proxies, and a host of simulated devices.
  */
 final class ChaosFarm implements AutoCloseable {
     private static final Duration START_TIMEOUT = Duration.ofSeconds(120);
@@ -30,14 +30,14 @@ final class ChaosFarm implements AutoCloseable {
     private final FiwareStandIn fiware;
     final FaultProxy contextBroker;
     final FaultProxy iotAgent;
-    /** Behind {@link #webhook}. */
+    /** The server behind {@link #webhook}. */
     final AlarmReceiver receiver;
 
     final FaultProxy webhook;
     final FarmSecret secret;
     final List<ControlProcess> controls = new ArrayList<>();
 
-    /** Starts all; returns when both control planes are ready. */
+    /** Starts everything; returns once both control planes are ready. */
     static ChaosFarm start(Path folder) throws Exception {
         ChaosFarm farm = new ChaosFarm(folder);
         boolean complete = false;
@@ -95,8 +95,8 @@ final class ChaosFarm implements AutoCloseable {
         part(DeviceHost.start(HostSettings.of(client, mqtt, fiware.contextBroker(), () -> secret)));
     }
 
-    /** Behind {@link #iotAgent}, without the proxy. */
-    URI agentItself() {
+    /** The IoT Agent without the proxy {@link #iotAgent}. */
+    URI directAgent() {
         return fiware.iotAgent();
     }
 
@@ -105,7 +105,7 @@ final class ChaosFarm implements AutoCloseable {
         while (!parts.isEmpty()) {
             try {
                 parts.pop().close();
-            } catch (Exception e) { // the others are to be stopped all the same
+            } catch (Exception e) { // the other parts must still be stopped
                 System.out.println("a part of the farm could not be stopped: " + e);
             }
         }

@@ -6,13 +6,13 @@ import java.util.List;
 import java.util.Random;
 import java.util.stream.Collectors;
 
-/** What fails during a run, how often and for how long. */
+/** Schedules the outages of a run: of which server, how often and how long. */
 final class ChaosFaults {
     private final ChaosFarm farm;
     private final List<Supervisor> supervisors;
     private final List<RecurringFault> faults = new ArrayList<>();
 
-    /** @param brief once each and short, rather than again and again */
+    /** @param brief whether each outage is short and occurs once */
     ChaosFaults(ChaosFarm farm, List<Supervisor> supervisors, boolean brief, Random random) {
         this.farm = farm;
         this.supervisors = supervisors;
@@ -26,10 +26,10 @@ final class ChaosFaults {
         add("context-broker", pace(brief, 5, 8, 120, 40, times), proxy(farm.contextBroker), random);
         add("mosquitto", pace(brief, 9, 4, 150, 20, times), mosquitto(), random);
         add("webhook", pace(brief, 8, 6, 90, 30, times), proxy(farm.webhook), random);
-        add("webhook-refuses", pace(brief, 18, 4, 120, 20, times), refusals(), random);
+        add("webhook-refuses", pace(brief, 18, 4, 120, 20, times), webhookErrors(), random);
     }
 
-    /** @param seconds mean pauses and outages, of the brief form and of the other */
+    /** @param pause mean seconds of the brief form, like {@code outage}; the others are those of the long form */
     private static RecurringFault.Pace pace(
             boolean brief, int pause, int outage, int longPause, int longOutage, int times) {
         return new RecurringFault.Pace(
@@ -44,14 +44,14 @@ final class ChaosFaults {
         faults.forEach(RecurringFault::start);
     }
 
-    /** Returns when everything works again. */
+    /** Returns once everything works again. */
     void stop() throws InterruptedException {
         for (RecurringFault fault : faults) {
             fault.stop();
         }
     }
 
-    /** What is away now. */
+    /** The current outages. */
     String unavailable() {
         String unavailable = faults.stream()
                 .filter(RecurringFault::isActive)
@@ -60,14 +60,14 @@ final class ChaosFaults {
         return unavailable.isEmpty() ? "nothing" : unavailable;
     }
 
-    /** Whether Kafka or a control plane is away, without which not all serve. */
+    /** Whether Kafka or a control plane is unavailable, so that not all requests can be served. */
     boolean stopsServing() {
         return faults.stream()
                 .filter(fault -> fault.name().equals("kafka") || fault.name().startsWith("control-"))
                 .anyMatch(RecurringFault::isActive);
     }
 
-    /** How often each failed. */
+    /** The number of outages of each kind. */
     String counts() {
         return faults.stream().map(fault -> fault.name() + " " + fault.count()).collect(Collectors.joining(", "));
     }
@@ -90,14 +90,14 @@ final class ChaosFaults {
         return new RecurringFault.Action() {
             @Override
             public void begin(Random random) throws Exception {
-                supervisors.forEach(Supervisor::kafkaIsAway);
+                supervisors.forEach(Supervisor::noteKafkaOutage);
                 farm.kafka.kill();
             }
 
             @Override
             public void end() throws Exception {
                 farm.kafka.start();
-                supervisors.forEach(Supervisor::kafkaIsAway);
+                supervisors.forEach(Supervisor::noteKafkaOutage);
             }
         };
     }
@@ -116,16 +116,16 @@ final class ChaosFaults {
         };
     }
 
-    private RecurringFault.Action refusals() {
+    private RecurringFault.Action webhookErrors() {
         return new RecurringFault.Action() {
             @Override
             public void begin(Random random) {
-                farm.receiver.refuse(true);
+                farm.receiver.setUnavailable(true);
             }
 
             @Override
             public void end() {
-                farm.receiver.refuse(false);
+                farm.receiver.setUnavailable(false);
             }
         };
     }
@@ -134,12 +134,12 @@ final class ChaosFaults {
         return new RecurringFault.Action() {
             @Override
             public void begin(Random random) throws Exception {
-                proxy.become(random.nextBoolean() ? FaultProxy.Mode.HANG : FaultProxy.Mode.REFUSE);
+                proxy.setMode(random.nextBoolean() ? FaultProxy.Mode.HANG : FaultProxy.Mode.REFUSE);
             }
 
             @Override
             public void end() throws Exception {
-                proxy.become(FaultProxy.Mode.PASS);
+                proxy.setMode(FaultProxy.Mode.PASS);
             }
         };
     }

@@ -14,13 +14,16 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
 import io.furrow.model.topic.Topics;
 
-/** Random requests to two control planes while these and all that they speak with are killed, cut off or hang; then all must agree. */
+/**
+ * Sends random requests to two control planes while these and their environment are killed, disconnected or blocked; in
+ * the end all states must agree.
+ */
 public final class ControlChaos {
     private static final int MISSIONS = 8;
     private static final Duration STEP = Duration.ofMillis(300);
     private static final Duration REPORTS = Duration.ofSeconds(1);
     private static final Duration PROGRESS = Duration.ofMinutes(1);
-    /** Until a webhook that was away is tried again, five minutes, and a mission that starts then runs. */
+    /** The retry interval of an unavailable webhook, five minutes, and the start of a mission after that. */
     private static final Duration SETTLE_TIMEOUT = Duration.ofMinutes(8);
 
     private final Settings settings;
@@ -40,9 +43,10 @@ public final class ControlChaos {
     private volatile boolean reporting = true;
 
     /**
-     * How long what fails, and by which random numbers.
+     * Settings of a run.
      *
-     * @param brief each failure once and short
+     * @param brief whether each outage is short and occurs once
+     * @param seed of all random choices
      */
     record Settings(Path folder, Duration duration, boolean brief, long seed) {}
 
@@ -69,13 +73,13 @@ public final class ControlChaos {
     public static void main(String... args) throws Exception {
         Settings settings = new Settings(
                 Path.of(args[0]), Duration.ofMinutes(Long.parseLong(args[1])), false, Long.parseLong(args[2]));
-        JavaProcess.endAllWithThisOne();
+        JavaProcess.killChildrenAtExit();
         List<String> faults = run(settings);
         faults.forEach(System.out::println);
         System.exit(faults.isEmpty() ? 0 : 1);
     }
 
-    /** What differs at the end, in words; empty where nothing does. */
+    /** Runs and returns the differences at the end as sentences; empty without differences. */
     static List<String> run(Settings settings) throws Exception {
         try (ChaosFarm farm = ChaosFarm.start(settings.folder())) {
             print("seed %d, %d s".formatted(settings.seed(), settings.duration().toSeconds()));
@@ -159,17 +163,17 @@ public final class ControlChaos {
         reports.resume(mission);
     }
 
-    private void repeat(String name, Duration pause, BooleanSupplier desired, Callable<Void> step) {
+    private void repeat(String name, Duration pause, BooleanSupplier condition, Callable<Void> step) {
         Thread thread = new Thread(
                 () -> {
                     try {
-                        while (desired.getAsBoolean()) {
+                        while (condition.getAsBoolean()) {
                             step.call();
                             Thread.sleep(pause.toMillis());
                         }
                     } catch (InterruptedException e) {
                         Thread.currentThread().interrupt();
-                    } catch (Exception e) { // of the driver, but not to be overlooked
+                    } catch (Exception e) { // a fault of the driver, which must not be overlooked
                         faults.add("the driver's " + name + " ended: " + e);
                     }
                 },
@@ -195,9 +199,9 @@ public final class ControlChaos {
         }
     }
 
-    /** Waits until nothing differs any more; what does when the time is over is a fault. */
+    /** Waits until there are no differences; those that remain at the timeout are faults. */
     private void settle() throws Exception {
-        long began = System.nanoTime();
+        long startedAt = System.nanoTime();
         for (Thread thread : threads) {
             if (!Set.of("reports", "recovery").contains(thread.getName())) {
                 thread.join(SETTLE_TIMEOUT.toMillis());
@@ -208,14 +212,14 @@ public final class ControlChaos {
             }
         }
         print("all requests are answered %.1f s after everything was back"
-                .formatted((System.nanoTime() - began) / 1e9));
+                .formatted((System.nanoTime() - startedAt) / 1e9));
         Until.within(SETTLE_TIMEOUT, () -> differences(true).isEmpty());
-        print("settled %.1f s after everything was back".formatted((System.nanoTime() - began) / 1e9));
+        print("settled %.1f s after everything was back".formatted((System.nanoTime() - startedAt) / 1e9));
         reporting = false;
         faults.addAll(differences(false));
     }
 
-    /** @param restart whether missions that have failed meanwhile are started again */
+    /** @param restart whether to restart missions that have failed meanwhile */
     private List<String> differences(boolean restart) {
         try {
             List<String> all = new ArrayList<>(checks.parts());
@@ -229,7 +233,7 @@ public final class ControlChaos {
                 all.addAll(checks.alarms(encounters.pairs()));
             }
             return all;
-        } catch (Exception e) { // a check that cannot be made now is a difference
+        } catch (Exception e) { // a check that fails counts as a difference
             return List.of(e.toString());
         }
     }

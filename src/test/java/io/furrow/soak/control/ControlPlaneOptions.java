@@ -12,11 +12,11 @@ import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.FarmSecretCodec;
 import io.furrow.model.file.PrivateFile;
 
-/** Options of the control plane's command for what it speaks with; the only place that names them. */
+/** Options of the control plane's command for the servers that it uses. */
 final class ControlPlaneOptions {
     private ControlPlaneOptions() {}
 
-    /** A context broker and an IoT Agent. */
+    /** Options for a context broker and an IoT Agent. */
     static List<String> provisioning(Path folder, FiwareStandIn fiware) throws IOException {
         return provisioning(folder, fiware.contextBroker(), fiware.iotAgent());
     }
@@ -29,7 +29,7 @@ final class ControlPlaneOptions {
                 "--farm-secret", secret(folder).toString()));
     }
 
-    /** MQTT accounts in a Mosquitto's files. */
+    /** Options for MQTT accounts in the files of a Mosquitto. */
     static List<String> accounts(MosquittoProcess mosquitto) {
         return List.of(
                 "--mqtt-password-file", mosquitto.passwords().toString(),
@@ -41,7 +41,7 @@ final class ControlPlaneOptions {
         return List.of("--webhook", url.toString());
     }
 
-    /** The farm's secret, the same at each call. */
+    /** The farm's secret, the same in each call. */
     static Path secret(Path folder) throws IOException {
         Path file = folder.resolve("farm-secret");
         if (Files.notExists(file)) {

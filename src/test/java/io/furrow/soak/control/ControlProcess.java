@@ -11,7 +11,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.embedded.FreePort;
 
-/** {@code furrow control-plane} in a process of its own, on the same ports and directory whenever it is started. */
+/** Runs {@code furrow control-plane} as a process, on the same ports and directory after each start. */
 public final class ControlProcess implements AutoCloseable {
     private final String name;
     private final Path log;
@@ -20,14 +20,14 @@ public final class ControlProcess implements AutoCloseable {
     private final JavaProcess process;
 
     /**
-     * What a control plane runs with.
+     * Settings of a control plane.
      *
      * @param heap maximum heap size, as in {@code 512m}
-     * @param options of the command beside those of Kafka, ports, state and log
+     * @param options of the command except those for Kafka, ports, state and log
      */
     public record Settings(String bootstrapServers, String heap, List<String> options) {}
 
-    /** @param folder for its state and log; processes of one folder differ in their names */
+    /** @param folder for state and log; processes with the same folder have different names */
     public ControlProcess(Path folder, String name, Settings settings) throws IOException {
         this.name = name;
         this.log = folder.resolve(name + ".log");
@@ -54,12 +54,12 @@ public final class ControlProcess implements AutoCloseable {
         process.start();
     }
 
-    /** Ends it as {@code kill -9} does. */
+    /** Kills the process like {@code kill -9}. */
     public void kill() throws InterruptedException {
         process.kill();
     }
 
-    /** Asks it to stop. @return whether it stopped in time */
+    /** Stops the process. @return whether it stopped in time */
     public boolean stop() throws InterruptedException {
         return process.stop();
     }
@@ -72,7 +72,7 @@ public final class ControlProcess implements AutoCloseable {
         return name;
     }
 
-    /** Base of the REST API. */
+    /** Base URL of the REST API. */
     public URI api() {
         return api;
     }
@@ -81,12 +81,12 @@ public final class ControlProcess implements AutoCloseable {
         return log;
     }
 
-    /** The page {@code /ready}; a missing node where there is no answer. */
+    /** The page {@code /ready}; a missing node without a response. */
     public JsonNode readiness() {
         return Http.get(health.resolve("/ready")).body();
     }
 
-    /** Whether it is ready and all of its parts, and what it speaks with, are up. */
+    /** Whether it, all of its parts and the servers that it uses are up. */
     public boolean isReady() {
         return readiness().path("status").asText().equals("ready");
     }

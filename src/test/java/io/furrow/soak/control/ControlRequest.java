@@ -10,14 +10,14 @@ import io.furrow.model.topic.Topics;
 /**
  * A request to a manager, which can be sent over its topic or over the REST API.
  *
- * @param id by which it has one effect and one answer
- * @param members of the request but its type, command and id
+ * @param id identifies the request, which has one effect and one answer
+ * @param members of the request except type, command and id
  */
 record ControlRequest(String id, String topic, String command, ObjectNode members) {
-    /** As the REST API has it. @param body null for none */
+    /** The request for the REST API. @param body null for none */
     record Call(String method, String path, byte[] body) {}
 
-    /** The value of its record. */
+    /** The value of the record for the topic. */
     byte[] toBytes() {
         ObjectNode json = NgsiJson.mapper().createObjectNode();
         json.put("type", "request").put("requestId", id).put("command", command);

@@ -12,7 +12,7 @@ import io.furrow.model.topic.Topics;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** Reports of the devices of all missions that run, on {@code data.raw}, but of missions that are silent. */
+/** Writes reports of the devices of all running missions to {@code data.raw}, except of silenced missions. */
 final class DeviceReports {
     private final RequestSender sender;
     private final List<MissionActor> missions;
@@ -31,7 +31,7 @@ final class DeviceReports {
         silent.remove(mission);
     }
 
-    /** Each device reports once. */
+    /** Writes one report of each device. */
     void step() {
         for (MissionActor mission : missions) {
             if (mission.isRunning() && !silent.contains(mission.mission())) {

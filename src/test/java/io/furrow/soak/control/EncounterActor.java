@@ -15,11 +15,11 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
 /**
- * Writes encounters as the job {@code collision} does, each pair once: its alarm must be raised, and closed when the encounter has ended.
- * Acknowledges, mutes and closes alarms that the webhook took.
+ * Writes encounters as the job {@code collision} does, one per pair: its alarm must be raised, and closed when the
+ * encounter has ended. Acknowledges, mutes and closes alarms that the webhook received.
  */
 final class EncounterActor {
-    /** Below the number from which a group has one alarm for all that come. */
+    /** Below the number from which alarms are combined into one alarm of a group. */
     private static final int MAX_OPEN = 8;
 
     private final RequestSender sender;
@@ -38,22 +38,22 @@ final class EncounterActor {
         this.random = random;
     }
 
-    /** Of each pair whether its encounter has ended. */
+    /** Maps each pair to whether its encounter has ended. */
     Map<String, Boolean> pairs() {
         return ended;
     }
 
     void step() throws InterruptedException {
-        int which = random.nextInt(10);
-        if (which < 5 && open.size() < MAX_OPEN) {
+        int choice = random.nextInt(10);
+        if (choice < 5 && open.size() < MAX_OPEN) {
             number++;
             write(number, "started");
             open.add(number);
             ended.put(pair(number), false);
-        } else if (which < 8 && open.size() > MAX_OPEN / 2) {
-            int over = open.remove();
-            write(over, "ended");
-            ended.put(pair(over), true);
+        } else if (choice < 8 && open.size() > MAX_OPEN / 2) {
+            int ending = open.remove();
+            write(ending, "ended");
+            ended.put(pair(ending), true);
         } else {
             command();
         }
@@ -61,8 +61,8 @@ final class EncounterActor {
 
     private void command() throws InterruptedException {
         for (JsonNode alarm : receiver.newest()) {
-            boolean some = alarm.path("kind").asText().equals("collision") && random.nextInt(5) == 0;
-            if (some && !alarm.path("state").asText().equals("closed")) {
+            boolean selected = alarm.path("kind").asText().equals("collision") && random.nextInt(5) == 0;
+            if (selected && !alarm.path("state").asText().equals("closed")) {
                 ObjectNode members = JsonNodeFactory.instance
                         .objectNode()
                         .put("alarm", alarm.path("alarm").asText());
@@ -89,6 +89,6 @@ final class EncounterActor {
                 .text("Device2_ID", "robot-" + encounter + "b")
                 .number("distance", 3)
                 .build();
-        sender.writeSurely(new ProducerRecord<>(Topics.COLLISION, pair(encounter), entity.toBytes()));
+        sender.writeWithRetry(new ProducerRecord<>(Topics.COLLISION, pair(encounter), entity.toBytes()));
     }
 }

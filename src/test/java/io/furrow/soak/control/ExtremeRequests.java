@@ -13,15 +13,16 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
 /**
- * Random requests of all commands with all of their members, each legal and as extreme as it may be: of a length around the limit, with the
- * most groups, devices, points, the longest names. Few names are used, so that requests meet each other's domains and missions.
+ * Generates random requests of all commands with all members, each legal and as extreme as possible: sizes around the
+ * limit, the maximum numbers of groups, devices and points, the longest names. Uses few names, so that requests refer
+ * to each other's domains and missions.
  */
 final class ExtremeRequests {
     private static final int NAMES = 8;
     private static final int MAX_NAME_LENGTH = 64;
     private static final int MAX_ID_LENGTH = 200;
     private static final int MAX_TEXT_LENGTH = 4096;
-    /** What the longest wrapper around a request adds: the user that the API names. */
+    /** The member that the API adds to a request. */
     private static final String USER = "rest";
 
     private final Random random;
@@ -41,7 +42,7 @@ final class ExtremeRequests {
         };
     }
 
-    /** One of ten is as long as a request may be, one byte shorter or longer. */
+    /** One request of ten has the maximum size, or is one byte shorter or longer. */
     private ControlRequest request(String topic, String command, ObjectNode members) {
         ControlRequest request = new ControlRequest(id(), topic, command, members);
         if (random.nextInt(10) == 0) {
@@ -53,7 +54,7 @@ final class ExtremeRequests {
         return request;
     }
 
-    /** In the form that the API gives it, which has a user besides. */
+    /** The size of a request as sent by the API, choice adds a user. */
     static int size(ControlRequest request) {
         ObjectNode json = JsonNodeFactory.instance.objectNode();
         json.setAll(request.members());
@@ -69,8 +70,8 @@ final class ExtremeRequests {
 
     private String domain(ObjectNode members) {
         members.put("domain", name("domain"));
-        int which = random.nextInt(10);
-        if (which == 0) {
+        int choice = random.nextInt(10);
+        if (choice == 0) {
             members.put("force", random.nextBoolean());
             return "delete";
         }
@@ -78,27 +79,27 @@ final class ExtremeRequests {
         sometimes(() -> members.put("description", text()));
         sometimes(() -> members.set("area", area()));
         sometimes(() -> members.set("fields", ids("field", random.nextInt(2000))));
-        return which < 4 ? "change" : "create";
+        return choice < 4 ? "change" : "create";
     }
 
     private String mission(ObjectNode members) {
-        int which = random.nextInt(21);
-        if (which == 20) {
+        int choice = random.nextInt(21);
+        if (choice == 20) {
             members.put("device", max("urn:ngsi-ld:Thermometer:", MAX_ID_LENGTH));
             return "rotate-credentials";
-        } else if (which < 2) {
+        } else if (choice < 2) {
             members.put("template", name("template"));
             sometimes(() -> members.put("version", 1 + random.nextInt(3)));
             return "delete-template";
-        } else if (which < 5) {
+        } else if (choice < 5) {
             members.put("template", name("template")).put("description", text());
             members.set("devices", devices());
             return "save-template";
         }
         members.put("mission", name("mission"));
-        if (which < 8) {
-            return which < 7 ? "stop" : "delete";
-        } else if (which < 11) {
+        if (choice < 8) {
+            return choice < 7 ? "stop" : "delete";
+        } else if (choice < 11) {
             members.set("devices", devices());
             return "add-devices";
         }
@@ -108,7 +109,7 @@ final class ExtremeRequests {
         } else if (random.nextInt(4) > 0) {
             members.set("devices", devices());
         }
-        if (which < 15) {
+        if (choice < 15) {
             return "create";
         }
         sometimes(() ->
@@ -151,7 +152,7 @@ final class ExtremeRequests {
         return command;
     }
 
-    /** A list of few devices, of the most groups, of the most devices, or of the largest settings. */
+    /** Few devices, the maximum number of groups or devices, or the largest settings. */
     private ArrayNode devices() {
         ArrayNode devices = JsonNodeFactory.instance.arrayNode();
         switch (random.nextInt(20)) {
@@ -193,7 +194,7 @@ final class ExtremeRequests {
         return group.put("count", count);
     }
 
-    /** A hundred groups, each on the one before. */
+    /** A hundred groups, each carried by the one before. */
     private void carried(ArrayNode devices) {
         for (int i = 0; i < 100; i++) {
             ObjectNode group = group(devices, 2).put("name", "carrier-" + i);
@@ -203,7 +204,7 @@ final class ExtremeRequests {
         }
     }
 
-    /** Of up to 20,000 corners. */
+    /** An area of up to 20,000 corners. */
     private ObjectNode area() {
         ObjectNode area = JsonNodeFactory.instance.objectNode().put("type", "Polygon");
         area.putArray("coordinates").add(points(4 + random.nextInt(random.nextInt(5) == 0 ? 20_000 : 100)));
@@ -226,10 +227,10 @@ final class ExtremeRequests {
         return ids;
     }
 
-    /** One of few; every other is as long as a name may be. */
+    /** One of few names; every other one has the maximum length. */
     private String name(String kind) {
-        int which = random.nextInt(NAMES);
-        return which % 2 == 0 ? kind + which : max(kind + which, MAX_NAME_LENGTH);
+        int choice = random.nextInt(NAMES);
+        return choice % 2 == 0 ? kind + choice : max(kind + choice, MAX_NAME_LENGTH);
     }
 
     private static String max(String start) {
@@ -240,14 +241,14 @@ final class ExtremeRequests {
         return start + "_".repeat(length - start.length());
     }
 
-    /** Up to the longest, of signs of one to four bytes. */
+    /** A text up to the maximum length, of characters of one to four bytes. */
     private String text() {
-        String sign = pick("a", "\u00e4", "\u20ac", "\ud83d\ude9c", "\"");
-        return sign.repeat(random.nextInt(MAX_TEXT_LENGTH / sign.length() + 1));
+        String character = pick("a", "\u00e4", "\u20ac", "\ud83d\ude9c", "\"");
+        return character.repeat(random.nextInt(MAX_TEXT_LENGTH / character.length() + 1));
     }
 
-    private String pick(String... some) {
-        return some[random.nextInt(some.length)];
+    private String pick(String... choices) {
+        return choices[random.nextInt(choices.length)];
     }
 
     private void sometimes(Runnable member) {

@@ -33,12 +33,15 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** A thousand extreme requests at a control plane with a heap of 512 MB; {@code -Dfurrow.seed=N} repeats those of a seed. */
+/**
+ * Sends a thousand extreme requests to a control plane with a heap of 512 MB; {@code -Dfurrow.seed=N} repeats those of
+ * a seed.
+ */
 @Timeout(300)
 @Tag("soak")
 class ExtremeRequestsIT {
     private static final int REQUESTS = 1000;
-    private static final int UNDER_WAY = 50;
+    private static final int MAX_PENDING = 50;
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
 
     private final Map<String, Http.Answer> overRest = new ConcurrentHashMap<>();
@@ -63,7 +66,7 @@ class ExtremeRequestsIT {
         assertThat(control.isAlive()).as("it started").isTrue();
         sender = part(new RequestSender(kafka.bootstrapServers()));
         answers = part(new AnswerLog(kafka.bootstrapServers()));
-        part(new ObedientHost(kafka.bootstrapServers(), sender));
+        part(new AcceptingHost(kafka.bootstrapServers(), sender));
     }
 
     private <T extends AutoCloseable> T part(T part) {
@@ -79,7 +82,7 @@ class ExtremeRequestsIT {
     }
 
     @Test
-    void answersEachOnceAndGoesOn(TestReporter reporter) throws Exception {
+    void answersEachRequestOnceAndStaysReady(TestReporter reporter) throws Exception {
         long seed = Long.getLong("furrow.seed", System.nanoTime());
         reporter.publishEntry("seed", Long.toString(seed));
         List<ControlRequest> requests = requests(seed);
@@ -103,20 +106,20 @@ class ExtremeRequestsIT {
         return Stream.generate(generator::next).limit(REQUESTS).toList();
     }
 
-    /** Every other over the API, the others over Kafka. */
+    /** Sends every other request over the API, the others over Kafka. */
     private void send(List<ControlRequest> requests) {
-        List<CompletableFuture<?>> underWay = new ArrayList<>();
+        List<CompletableFuture<?>> pending = new ArrayList<>();
         for (int i = 0; i < requests.size(); i++) {
             if (i % 2 == 0) {
-                underWay.add(call(requests.get(i), 5));
+                pending.add(call(requests.get(i), 5));
             } else {
                 sender.write(requests.get(i));
             }
-            if (underWay.size() >= UNDER_WAY) {
-                underWay.remove(0).join();
+            if (pending.size() >= MAX_PENDING) {
+                pending.remove(0).join();
             }
         }
-        underWay.forEach(CompletableFuture::join);
+        pending.forEach(CompletableFuture::join);
         sender.flush();
         await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(requests.stream()
@@ -126,7 +129,7 @@ class ExtremeRequestsIT {
                         .isEmpty());
     }
 
-    /** Again while it is asked to come again. */
+    /** Retries while the API answers 503. */
     private CompletableFuture<Http.Answer> call(ControlRequest request, int attempts) {
         return sender.call(control.api(), request).thenCompose(answer -> {
             if (answer.status() == 503 && attempts > 1) {
@@ -144,20 +147,20 @@ class ExtremeRequestsIT {
     private List<String> faults(List<ControlRequest> requests) {
         List<String> faults = new ArrayList<>();
         for (ControlRequest request : requests) {
-            List<CommandResult> given = answers.to(request.id());
+            List<CommandResult> results = answers.to(request.id());
             Http.Answer answer = overRest.get(request.id());
-            boolean refusedByApi = answer != null
+            boolean rejectedByApi = answer != null
                     && (answer.status() == 413
                             || answer.status() == 404 && request.command().equals("rotate-credentials"));
-            boolean understood = answer == null
+            boolean isValid = answer == null
                     || answer.status() / 100 == 2
                     || answer.status() / 100 == 4
                     || answer.status() == 507;
-            if (!understood || given.size() > 1 || given.isEmpty() && !refusedByApi) {
+            if (!isValid || results.size() > 1 || results.isEmpty() && !rejectedByApi) {
                 faults.add("%s %s %s: %s over REST, %s on the topic"
-                        .formatted(request.topic(), request.command(), request.id(), answer, given));
+                        .formatted(request.topic(), request.command(), request.id(), answer, results));
             }
-            given.stream()
+            results.stream()
                     .filter(each -> each.error().orElse("").equals("internal-error"))
                     .forEach(each -> faults.add(request.id() + ": " + each));
         }
@@ -176,7 +179,7 @@ class ExtremeRequestsIT {
         return counts;
     }
 
-    /** After the extreme missions were stopped and deleted, which gives back what they take of the quota. */
+    /** Stops and deletes the extreme missions first, which releases their quota. */
     private void runAnOrdinaryMission() throws Exception {
         await().atMost(TIMEOUT).until(() -> {
             for (String name : missions()) {
@@ -207,7 +210,7 @@ class ExtremeRequestsIT {
         return names;
     }
 
-    /** @return the status in HTTP */
+    /** @return the HTTP status */
     private int ordinary(String topic, String command, String members) throws Exception {
         ObjectNode json = (ObjectNode) NgsiJson.read(members.replace('\'', '"').getBytes(UTF_8));
         String id = "ordinary-" + ordinary++;
@@ -221,7 +224,7 @@ class ExtremeRequestsIT {
                 .asText();
     }
 
-    /** Records that are larger than any that the control plane may write; requests and dead letters have limits of their own. */
+    /** Finds records above the control plane's limit; requests and dead letters have limits of their own. */
     private List<String> tooLarge() {
         List<String> tooLarge = new ArrayList<>();
         List<String> topics = CommittedState.topics(kafka.bootstrapServers()).stream()
@@ -237,7 +240,7 @@ class ExtremeRequestsIT {
         return tooLarge;
     }
 
-    /** Errors, and parts that were started again. */
+    /** Finds errors and restarts of parts. */
     private List<String> logged() throws Exception {
         try (Stream<String> lines = Files.lines(control.log())) {
             return lines.filter(line -> line.contains(" ERROR ")

@@ -13,16 +13,19 @@ import java.util.concurrent.ConcurrentHashMap;
 
 import io.furrow.embedded.FreePort;
 
-/** A TCP proxy on loopback before a server, which passes, refuses connections, or accepts them and says nothing. */
+/**
+ * A TCP proxy on loopback in front of a server, which forwards connections, refuses them, or accepts them without
+ * responding.
+ */
 final class FaultProxy implements AutoCloseable {
     private static final int BUFFER_BYTES = 8192;
 
-    /** What it does with connections. */
+    /** The treatment of connections. */
     enum Mode {
         PASS,
-        /** There is no listener. */
+        /** Nothing listens. */
         REFUSE,
-        /** Connections are accepted, and nothing passes on them. */
+        /** Connections are accepted, and no bytes are forwarded. */
         HANG
     }
 
@@ -32,18 +35,18 @@ final class FaultProxy implements AutoCloseable {
     private volatile Mode mode = Mode.REFUSE;
     private volatile ServerSocket server;
 
-    /** It passes at once. @param target on loopback */
+    /** Forwards connections at first. @param target on loopback */
     FaultProxy(URI target) throws IOException {
         this.target = target.getPort();
-        become(Mode.PASS);
+        setMode(Mode.PASS);
     }
 
     URI uri() {
         return URI.create("http://127.0.0.1:" + port);
     }
 
-    /** Connections that are open go on only where nothing changes. */
-    synchronized void become(Mode next) throws IOException {
+    /** Sets the mode; except for {@link Mode#HANG}, open connections are closed. */
+    synchronized void setMode(Mode next) throws IOException {
         boolean listened = mode != Mode.REFUSE;
         mode = next;
         if (next != Mode.HANG) {
@@ -53,11 +56,11 @@ final class FaultProxy implements AutoCloseable {
         if (next == Mode.REFUSE && listened) {
             server.close();
         } else if (next != Mode.REFUSE && !listened) {
-            ServerSocket fresh = new ServerSocket();
-            fresh.setReuseAddress(true);
-            fresh.bind(new InetSocketAddress(InetAddress.getLoopbackAddress(), port));
-            server = fresh;
-            daemon(() -> accept(fresh));
+            ServerSocket listener = new ServerSocket();
+            listener.setReuseAddress(true);
+            listener.bind(new InetSocketAddress(InetAddress.getLoopbackAddress(), port));
+            server = listener;
+            daemon(() -> accept(listener));
         }
     }
 
@@ -70,17 +73,17 @@ final class FaultProxy implements AutoCloseable {
                     connect(client);
                 }
             } catch (IOException e) {
-                // The listener was closed, or the server behind is away: its client sees a closed connection.
+                // The listener was closed, or the target is unavailable: the client sees a closed connection.
             }
         }
     }
 
     private void connect(Socket client) throws IOException {
         try {
-            Socket behind = new Socket(InetAddress.getLoopbackAddress(), target);
-            open.add(behind);
-            daemon(() -> copy(client, behind));
-            daemon(() -> copy(behind, client));
+            Socket upstream = new Socket(InetAddress.getLoopbackAddress(), target);
+            open.add(upstream);
+            daemon(() -> copy(client, upstream));
+            daemon(() -> copy(upstream, client));
         } catch (IOException e) {
             open.remove(client);
             client.close();
@@ -95,12 +98,12 @@ final class FaultProxy implements AutoCloseable {
             OutputStream out = to.getOutputStream();
             for (int count = in.read(buffer); count >= 0; count = in.read(buffer)) {
                 if (mode == Mode.HANG) {
-                    return; // what comes is swallowed, the connection stays
+                    return; // drops further bytes, the connection stays open
                 }
                 out.write(buffer, 0, count);
             }
         } catch (IOException e) {
-            // Both ends are closed below.
+            // both ends are closed below
         }
         for (Socket each : new Socket[] {from, to}) {
             open.remove(each);
@@ -112,7 +115,7 @@ final class FaultProxy implements AutoCloseable {
         try {
             socket.close();
         } catch (IOException e) {
-            // It is closed then.
+            // it is closed already
         }
     }
 
@@ -124,6 +127,6 @@ final class FaultProxy implements AutoCloseable {
 
     @Override
     public void close() throws IOException {
-        become(Mode.REFUSE);
+        setMode(Mode.REFUSE);
     }
 }

@@ -13,7 +13,7 @@ import com.fasterxml.jackson.databind.node.MissingNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 
-/** JSON over HTTP with a server that may be away: then the answer has status 0. */
+/** Exchanges JSON over HTTP with a server that may be unavailable: then the status is 0. */
 public final class Http {
     private static final Duration TIMEOUT = Duration.ofSeconds(30);
     private static final HttpClient CLIENT = HttpClient.newBuilder()
@@ -23,7 +23,7 @@ public final class Http {
 
     private Http() {}
 
-    /** @param status 0 where there was no answer @param body a missing node where there was no JSON */
+    /** @param status 0 without a response @param body a missing node if it is not JSON */
     public record Answer(int status, JsonNode body) {
         static final Answer NONE = new Answer(0, MissingNode.getInstance());
     }

@@ -9,7 +9,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.concurrent.TimeUnit;
 
-/** A JVM with this one's class path that can be killed and started again; its output is appended to one file. */
+/** A JVM with the class path of this one, which can be killed and started again; appends its output to one file. */
 public final class JavaProcess implements AutoCloseable {
     private static final long STOP_SECONDS = 40;
 
@@ -18,7 +18,7 @@ public final class JavaProcess implements AutoCloseable {
     private final Map<String, String> environment = new HashMap<>();
     private Process process;
 
-    /** @param words options of the JVM, class and arguments */
+    /** @param options of the JVM */
     public JavaProcess(Path output, List<String> options, String mainClass, List<String> arguments) {
         this.output = output;
         command.add(Path.of(System.getProperty("java.home"), "bin", "java").toString());
@@ -27,13 +27,13 @@ public final class JavaProcess implements AutoCloseable {
         command.addAll(arguments);
     }
 
-    /** Lets none of this process's outlive it. */
-    public static void endAllWithThisOne() {
-        Runnable end = () -> ProcessHandle.current().descendants().forEach(ProcessHandle::destroyForcibly);
-        Runtime.getRuntime().addShutdownHook(new Thread(end, "stop"));
+    /** Kills all child processes when this process ends. */
+    public static void killChildrenAtExit() {
+        Runnable kill = () -> ProcessHandle.current().descendants().forEach(ProcessHandle::destroyForcibly);
+        Runtime.getRuntime().addShutdownHook(new Thread(kill, "stop"));
     }
 
-    /** Further variables of its environment. */
+    /** Adds environment variables. */
     public JavaProcess with(Map<String, String> variables) {
         environment.putAll(variables);
         return this;
@@ -56,12 +56,12 @@ public final class JavaProcess implements AutoCloseable {
         return process.pid();
     }
 
-    /** Ends it as {@code kill -9} does. */
+    /** Kills the process like {@code kill -9}. */
     public void kill() throws InterruptedException {
         process.destroyForcibly().waitFor();
     }
 
-    /** Asks it to stop, and kills it where it does not. @return whether it stopped by itself in time */
+    /** Stops the process, and kills it at a timeout. @return whether it stopped in time */
     public boolean stop() throws InterruptedException {
         if (process == null) {
             return true;

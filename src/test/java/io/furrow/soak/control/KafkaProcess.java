@@ -9,7 +9,7 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.FreePort;
 import io.furrow.process.Ports;
 
-/** A broker in a process of its own, on the same port and directory whenever it is started. */
+/** A broker as a process, on the same port and directory after each start. */
 public final class KafkaProcess implements AutoCloseable {
     private static final Duration START_TIMEOUT = Duration.ofSeconds(60);
 
@@ -34,7 +34,7 @@ public final class KafkaProcess implements AutoCloseable {
         return "127.0.0.1:" + port;
     }
 
-    /** Returns when it listens. */
+    /** Returns once it listens. */
     public void start() throws IOException {
         process.start();
         Until.isTrue("Kafka listens", START_TIMEOUT, () -> Ports.isListening(port));

@@ -17,8 +17,8 @@ import io.furrow.model.control.CommandResult;
 import io.furrow.model.topic.Topics;
 
 /**
- * Asks for one mission, one request after the other, and knows by the answers what is wanted of it. Nobody else asks for this
- * mission, so that an answer that its state does not explain is a fault.
+ * Sends requests for one mission, one after the other, and tracks its desired state by the answers. No other actor
+ * sends requests for this mission, so an answer that its state does not explain is a fault.
  */
 final class MissionActor {
     private static final String TYPE = "Thermometer";
@@ -36,7 +36,7 @@ final class MissionActor {
     private volatile boolean exists;
     private volatile boolean running;
 
-    /** @param faults gets what an answer ought not to be */
+    /** @param faults receives unexpected answers */
     MissionActor(String mission, String domain, Requester requester, Random random, List<String> faults) {
         this.mission = mission;
         this.domain = domain;
@@ -57,43 +57,43 @@ final class MissionActor {
         return running;
     }
 
-    /** How often the mission had failed because its devices did not come up in time. */
+    /** How often the mission failed because its devices did not come up in time. */
     int failed() {
         return failed;
     }
 
-    /** Entities of the devices that its list has. */
+    /** Entity ids of its devices. */
     Set<String> devices() {
         Set<String> ids = new TreeSet<>();
         IntStream.rangeClosed(1, devices).forEach(i -> ids.add("urn:ngsi-ld:%s:%s-%d".formatted(TYPE, mission, i)));
         return ids;
     }
 
-    /** How often the credentials of devices were rotated, of those of which they were. */
+    /** The number of rotations of each device whose credentials were rotated. */
     Map<String, Integer> generations() {
         return generations;
     }
 
-    /** One request that its state allows, now and then one that it does not. */
+    /** Sends a request that the mission's state allows, sometimes one that it does not. */
     void step() throws InterruptedException {
-        int which = random.nextInt(10);
+        int choice = random.nextInt(10);
         if (!exists) {
-            if (which < 5) {
+            if (choice < 5) {
                 create();
             } else {
                 start(true);
             }
         } else if (running) {
-            if (which < 5) {
+            if (choice < 5) {
                 stop();
-            } else if (which < 8) {
+            } else if (choice < 8) {
                 rotate();
             } else {
                 delete();
             }
-        } else if (which < 6) {
+        } else if (choice < 6) {
             start(random.nextInt(3) == 0);
-        } else if (which < 8 && devices < MAX_DEVICES) {
+        } else if (choice < 8 && devices < MAX_DEVICES) {
             addDevices();
         } else {
             delete();
@@ -102,20 +102,20 @@ final class MissionActor {
 
     private void create() throws InterruptedException {
         int count = 1 + random.nextInt(3);
-        if (isGranted(request("create", members(true).set("devices", list(count))), Set.of())) {
+        if (isAccepted(request("create", members(true).set("devices", list(count))), Set.of())) {
             exists = true;
             devices = count;
         }
     }
 
-    /** Starts it; ends with a fault where that is refused for another reason than that it is still stopping. */
+    /** Starts the mission; a rejection is a fault unless the mission is still stopping. */
     void start(boolean withList) throws InterruptedException {
         int count = 1 + random.nextInt(3);
         ObjectNode members = members(true);
         if (withList) {
             members.set("devices", list(count));
         }
-        if (isGranted(request("start", members), Set.of("mission-running"))) {
+        if (isAccepted(request("start", members), Set.of("mission-running"))) {
             devices = withList ? count : devices;
             exists = true;
             running = true;
@@ -124,7 +124,7 @@ final class MissionActor {
 
     private void stop() throws InterruptedException {
         CommandResult answer = request("stop", members(false));
-        if (isGranted(answer, Set.of("mission-not-running"))) {
+        if (isAccepted(answer, Set.of("mission-not-running"))) {
             running = false;
         } else if (answer.json().path("reason").asText().contains("failed")) {
             running = false;
@@ -133,7 +133,7 @@ final class MissionActor {
     }
 
     private void delete() throws InterruptedException {
-        if (isGranted(request("delete", members(false)), Set.of("mission-running"))) {
+        if (isAccepted(request("delete", members(false)), Set.of("mission-running"))) {
             exists = false;
             running = false;
             devices = 0;
@@ -141,7 +141,7 @@ final class MissionActor {
     }
 
     private void addDevices() throws InterruptedException {
-        if (isGranted(request("add-devices", members(false).set("devices", list(1))), Set.of("mission-running"))) {
+        if (isAccepted(request("add-devices", members(false).set("devices", list(1))), Set.of("mission-running"))) {
             devices++;
         }
     }
@@ -150,12 +150,12 @@ final class MissionActor {
         String device = devices().iterator().next();
         ObjectNode members = JsonNodeFactory.instance.objectNode().put("device", device);
         CommandResult answer = request("rotate-credentials", members);
-        if (isGranted(answer, Set.of())) {
+        if (isAccepted(answer, Set.of())) {
             generations.put(device, answer.json().path("generation").asInt());
         }
     }
 
-    private boolean isGranted(CommandResult answer, Set<String> expected) {
+    private boolean isAccepted(CommandResult answer, Set<String> expected) {
         String error = answer.error().orElse("");
         if (!error.isEmpty() && !expected.contains(error)) {
             faults.add("mission %s, which %s, got the answer %s"

@@ -12,7 +12,7 @@ import java.util.TreeSet;
 import io.furrow.embedded.FreePort;
 import io.furrow.process.Ports;
 
-/** Eclipse Mosquitto on loopback, whose accounts are in files that somebody else may change. */
+/** Eclipse Mosquitto on loopback, whose accounts are in files that another program may change. */
 public final class MosquittoProcess implements AutoCloseable {
     public static final String AGENT = "agent";
     public static final String AGENT_PASSWORD = "plough";
@@ -22,7 +22,7 @@ public final class MosquittoProcess implements AutoCloseable {
     private final Path folder;
     private Process process;
 
-    /** One that has the IoT Agent's user only. */
+    /** With the IoT Agent's user only. */
     public MosquittoProcess(Path folder) throws IOException, InterruptedException {
         this(folder, "");
     }
@@ -56,7 +56,7 @@ public final class MosquittoProcess implements AutoCloseable {
         return folder.resolve("rules");
     }
 
-    /** A command for the shell by which it reads both files again; fails while it does not run. */
+    /** A shell command that makes it reload both files; fails while it is not running. */
     public String reload() {
         return "kill -HUP $(cat " + pidFile() + ")";
     }
@@ -65,7 +65,7 @@ public final class MosquittoProcess implements AutoCloseable {
         return folder.resolve("mosquitto.pid");
     }
 
-    /** The users that the password file has, the agent's excepted. */
+    /** The users in the password file, except the agent's. */
     Set<String> users() throws IOException {
         Set<String> users = new TreeSet<>();
         for (String line : Files.readAllLines(passwords())) {
@@ -101,10 +101,10 @@ public final class MosquittoProcess implements AutoCloseable {
         }
     }
 
-    /** Debian has it where only administrators look for programs. */
+    /** On Debian the program is in {@code /usr/sbin}, which may not be on the path. */
     private static String program(String name) {
-        Path administrators = Path.of("/usr/sbin", name);
-        return Files.isExecutable(administrators) ? administrators.toString() : name;
+        Path installed = Path.of("/usr/sbin", name);
+        return Files.isExecutable(installed) ? installed.toString() : name;
     }
 
     @Override

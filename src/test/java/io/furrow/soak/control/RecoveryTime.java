@@ -4,17 +4,17 @@ import java.util.List;
 import java.util.Set;
 import java.util.function.BooleanSupplier;
 
-/** Measures how long after Kafka and both control planes were started both serve again. */
+/** Measures the time from the start of Kafka and both control planes until both serve requests again. */
 final class RecoveryTime {
     private static final Set<String> SERVING = Set.of("ready", "degraded");
 
     private final BooleanSupplier outage;
     private final List<ControlProcess> controls;
-    private long back;
+    private long startedAt;
     private boolean recovering;
     private volatile long max;
 
-    /** @param outage whether Kafka or a control plane is away */
+    /** @param outage whether Kafka or a control plane is unavailable */
     RecoveryTime(BooleanSupplier outage, List<ControlProcess> controls) {
         this.outage = outage;
         this.controls = controls;
@@ -24,13 +24,13 @@ final class RecoveryTime {
     void step() {
         if (outage.getAsBoolean()) {
             recovering = true;
-            back = 0;
+            startedAt = 0;
             return;
         }
-        back = back == 0 ? System.nanoTime() : back;
+        startedAt = startedAt == 0 ? System.nanoTime() : startedAt;
         if (recovering && controls.stream().allMatch(RecoveryTime::serves)) {
             recovering = false;
-            max = Math.max(max, System.nanoTime() - back);
+            max = Math.max(max, System.nanoTime() - startedAt);
         }
     }
 

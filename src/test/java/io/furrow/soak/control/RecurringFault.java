@@ -6,7 +6,7 @@ import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.AtomicInteger;
 
-/** Something that fails again and again for random times, on a thread of its own, until it is stopped; then it works. */
+/** Causes a fault repeatedly for random times, on its own thread, and ends it when stopped. */
 final class RecurringFault {
     private final String name;
     private final Action action;
@@ -18,7 +18,7 @@ final class RecurringFault {
     private volatile boolean active;
     private volatile Exception failure;
 
-    /** Makes it fail, and work again. */
+    /** Begins and ends the fault. */
     interface Action {
         void begin(Random random) throws Exception;
 
@@ -26,9 +26,9 @@ final class RecurringFault {
     }
 
     /**
-     * How often, and for how long.
+     * The mean times of a fault.
      *
-     * @param times at most; 0 for any number
+     * @param times maximum number of repetitions; 0 for no limit
      */
     record Pace(Duration pause, Duration outage, int times) {}
 
@@ -59,28 +59,31 @@ final class RecurringFault {
 
     private void run() {
         try {
-            while ((pace.times() == 0 || count.get() < pace.times()) && !isStoppedWithin(pace.pause())) {
+            while ((pace.times() == 0 || count.get() < pace.times()) && !awaitStop(pace.pause())) {
                 active = true;
                 count.incrementAndGet();
                 action.begin(random);
-                isStoppedWithin(pace.outage());
+                awaitStop(pace.outage());
                 action.end();
                 active = false;
             }
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
-        } catch (Exception e) { // told when it is stopped
+        } catch (Exception e) { // reported when the fault is stopped
             failure = e;
         }
     }
 
-    /** After a random time, at most half as long again as the mean, at least half as long. */
-    private boolean isStoppedWithin(Duration mean) throws InterruptedException {
+    /**
+     * Waits for a random time between half and one and a half times the mean. @return whether the fault was stopped
+     * meanwhile
+     */
+    private boolean awaitStop(Duration mean) throws InterruptedException {
         long millis = mean.toMillis() / 2 + random.nextLong(mean.toMillis() + 1);
         return stopped.await(millis, TimeUnit.MILLISECONDS);
     }
 
-    /** Returns when it works again. */
+    /** Returns once the fault has ended. */
     void stop() throws InterruptedException {
         stopped.countDown();
         thread.join();

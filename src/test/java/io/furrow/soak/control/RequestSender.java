@@ -14,7 +14,7 @@ import org.apache.kafka.common.serialization.StringSerializer;
 
 import io.furrow.model.control.Limits;
 
-/** Sends requests once, over the REST API or over Kafka; whoever has no answer sends the same request again. */
+/** Sends a request once, over the REST API or over Kafka; the caller repeats the same request if there is no answer. */
 final class RequestSender implements AutoCloseable {
     private static final String SEND_TIMEOUT_MS = "10000";
     private static final long PAUSE_MS = 500;
@@ -33,18 +33,18 @@ final class RequestSender implements AutoCloseable {
         producer = new KafkaProducer<>(settings, new StringSerializer(), new ByteArraySerializer());
     }
 
-    /** Over the API; status 0 where there is no answer. */
+    /** Sends over the API; status 0 without a response. */
     CompletableFuture<Http.Answer> call(URI api, ControlRequest request) {
         ControlRequest.Call call = request.toCall();
         return Http.send(call.method(), api.resolve(call.path()), call.body(), "Idempotency-Key", request.id());
     }
 
-    /** Over the topic; fails where Kafka does not take it. The answer is a record of the same topic. */
+    /** Sends over the topic. The answer is a record of the same topic. */
     void write(ControlRequest request) {
         write(request.topic(), request.id(), request.toBytes());
     }
 
-    /** Any record. */
+    /** Writes any record. */
     void write(String topic, String key, byte[] value) {
         producer.send(new ProducerRecord<>(topic, key, value));
     }
@@ -53,8 +53,11 @@ final class RequestSender implements AutoCloseable {
         producer.send(record);
     }
 
-    /** Returns when Kafka has it, over however many outages; it may be there several times then. */
-    void writeSurely(ProducerRecord<String, byte[]> record) throws InterruptedException {
+    /**
+     * Returns once Kafka has acknowledged the record, after any number of outages; the record may be written several
+     * times.
+     */
+    void writeWithRetry(ProducerRecord<String, byte[]> record) throws InterruptedException {
         while (true) {
             try {
                 producer.send(record).get();

@@ -15,14 +15,14 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.control.CommandResult;
 
-/** Asks until there is an answer: the same request again, over Kafka or over one of the REST APIs. */
+/** Repeats a request over Kafka or one of the REST APIs until there is an answer. */
 final class Requester {
-    /** Shorter than an outage, so that requests are sent again that are still on their way. */
+    /** Shorter than an outage, so that requests are also repeated while they are being processed. */
     private static final Duration ANSWER_TIMEOUT = Duration.ofSeconds(5);
-    /** Longer than the API waits itself. */
+    /** Longer than the timeout of the API. */
     private static final Duration CALL_TIMEOUT = Duration.ofSeconds(20);
 
-    private static final Duration PAUSE = Duration.ofMillis(500);
+    private static final Duration BACKOFF = Duration.ofMillis(500);
 
     private final RequestSender sender;
     private final AnswerLog answers;
@@ -37,7 +37,7 @@ final class Requester {
         this.apis = apis;
     }
 
-    /** Every request by its id, in words. */
+    /** Every request by its id, as text. */
     Map<String, String> sent() {
         return sent;
     }
@@ -50,7 +50,7 @@ final class Requester {
         return answered.sum();
     }
 
-    /** Blocks until it is answered, over however many outages. */
+    /** Blocks until there is an answer, over any number of outages. */
     CommandResult request(ControlRequest request, Random random) throws InterruptedException {
         sent.put(request.id(), request.command() + " " + request.members());
         boolean overKafka = random.nextBoolean();
@@ -60,11 +60,11 @@ final class Requester {
                 answered.increment();
                 return answer;
             }
-            Thread.sleep(PAUSE.toMillis());
+            Thread.sleep(BACKOFF.toMillis());
         }
     }
 
-    /** Null where none came in time. */
+    /** Null if there was no answer in time. */
     private CommandResult write(ControlRequest request) {
         sender.write(request);
         return Until.within(ANSWER_TIMEOUT, () -> !answers.to(request.id()).isEmpty())
@@ -72,12 +72,12 @@ final class Requester {
                 : null;
     }
 
-    /** Null where none came, or to ask again. */
+    /** Null if there was no answer, or the request must be retried. */
     private CommandResult call(ControlRequest request, URI api) throws InterruptedException {
         try {
             Http.Answer answer = sender.call(api, request).get(CALL_TIMEOUT.toSeconds(), TimeUnit.SECONDS);
-            boolean again = answer.status() == 0 || answer.status() == 503;
-            return again || !answer.body().isObject() ? null : new CommandResult((ObjectNode) answer.body());
+            boolean retry = answer.status() == 0 || answer.status() == 503;
+            return retry || !answer.body().isObject() ? null : new CommandResult((ObjectNode) answer.body());
         } catch (TimeoutException | ExecutionException e) {
             return null;
         }

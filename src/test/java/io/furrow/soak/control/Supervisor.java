@@ -7,18 +7,18 @@ import java.util.concurrent.atomic.AtomicInteger;
 import java.util.concurrent.locks.LockSupport;
 
 /**
- * Starts a control plane again that has ended by itself, as a container's orchestrator does: one that is started while Kafka is away
- * ends with a sentence. Any other such end is a fault.
+ * Restarts a control plane that has ended by itself, as an orchestrator of containers does: it exits if it is started
+ * while Kafka is unavailable. Any other exit is a fault.
  */
 final class Supervisor {
     private static final long POLL_NANOS = Duration.ofMillis(500).toNanos();
-    private static final Duration LATE = Duration.ofSeconds(100);
+    private static final Duration MAX_DELAY = Duration.ofSeconds(100);
 
     private final ControlProcess control;
     private final List<String> faults;
     private final AtomicInteger restarts = new AtomicInteger();
     private volatile boolean desired = true;
-    private volatile long kafkaWasAway;
+    private volatile long kafkaOutageAt;
     private volatile boolean closed;
 
     Supervisor(ControlProcess control, List<String> faults) {
@@ -29,14 +29,14 @@ final class Supervisor {
         thread.start();
     }
 
-    /** How often it ended because Kafka was away. */
+    /** How often the control plane exited because Kafka was unavailable. */
     int restarts() {
         return restarts.get();
     }
 
-    /** Kafka is, or was in this moment, away. */
-    void kafkaIsAway() {
-        kafkaWasAway = System.nanoTime();
+    /** Notes that Kafka is unavailable, or was until now. */
+    void noteKafkaOutage() {
+        kafkaOutageAt = System.nanoTime();
     }
 
     synchronized void kill() throws InterruptedException {
@@ -64,7 +64,7 @@ final class Supervisor {
         if (closed || !desired || control.isAlive()) {
             return;
         }
-        boolean explained = kafkaWasAway != 0 && System.nanoTime() - kafkaWasAway < LATE.toNanos();
+        boolean explained = kafkaOutageAt != 0 && System.nanoTime() - kafkaOutageAt < MAX_DELAY.toNanos();
         if (!explained) {
             faults.add(control.name() + " ended by itself while Kafka was there; its log is " + control.log());
         }

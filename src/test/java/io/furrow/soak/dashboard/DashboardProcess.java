@@ -17,7 +17,7 @@ import io.furrow.process.TestProcess;
 import io.furrow.soak.control.JavaProcess;
 import io.furrow.soak.control.Until;
 
-/** {@code furrow dashboard} in a process of its own; its heap and threads are those of nothing else. */
+/** Runs {@code furrow dashboard} as a process, so that its heap and threads can be measured alone. */
 final class DashboardProcess implements AutoCloseable {
     private static final Duration START_TIMEOUT = Duration.ofSeconds(60);
     private static final Pattern TOTAL = Pattern.compile("(?m)^Total\\s+\\d+\\s+(\\d+)");
@@ -25,8 +25,8 @@ final class DashboardProcess implements AutoCloseable {
     private static final Pattern POOLED = Pattern.compile("(?m)^\"dashboard-(?:work-)?\\d");
 
     /**
-     * Of four collections three leave up to a twentieth of the heap as it is, dead objects too, and a histogram counts these as live,
-     * as arrays of int.
+     * Compacts in every collection. By default three of four collections leave up to a twentieth of the heap
+     * uncompacted, and a histogram counts its dead objects as live arrays of int.
      */
     private static final String COMPACT = "-XX:MarkSweepAlwaysCompactCount=1";
 
@@ -39,7 +39,7 @@ final class DashboardProcess implements AutoCloseable {
             .build();
     private int histograms;
 
-    /** Returns when it is ready. */
+    /** Returns once it is ready. */
     DashboardProcess(Path folder, String bootstrapServers, URI controlPlane) throws IOException {
         this.folder = folder;
         int port = FreePort.orFree(0);
@@ -87,7 +87,7 @@ final class DashboardProcess implements AutoCloseable {
         }
     }
 
-    /** A number of {@code /metrics}. @param name with its labels */
+    /** The value of a metric. @param name with its labels */
     double metric(String name) {
         try {
             Matcher line = Pattern.compile("(?m)^" + Pattern.quote(name) + " (\\S+)$")
@@ -101,7 +101,7 @@ final class DashboardProcess implements AutoCloseable {
         }
     }
 
-    /** Bytes of objects that are still reachable; it is collected before. By class they stand in a file of the folder. */
+    /** Bytes of reachable objects after a garbage collection. Writes the histogram by class to a file of the folder. */
     long liveBytes() throws IOException, InterruptedException {
         String histogram = jcmd("GC.class_histogram");
         Files.writeString(folder.resolve("classes-%d.log".formatted(++histograms)), histogram);
@@ -112,7 +112,7 @@ final class DashboardProcess implements AutoCloseable {
         return Long.parseLong(total.group(1));
     }
 
-    /** Those that are not of the server's pools, which have at most 96 and give them back over minutes. */
+    /** The number of threads outside of the server's pools, which have at most 96 threads and shrink over minutes. */
     long threads() throws IOException, InterruptedException {
         return THREAD.matcher(jcmd("Thread.print")).results().count();
     }

@@ -38,21 +38,24 @@ import io.furrow.soak.control.Until;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** Many sockets of which some hardly read, then many that are opened and dropped: nobody waits for another, and all is given back. */
+/**
+ * Opens many sockets of which some hardly read, then many that are opened and dropped: no socket delays another, and
+ * all resources are released.
+ */
 public final class DashboardSockets implements AutoCloseable {
     private static final String TOPIC = "data.farm.realtime.weeding";
     private static final String OPEN = "furrow_dashboard_streams{kind=\"socket\"}";
     private static final String TOO_SLOW = "furrow_dashboard_streams_closed_total{reason=\"too-slow\"}";
-    /** A socket that was cut while it opened is noticed after its idle timeout, a minute. */
+    /** A connection that was cut while it opened is detected after its idle timeout, a minute. */
     private static final Duration TIMEOUT = Duration.ofSeconds(120);
 
     private static final int DROPPERS = 16;
     private static final long SETTLE_NANOS = Duration.ofSeconds(5).toNanos();
     private static final long STEP_NANOS = Duration.ofSeconds(2).toNanos();
-    private static final int POOL = 96;
-    private static final int WARM_UP = 300;
+    private static final int MAX_POOLED_THREADS = 96;
+    private static final int WARM_UP_DROPS = 300;
     private static final int ROUNDS = 4;
-    private static final double GROWTH = 1.1;
+    private static final double MAX_GROWTH = 1.1;
 
     private final Settings settings;
     private final Properties client = new Properties();
@@ -67,12 +70,12 @@ public final class DashboardSockets implements AutoCloseable {
     private volatile boolean producing = true;
 
     /**
-     * How much of what.
+     * Size of a run.
      *
-     * @param sockets of which {@code slow} take a frame every two seconds, half of these with {@code mode=latest}
+     * @param sockets of which {@code slow} read a frame every two seconds, half of these with {@code mode=latest}
      * @param rate records per second
      * @param drops sockets that are opened and dropped
-     * @param p99 of the others, at most
+     * @param p99 accepted for the other sockets
      */
     record Settings(Path folder, Duration duration, int sockets, int slow, int rate, int drops, Duration p99) {}
 
@@ -95,7 +98,7 @@ public final class DashboardSockets implements AutoCloseable {
 
     /** Arguments: folder, seconds, sockets, slow, records per second, drops, p99 in ms. */
     public static void main(String... args) throws Exception {
-        JavaProcess.endAllWithThisOne();
+        JavaProcess.killChildrenAtExit();
         List<String> faults = run(new Settings(
                 Path.of(args[0]),
                 Duration.ofSeconds(Long.parseLong(args[1])),
@@ -108,7 +111,7 @@ public final class DashboardSockets implements AutoCloseable {
         System.exit(faults.isEmpty() ? 0 : 1);
     }
 
-    /** What is not as promised, in words; empty where all is. */
+    /** Runs and returns the faults as sentences. */
     static List<String> run(Settings settings) throws Exception {
         try (DashboardSockets soak = new DashboardSockets(settings)) {
             return soak.run();
@@ -119,20 +122,20 @@ public final class DashboardSockets implements AutoCloseable {
         Thread load = new Thread(this::produce, "load");
         load.setDaemon(true);
         load.start();
-        open(settings.sockets(), true, "all").forEach(SoakSocket::drop); // pools and caches, which are filled once
-        drop(Math.max(WARM_UP, settings.drops() / 10));
-        settled(); // before the next, which one address may not have beside these
+        open(settings.sockets(), true, "all").forEach(SoakSocket::drop); // fills pools and caches
+        drop(Math.max(WARM_UP_DROPS, settings.drops() / 10));
+        awaitClosed(); // one address may not have further sockets beside these
         read(Duration.ofSeconds(Math.min(20, settings.duration().toSeconds())));
-        long bytes = settled();
+        long bytes = awaitClosed();
         long threads = dashboard.threads();
         print("before: %.1f MB live, %d threads".formatted(bytes / 1e6, threads));
         read(settings.duration());
         after("after the slow ones", bytes, threads);
-        for (int round = 1; round <= ROUNDS; round++) { // what is kept of each would add up
-            long begun = System.nanoTime();
+        for (int round = 1; round <= ROUNDS; round++) { // a leak per socket would add up
+            long startedAt = System.nanoTime();
             drop(settings.drops() / ROUNDS);
             print("%d sockets were opened and dropped in %d s"
-                    .formatted(settings.drops() / ROUNDS, (System.nanoTime() - begun) / 1_000_000_000));
+                    .formatted(settings.drops() / ROUNDS, (System.nanoTime() - startedAt) / 1_000_000_000));
             after("after round %d of dropped ones".formatted(round), bytes, threads);
         }
         producing = false;
@@ -141,10 +144,10 @@ public final class DashboardSockets implements AutoCloseable {
     }
 
     private void produce() {
-        long begun = System.nanoTime();
+        long startedAt = System.nanoTime();
         String filler = "x".repeat(300);
         while (producing) {
-            long due = (System.nanoTime() - begun) * settings.rate() / 1_000_000_000L;
+            long due = (System.nanoTime() - startedAt) * settings.rate() / 1_000_000_000L;
             while (produced.get() < due) {
                 long n = produced.getAndIncrement();
                 String value =
@@ -174,26 +177,26 @@ public final class DashboardSockets implements AutoCloseable {
 
     private void read(Duration duration) throws Exception {
         List<SoakSocket> quick = open(settings.sockets() - settings.slow(), true, "all");
-        List<SoakSocket> every = open(settings.slow() / 2, false, "all");
+        List<SoakSocket> all = open(settings.slow() / 2, false, "all");
         List<SoakSocket> latest = open(settings.slow() - settings.slow() / 2, false, "latest");
         LockSupport.parkNanos(SETTLE_NANOS);
-        quick.forEach(SoakSocket::begin);
+        quick.forEach(SoakSocket::resetCounts);
         double closedBefore = dashboard.metric(TOO_SLOW);
         long before = produced.get();
         long end = System.nanoTime() + duration.toNanos();
         while (System.nanoTime() < end) {
             LockSupport.parkNanos(STEP_NANOS);
-            every.forEach(SoakSocket::readALittle);
-            latest.forEach(SoakSocket::readALittle);
+            all.forEach(SoakSocket::readFrame);
+            latest.forEach(SoakSocket::readFrame);
             int removed = settings.sockets() - (int) dashboard.metric(OPEN);
-            for (int i = 0; i < removed; i++) { // another takes the place of the one that was closed
-                every.remove(0).drop();
-                every.addAll(open(1, false, "all"));
+            for (int i = 0; i < removed; i++) { // replaces closed sockets
+                all.remove(0).drop();
+                all.addAll(open(1, false, "all"));
             }
         }
         long expected = produced.get() - before;
         long loaded = dashboard.liveBytes();
-        long[] ages = new long[SoakSocket.LATEST + 1];
+        long[] ages = new long[SoakSocket.MAX_AGE + 1];
         quick.forEach(socket -> socket.addTo(ages));
         long p99 = quantile(ages, 0.99);
         print("%d sockets that read, %d records each: p50 %d ms, p95 %d ms, p99 %d ms, max %d ms"
@@ -215,30 +218,33 @@ public final class DashboardSockets implements AutoCloseable {
                     expected);
         }
         quick.forEach(SoakSocket::drop);
-        every.forEach(SoakSocket::drop);
+        all.forEach(SoakSocket::drop);
         latest.forEach(SoakSocket::drop);
     }
 
-    private static long quantile(long[] ages, double part) {
-        long all = java.util.Arrays.stream(ages).sum();
+    private static long quantile(long[] ages, double share) {
+        long total = java.util.Arrays.stream(ages).sum();
         long seen = 0;
         for (int i = 0; i < ages.length; i++) {
             seen += ages[i];
-            if (seen > 0 && seen >= all * part) {
+            if (seen > 0 && seen >= total * share) {
                 return i;
             }
         }
         return ages.length;
     }
 
-    /** From several threads; every tenth asks for what was known, and some are cut while they begin. */
+    /**
+     * Opens and drops sockets on several threads; every tenth requests the initial state, and some are cut while they
+     * open.
+     */
     private void drop(int count) throws Exception {
         ExecutorService threads = Executors.newFixedThreadPool(DROPPERS);
         try {
-            List<Future<Void>> done = new ArrayList<>();
+            List<Future<Void>> results = new ArrayList<>();
             for (int i = 0; i < count; i++) {
                 String query = i % 10 == 0 ? "&prime=true&mode=latest" : "";
-                done.add(threads.submit((Callable<Void>) () -> {
+                results.add(threads.submit((Callable<Void>) () -> {
                     SoakSocket.open(http, register(TOPIC + "?format=record" + query), true)
                             .drop();
                     return null;
@@ -246,7 +252,7 @@ public final class DashboardSockets implements AutoCloseable {
             }
             int failed = 0;
             String why = "";
-            for (Future<Void> each : done) {
+            for (Future<Void> each : results) {
                 try {
                     each.get();
                 } catch (ExecutionException e) {
@@ -260,8 +266,8 @@ public final class DashboardSockets implements AutoCloseable {
         }
     }
 
-    /** Live bytes once no stream is open. */
-    private long settled() throws IOException, InterruptedException, TimeoutException {
+    /** Waits until no stream is open, and returns the live bytes. */
+    private long awaitClosed() throws IOException, InterruptedException, TimeoutException {
         boolean free = Until.within(
                 TIMEOUT,
                 () -> dashboard.metric(OPEN) == 0
@@ -273,12 +279,16 @@ public final class DashboardSockets implements AutoCloseable {
     }
 
     private void after(String when, long bytesBefore, long threadsBefore) throws Exception {
-        long bytes = settled();
+        long bytes = awaitClosed();
         boolean fewThreads = Until.within(TIMEOUT, () -> threads() <= threadsBefore + 4);
         print("%s: %.1f MB live, %d threads, %d of the pools"
                 .formatted(when, bytes / 1e6, threads(), dashboard.pooledThreads()));
-        check(bytes <= bytesBefore * GROWTH, "%s %d bytes are live, before it were %d", when, bytes, bytesBefore);
-        check(dashboard.pooledThreads() <= POOL, "%s the pools have %d threads", when, dashboard.pooledThreads());
+        check(bytes <= bytesBefore * MAX_GROWTH, "%s %d bytes are live, before it were %d", when, bytes, bytesBefore);
+        check(
+                dashboard.pooledThreads() <= MAX_POOLED_THREADS,
+                "%s the pools have %d threads",
+                when,
+                dashboard.pooledThreads());
         check(fewThreads, "%s there are %d threads, before there were %d", when, threads(), threadsBefore);
         check(dashboard.isAlive(), "%s the dashboard is gone", when);
     }

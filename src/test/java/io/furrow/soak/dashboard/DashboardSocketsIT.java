@@ -15,7 +15,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 @Tag("soak")
 class DashboardSocketsIT {
     @Test
-    void servesEveryoneInTimeAndGivesEverythingBack(@TempDir Path folder) throws Exception {
+    void servesAllSocketsInTimeAndReleasesAllResources(@TempDir Path folder) throws Exception {
         assertThat(DashboardSockets.run(new DashboardSockets.Settings(
                         folder, Duration.ofSeconds(10), 40, 6, 200, 150, Duration.ofSeconds(1))))
                 .isEmpty();

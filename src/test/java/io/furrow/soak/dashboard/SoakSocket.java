@@ -10,17 +10,17 @@ import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
 
-/** A socket that notes how old records are when they arrive, and whether one is missing. */
+/** A socket that measures the age of records on arrival, and detects gaps. */
 final class SoakSocket implements WebSocket.Listener {
-    /** Milliseconds; what is later is counted with the last. */
-    static final int LATEST = 20_000;
+    /** Milliseconds; greater ages count as this one. */
+    static final int MAX_AGE = 20_000;
 
     private static final long TIMEOUT_SECONDS = 20;
     private static final String SENT = "\"sent\":";
     private static final String NUMBER = "\"n\":";
 
     private final boolean reads;
-    private final int[] ages = new int[LATEST + 1];
+    private final int[] ages = new int[MAX_AGE + 1];
     private final StringBuilder text = new StringBuilder();
     private long next = -1;
     private long missing;
@@ -32,7 +32,7 @@ final class SoakSocket implements WebSocket.Listener {
         this.reads = reads;
     }
 
-    /** @param reads whether it takes more than what comes before it is asked for */
+    /** @param reads whether it reads continuously, or only the first frame */
     static SoakSocket open(HttpClient http, URI at, boolean reads)
             throws InterruptedException, ExecutionException, TimeoutException {
         SoakSocket opened = new SoakSocket(reads);
@@ -52,17 +52,17 @@ final class SoakSocket implements WebSocket.Listener {
     public CompletionStage<?> onText(WebSocket from, CharSequence part, boolean last) {
         text.append(part);
         if (last) {
-            note(text.toString(), System.currentTimeMillis());
+            measure(text.toString(), System.currentTimeMillis());
             text.setLength(0);
         }
         return null;
     }
 
-    private synchronized void note(String frame, long now) {
+    private synchronized void measure(String frame, long now) {
         for (int at = frame.indexOf(SENT); at >= 0; at = frame.indexOf(SENT, at + 1)) {
             long sent = number(frame, at + SENT.length());
             long n = number(frame, frame.indexOf(NUMBER, at) + NUMBER.length());
-            ages[(int) Math.max(0, Math.min(LATEST, now - sent))]++;
+            ages[(int) Math.max(0, Math.min(MAX_AGE, now - sent))]++;
             missing += next >= 0 && n != next ? 1 : 0;
             next = n + 1;
             records++;
@@ -77,8 +77,8 @@ final class SoakSocket implements WebSocket.Listener {
         return number;
     }
 
-    /** From now on; what was noted so far is forgotten, but for the number of the record that comes next. */
-    synchronized void begin() {
+    /** Resets the counts, but not the expected number of the next record. */
+    synchronized void resetCounts() {
         java.util.Arrays.fill(ages, 0);
         records = 0;
         missing = 0;
@@ -94,22 +94,22 @@ final class SoakSocket implements WebSocket.Listener {
         return records;
     }
 
-    /** How often a record was not the one after that before it. */
+    /** The number of records that did not follow the previous one. */
     synchronized long missing() {
         return missing;
     }
 
-    /** Null while it is open. */
+    /** Null while the socket is open. */
     String end() {
         return end;
     }
 
-    /** A little of what waits. */
-    void readALittle() {
+    /** Reads one more frame. */
+    void readFrame() {
         socket.request(1);
     }
 
-    /** The connection is cut, and nothing said. */
+    /** Cuts the connection without a close frame. */
     void drop() {
         socket.abort();
     }

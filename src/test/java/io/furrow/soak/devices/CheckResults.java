@@ -3,9 +3,9 @@ package io.furrow.soak.devices;
 import java.util.ArrayList;
 import java.util.List;
 
-/** What was checked and whether it holds: a line each, said at once and in a table at the end. */
+/** Collects the results of checks, one line each; prints them at once and in a table at the end. */
 public final class CheckResults {
-    private static final int SHOWN = 8;
+    private static final int MAX_SHOWN = 8;
 
     private final List<String> lines = new ArrayList<>();
     private boolean holds = true;
@@ -14,17 +14,17 @@ public final class CheckResults {
      * Adds a line.
      *
      * @param what as in "averages of five fields"
-     * @param figures what was counted or measured
-     * @param differences empty where it holds
+     * @param figures counts and measurements
+     * @param differences empty if the check succeeded
      */
     public void add(String what, String figures, List<String> differences) {
         holds &= differences.isEmpty();
         String line = "%-6s %-58s %s".formatted(differences.isEmpty() ? "holds" : "DIFFERS", what, figures);
         lines.add(line);
         System.out.println(line);
-        differences.stream().limit(SHOWN).forEach(each -> System.out.println("         " + each));
-        if (differences.size() > SHOWN) {
-            System.out.println("         and %d more".formatted(differences.size() - SHOWN));
+        differences.stream().limit(MAX_SHOWN).forEach(each -> System.out.println("         " + each));
+        if (differences.size() > MAX_SHOWN) {
+            System.out.println("         and %d more".formatted(differences.size() - MAX_SHOWN));
         }
     }
 

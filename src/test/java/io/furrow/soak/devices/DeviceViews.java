@@ -12,13 +12,13 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.soak.control.Until;
 
-/** What {@code ./furrow device show}, missions and alarms say of the devices. */
+/** Checks what {@code ./furrow device show}, missions and alarms report about the devices. */
 record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final long CLOCK_TOLERANCE_MILLIS = 5_000;
     private static final long SILENT_WITHOUT_A_PERIOD_MILLIS = 180_000;
 
-    /** Each mission runs; of that of the faulty devices those are missing whose reports do not arrive. */
+    /** Each mission runs; of the mission with faulty devices, those are missing whose reports do not arrive. */
     void missions() {
         List<String> differences = new ArrayList<>();
         int up = 0;
@@ -67,7 +67,10 @@ record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
         return missing;
     }
 
-    /** Of each device without a fault its last login, that the agent knows it, a clock that is right, and no cause of silence. */
+    /**
+     * Each device without a fault has a login, is registered at the agent, has a correct clock, and no cause of
+     * silence.
+     */
     void soundDevices(String when) throws IOException, InterruptedException {
         check(
                 "device show of the others, " + when,
@@ -82,7 +85,7 @@ record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
                         : shown.path("connection").toString());
     }
 
-    /** The faults as Mosquitto's log and the clock of the control plane let them be known. */
+    /** The faults as far as Mosquitto's log and the control plane's clock reveal them. */
     void faultsBesideMosquitto(String when) throws IOException, InterruptedException {
         for (String fault : List.of("password", "topic", "json", "clock")) {
             check("device show of a wrong " + fault + ", " + when, faulty(fault), (device, shown) -> {
@@ -102,7 +105,7 @@ record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
         }
     }
 
-    /** The faults as the suite's own broker and agent know them. */
+    /** The faults as the suite's own broker and agent detect them. */
     void faultsOfTheSuite() throws IOException, InterruptedException {
         for (String fault : List.of("password", "topic", "json", "clock")) {
             check("its own broker and agent: wrong " + fault, faulty(fault), (device, shown) -> {
@@ -150,9 +153,9 @@ record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
     }
 
     /**
-     * Asks for the first device with the command, for the others over REST.
+     * Reads the first device with the command, the others over REST.
      *
-     * @param difference of a device and what is shown of it; null if there is none
+     * @param difference compares a device with what is shown; null if there is no difference
      */
     private void check(
             String what, List<ProgramPlan.Device> devices, BiFunction<ProgramPlan.Device, JsonNode, String> difference)
@@ -180,25 +183,25 @@ record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
     }
 
     /**
-     * No alarm of a silent device is open, but of those whose reports do not arrive.
+     * No alarm of a silent device is open, except for devices whose reports do not arrive.
      *
      * @param quiet devices that have not reported for so long that others would count as silent
      */
-    void nobodyIsSilent(List<ProgramPlan.Device> quiet) {
+    void noSoundDeviceIsSilent(List<ProgramPlan.Device> quiet) {
         Until.within(TIMEOUT.multipliedBy(3), () -> silent().isEmpty());
         List<String> differences = new ArrayList<>(silent());
         long now = System.currentTimeMillis();
-        long shortest = Long.MAX_VALUE;
+        long min = Long.MAX_VALUE;
         for (ProgramPlan.Device each : quiet) {
-            shortest = Math.min(shortest, now - show(each).at("/health/heard").asLong());
+            min = Math.min(min, now - show(each).at("/health/heard").asLong());
         }
-        if (shortest < SILENT_WITHOUT_A_PERIOD_MILLIS) {
+        if (min < SILENT_WITHOUT_A_PERIOD_MILLIS) {
             differences.add("the others were not left alone for long enough");
         }
         verdicts.add(
                 "no sound device counts as silent",
                 "%d devices with a period of 15 min have said nothing for %d s or more"
-                        .formatted(quiet.size(), shortest / 1000),
+                        .formatted(quiet.size(), min / 1000),
                 differences);
     }
 

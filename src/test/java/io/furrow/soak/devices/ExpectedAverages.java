@@ -13,18 +13,18 @@ import java.util.function.Function;
 import io.furrow.model.ngsi.Entity;
 
 /**
- * The averages of fields by their definition: of each window the mean of the devices' medians, the broken device left out.
+ * The averages of fields by their definition: per window the mean of the devices' medians, without the broken device.
  *
  * @param windowMillis length of a window
  */
 public record ExpectedAverages(long windowMillis) {
-    /** From so many devices on one that is broken is told from the others. */
-    private static final int VERIFIED = 3;
+    /** From this number of devices on, a broken one can be detected. */
+    private static final int MIN_DEVICES = 3;
 
     /**
-     * What each field's window says, by field and end, of the windows that lie within this time.
+     * The expected averages by field and end, of the windows within the period.
      *
-     * @param fields in which field a device measured; null for none
+     * @param fields the field in which a device measured; null for none
      */
     public Map<String, String> expected(
             List<ProgramEvent> sent, Function<ProgramEvent, String> fields, long from, long to) {
@@ -43,7 +43,7 @@ public record ExpectedAverages(long windowMillis) {
             Map<String, Double> votes = new TreeMap<>();
             readings.forEach((device, values) -> votes.put(device, median(values)));
             List<String> broken = votes.entrySet().stream()
-                    .filter(vote -> votes.size() >= VERIFIED && vote.getValue() >= ProgramPlan.BROKEN)
+                    .filter(vote -> votes.size() >= MIN_DEVICES && vote.getValue() >= ProgramPlan.BROKEN)
                     .map(Map.Entry::getKey)
                     .toList();
             double mean = votes.entrySet().stream()
@@ -56,7 +56,7 @@ public record ExpectedAverages(long windowMillis) {
         return averages;
     }
 
-    /** @return what was found, by field and end; a second one of a window differs from any */
+    /** @return the actual averages by field and end; a second result of a window makes its text differ */
     public Map<String, String> found(Collection<Entity> results, long from, long to) {
         Map<String, String> averages = new HashMap<>();
         for (Entity each : results) {

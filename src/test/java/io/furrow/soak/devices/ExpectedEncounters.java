@@ -11,8 +11,8 @@ import java.util.TreeSet;
 import io.furrow.model.ngsi.Entity;
 
 /**
- * The encounters of devices that move, by their definition: while the newest positions of two are within five meters and no older
- * than 30 seconds.
+ * The encounters of moving devices by their definition: while the newest positions of two devices are within five
+ * meters and not older than 30 seconds.
  */
 public final class ExpectedEncounters {
     private static final double THRESHOLD_METERS = 5;
@@ -21,7 +21,7 @@ public final class ExpectedEncounters {
 
     private ExpectedEncounters() {}
 
-    /** @param sent positions in the order of their times @return those that begin and end within this time */
+    /** @param sent positions in the order of their times @return encounters that begin and end within the period */
     public static Set<String> expected(List<ProgramEvent> sent, long from, long to) {
         Map<String, ProgramEvent> last = new HashMap<>();
         Map<String, Open> open = new HashMap<>();
@@ -36,8 +36,8 @@ public final class ExpectedEncounters {
                 }
                 String pair = ProgramPlan.pair(each.device(), other.device());
                 if (meters(each, other) <= THRESHOLD_METERS) {
-                    Open before = open.get(pair);
-                    long start = before == null ? each.time() : before.start();
+                    Open existing = open.get(pair);
+                    long start = existing == null ? each.time() : existing.start();
                     open.put(pair, new Open(start, other.time() + TIME_TO_LIVE_MILLIS));
                 } else {
                     Open ended = open.remove(pair);
@@ -51,7 +51,7 @@ public final class ExpectedEncounters {
         return encounters;
     }
 
-    /** @param until when the older of the two positions has lost its validity */
+    /** @param until when the older of the two positions expires */
     private record Open(long start, long until) {}
 
     private static void expire(Map<String, Open> open, long time, long from, Set<String> encounters) {
@@ -63,7 +63,7 @@ public final class ExpectedEncounters {
         open.values().removeIf(each -> each.until() <= time);
     }
 
-    /** @return those that began and ended within this time */
+    /** @return encounters that began and ended within the period */
     public static Set<String> found(List<Entity> results, long from, long to) {
         Set<String> encounters = new TreeSet<>();
         for (Entity each : results) {
@@ -76,7 +76,7 @@ public final class ExpectedEncounters {
         return encounters;
     }
 
-    /** All who met at any time. */
+    /** All pairs that met at any time. */
     static List<String> pairs(List<Entity> results) {
         return new ArrayList<>(
                 new TreeSet<>(results.stream().map(ExpectedEncounters::pair).toList()));

@@ -7,7 +7,7 @@ import io.furrow.model.ngsi.UnreadableException;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** Reads what can only be JSON. */
+/** Parses text that must be JSON. */
 final class JsonReader {
     private JsonReader() {}
 

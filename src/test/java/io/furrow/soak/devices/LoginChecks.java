@@ -18,12 +18,12 @@ import io.furrow.soak.control.Until;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** Whether the programs are connected with the logins that they have, obey commands, and lose a login when it is rotated. */
+/** Checks that the programs stay connected with their logins, execute commands, and lose a login when it is rotated. */
 record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResults verdicts) {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
-    private static final long CUT_WITHIN_MILLIS = 2_000;
+    private static final long MAX_CUT_DELAY_MILLIS = 2_000;
 
-    /** The newest login of each program that is connected, by device. */
+    /** The newest login of each connected program, by device. */
     Map<String, String> connected() {
         Map<String, String> users = new TreeMap<>();
         for (ProgramEvent each : programs.events()) {
@@ -31,21 +31,21 @@ record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResu
                 case "connected" ->
                     users.put(each.device(), each.json().path("user").asText());
                 case "cut", "refused" -> users.remove(each.device());
-                default -> {} // says nothing of the connection
+                default -> {} // other events do not concern the connection
             }
         }
         return users;
     }
 
     /**
-     * Waits until all are connected with the logins that they had before; none may have been refused since.
+     * Waits until all programs are connected with the same logins as before; none may have been rejected since.
      *
-     * @param mayBeCut whether the broker was killed, which cuts all off
+     * @param mayBeCut whether the broker was killed, which cuts all connections
      */
-    void remain(String after, Map<String, String> before, long since, boolean mayBeCut) {
-        long began = System.nanoTime();
+    void checkUnchanged(String after, Map<String, String> before, long since, boolean mayBeCut) {
+        long startedAt = System.nanoTime();
         Until.within(TIMEOUT, () -> connected().equals(before));
-        double seconds = (System.nanoTime() - began) / 1e9;
+        double seconds = (System.nanoTime() - startedAt) / 1e9;
         List<String> differences = new ArrayList<>();
         Map<String, String> now = connected();
         before.forEach((device, user) -> {
@@ -69,8 +69,8 @@ record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResu
                 differences);
     }
 
-    /** Sends each a command over REST; each answers it, so that the context broker knows, and reports. */
-    void answer(String when, List<ProgramPlan.Device> devices) throws InterruptedException {
+    /** Sends each device a command over REST; each must answer, and the context broker must receive the answer. */
+    void checkCommands(String when, List<ProgramPlan.Device> devices) throws InterruptedException {
         long since = System.currentTimeMillis();
         List<String> differences = new ArrayList<>();
         for (ProgramPlan.Device each : devices) {
@@ -90,8 +90,8 @@ record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResu
                 differences);
     }
 
-    /** A command of {@code ./furrow} to each. */
-    void obey(List<ProgramPlan.Device> devices) throws IOException, InterruptedException {
+    /** Sends each device a command with {@code ./furrow}. */
+    void checkCommandLine(List<ProgramPlan.Device> devices) throws IOException, InterruptedException {
         long since = System.currentTimeMillis();
         for (ProgramPlan.Device each : devices) {
             farm.up.run("device", "command", each.id(), "off");
@@ -102,18 +102,18 @@ record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResu
                 unanswered("off", devices, since));
     }
 
-    /** Waits for the answers. @return who has not answered in time */
+    /** Waits for the answers. @return devices that have not answered in time */
     private List<String> unanswered(String command, List<ProgramPlan.Device> devices, long since) {
-        Set<String> open =
+        Set<String> pending =
                 new TreeSet<>(devices.stream().map(ProgramPlan.Device::id).toList());
         Until.within(TIMEOUT, () -> {
-            open.removeAll(answered(command, devices, since));
-            return open.isEmpty();
+            pending.removeAll(answered(command, devices, since));
+            return pending.isEmpty();
         });
-        return open.stream().map(each -> "not answered by " + each).toList();
+        return pending.stream().map(each -> "not answered by " + each).toList();
     }
 
-    /** Whose program was asked since then, and of whom the context broker has the answer. */
+    /** Devices whose program received the command, and whose answer the context broker has. */
     private Set<String> answered(String command, List<ProgramPlan.Device> devices, long since) {
         Set<String> requested = new HashSet<>();
         programs.events().stream()
@@ -137,12 +137,14 @@ record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResu
         return answered;
     }
 
-    /** Rotates the login of each, over REST and with {@code ./furrow device rotate} in turn, and brings the program its new one. */
+    /**
+     * Rotates each login, over REST and with {@code ./furrow device rotate} in turn, and gives the program its new one.
+     */
     void rotate(List<ProgramPlan.Device> devices) throws IOException, InterruptedException {
         List<String> differences = new ArrayList<>();
         long max = 0;
         for (int i = 0; i < devices.size(); i++) {
-            max = Math.max(max, rotate(devices.get(i), i % 2 == 1, differences));
+            max = Math.max(max, measureRotation(devices.get(i), i % 2 == 1, differences));
         }
         verdicts.add(
                 "rotated logins",
@@ -151,7 +153,7 @@ record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResu
     }
 
     /** @return ms from the request, or from the end of the command, to the end of the connection */
-    private long rotate(ProgramPlan.Device device, boolean byCommand, List<String> differences)
+    private long measureRotation(ProgramPlan.Device device, boolean byCommand, List<String> differences)
             throws IOException, InterruptedException {
         String old = connected().get(device.id());
         long requested = System.currentTimeMillis();
@@ -164,24 +166,24 @@ record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResu
         long from = byCommand ? System.currentTimeMillis() : requested;
         boolean isCut = Until.within(TIMEOUT, () -> time("cut", device, old, requested) > 0);
         long delay = time("cut", device, old, requested) - from;
-        if (!isCut || delay > CUT_WITHIN_MILLIS) {
+        if (!isCut || delay > MAX_CUT_DELAY_MILLIS) {
             differences.add("%s was cut off %d ms after its login was rotated".formatted(device.id(), delay));
         }
         if (!Until.within(TIMEOUT, () -> time("refused", device, old, requested) > 0)) {
             differences.add("%s was let in again with its old login, or did not try".formatted(device.id()));
         }
-        programs.bring(
+        programs.setCredentials(
                 device.mission(),
                 farm.up.run("device", "credentials", "--mission", device.mission(), "--output", "csv"));
         Until.within(TIMEOUT, () -> connected().containsKey(device.id()));
-        String fresh = connected().get(device.id());
-        if (fresh == null || fresh.equals(old)) {
+        String current = connected().get(device.id());
+        if (current == null || current.equals(old)) {
             differences.add("%s does not come in with its new login".formatted(device.id()));
         }
         return delay;
     }
 
-    /** When this happened first to a program with this login; 0 if it has not. */
+    /** When this first happened to a program with this login; 0 if it did not. */
     private long time(String kind, ProgramPlan.Device device, String user, long since) {
         return programs.events().stream()
                 .filter(each -> each.is(kind) && each.at() >= since)

@@ -15,19 +15,20 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 import io.furrow.soak.TopicLog;
 
-/** Compares what the programs sent with what came of it on Kafka's topics. */
+/** Compares what the programs sent with the records on Kafka's topics. */
 record MeasureChecks(String kafka, ProgramPlan plan, CheckResults verdicts) {
-    private static final Duration QUIET = Duration.ofMillis(200);
-    /** A window is written when its end is the out-of-orderness ago, and the job has committed. */
+    private static final Duration READ_TIME = Duration.ofMillis(200);
+    /** Time after which a window is visible: the out-of-orderness and a commit of the job. */
     static final Duration VISIBLE_AFTER = Duration.ofSeconds(15);
 
     private static final ExpectedAverages AVERAGES = new ExpectedAverages(10_000);
 
     /**
-     * Each measure that was sent in this time is on the topic of its mission, and on that of no other: once, unless devices were
-     * commanded meanwhile, because what becomes of a command is an event with the measures of the device, too.
+     * Each measure sent in the period is on the topic of its mission, and on no other: once, or at least once if
+     * devices received commands meanwhile, because the status of a command is an event that repeats the measures.
      */
-    void arrived(String when, List<ProgramEvent> events, long from, long to, boolean once) throws UnreadableException {
+    void checkArrivals(String when, List<ProgramEvent> events, long from, long to, boolean once)
+            throws UnreadableException {
         List<String> differences = new ArrayList<>();
         int sent = 0;
         for (ProgramPlan.Mission mission : plan.missions()) {
@@ -75,7 +76,7 @@ record MeasureChecks(String kafka, ProgramPlan plan, CheckResults verdicts) {
         return measure.substring(0, measure.indexOf(" at "));
     }
 
-    void averages(String when, List<ProgramEvent> events, long from, long to) throws UnreadableException {
+    void checkAverages(String when, List<ProgramEvent> events, long from, long to) throws UnreadableException {
         Map<String, String> fields = new HashMap<>();
         plan.devices().stream()
                 .filter(each -> each.field() != null)
@@ -100,7 +101,7 @@ record MeasureChecks(String kafka, ProgramPlan plan, CheckResults verdicts) {
                 expected.isEmpty() ? List.of("there was no window") : differences);
     }
 
-    void encounters(String when, List<ProgramEvent> events, long from, long to) throws UnreadableException {
+    void checkEncounters(String when, List<ProgramEvent> events, long from, long to) throws UnreadableException {
         Set<String> late = late(Topics.COLLISION_LATE);
         Set<String> tractors = new HashSet<>(plan.devices().stream()
                 .filter(ProgramPlan.Device::isTractor)
@@ -132,7 +133,7 @@ record MeasureChecks(String kafka, ProgramPlan plan, CheckResults verdicts) {
                 .toList();
     }
 
-    /** Of what was sent with the time of its sending. */
+    /** Counts late measures among those whose time is the time of sending. */
     private static long unexpectedlyLate(List<ProgramEvent> events, Set<String> late, long from, long to) {
         return events.stream()
                 .filter(each -> each.is("sent") && each.time() >= from && each.time() < to)
@@ -151,7 +152,7 @@ record MeasureChecks(String kafka, ProgramPlan plan, CheckResults verdicts) {
 
     private List<Entity> read(String topic) throws UnreadableException {
         try (TopicLog log = new TopicLog(kafka, topic)) {
-            return log.read(QUIET);
+            return log.read(READ_TIME);
         }
     }
 }

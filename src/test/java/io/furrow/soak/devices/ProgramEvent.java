@@ -3,11 +3,11 @@ package io.furrow.soak.devices;
 import com.fasterxml.jackson.databind.JsonNode;
 
 /**
- * What the program of a device did or met.
+ * An event in the program of a device.
  *
  * @param at epoch ms
  * @param kind {@code connected}, {@code refused}, {@code cut}, {@code asked} or {@code sent}
- * @param json the rest: the user; of {@code sent} the time, value and position that it told
+ * @param json other members: the user; for {@code sent} the time, value and position
  */
 public record ProgramEvent(long at, String device, String kind, JsonNode json) {
     static ProgramEvent read(String line) {
@@ -23,7 +23,7 @@ public record ProgramEvent(long at, String device, String kind, JsonNode json) {
         return kind.equals(other);
     }
 
-    /** The time that a measure bears, epoch ms. */
+    /** The time in a measure, epoch ms. */
     public long time() {
         return json.path("time").asLong();
     }

@@ -10,21 +10,24 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-/** The missions, their devices, and what the program of each device does; nobody is within 10 m of another who is not to meet it. */
+/**
+ * The missions, their devices, and the behavior of each device's program. Devices that must not meet are at least 10 m
+ * apart.
+ */
 final class ProgramPlan {
     static final String DOMAIN = "soak";
     static final String FAULTY = "faulty";
-    /** Far from all others, as one thermometer of the mission {@code orchard} is. */
+    /** A value far from all others, of one thermometer of the mission {@code orchard}. */
     static final double BROKEN = 60;
-    /** Measures that a device has stored when it is switched on. */
+    /** Number of stored measures that a device sends when it is switched on. */
     static final int STORED = 12;
 
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
     private static final double LATITUDE = 40.3;
     private static final double LONGITUDE = -3.48;
     private static final double FIELDS_APART = 0.01;
-    private static final double PLACES_APART = 0.00015;
-    private static final int PLACES_IN_A_ROW = 9;
+    private static final double POSITIONS_APART = 0.00015;
+    private static final int POSITIONS_IN_A_ROW = 9;
     private static final double TRACTORS = 40.4;
     private static final double OTHERS = 40.45;
     private static final Map<String, String> NAMES =
@@ -37,15 +40,15 @@ final class ProgramPlan {
 
     private final List<Mission> missions = new ArrayList<>();
 
-    /** @param groups as {@code ./furrow mission start --devices} takes them */
+    /** @param groups for {@code ./furrow mission start --devices} */
     record Mission(String name, ArrayNode groups, List<Device> devices) {}
 
     /**
      * One device.
      *
-     * @param fault what is wrong with its program; {@code none} if nothing
+     * @param fault of its program; {@code none} if there is none
      * @param field in which it measures; null if it is in none
-     * @param behavior for its program
+     * @param behavior of its program
      */
     record Device(String id, String mission, String fault, String field, Duration period, ObjectNode behavior) {
         boolean isSound() {
@@ -57,7 +60,7 @@ final class ProgramPlan {
             return !fault.equals("password");
         }
 
-        /** Whether what it sends arrives, with whatever time. */
+        /** Whether its reports arrive, with a correct or wrong time. */
         boolean reports() {
             return isSound() || fault.equals("clock");
         }
@@ -67,7 +70,7 @@ final class ProgramPlan {
         }
     }
 
-    /** What the devices of a group have in common. */
+    /** Common properties of devices. */
     private record Group(
             String mission, String type, int count, String period, String fault, int field, Map<String, String> names) {
         static Group of(String mission, String type, int count, String period, int field) {
@@ -82,7 +85,7 @@ final class ProgramPlan {
             return Duration.parse(period);
         }
 
-        /** Whether the mission says where its devices are, instead of these. */
+        /** Whether the mission sets the positions of its devices. */
         boolean isWithoutGps() {
             return mission.equals("barns");
         }
@@ -149,34 +152,34 @@ final class ProgramPlan {
             if (group.names().equals(FOREIGN)) {
                 list.set("attributes", JsonReader.read(ATTRIBUTES));
             }
-            ArrayNode places = group.isWithoutGps() ? list.putArray("at") : NODES.arrayNode();
+            ArrayNode positions = group.isWithoutGps() ? list.putArray("at") : NODES.arrayNode();
             for (int number = 1; number <= group.count(); number++) {
-                double[] place = place(group, devices.size());
-                devices.add(device(group, number, place));
-                places.addObject().put("latitude", place[0]).put("longitude", place[1]);
+                double[] position = position(group, devices.size());
+                devices.add(device(group, number, position));
+                positions.addObject().put("latitude", position[0]).put("longitude", position[1]);
             }
         }
         missions.add(new Mission(mission, lists, devices));
     }
 
-    private double[] place(Group group, int index) {
+    private double[] position(Group group, int index) {
         if (group.mission().equals("tractors")) {
             return new double[] {TRACTORS + index / 2 * 0.002, LONGITUDE};
         }
         if (group.field() < 0) {
             return new double[] {OTHERS + index * 0.0005, LONGITUDE};
         }
-        long before = devices().stream()
+        long existing = devices().stream()
                 .filter(each -> name(group.field()).equals(each.field()))
                 .count();
-        int number = (int) before + index;
+        int number = (int) existing + index;
         return new double[] {
-            LATITUDE + group.field() * FIELDS_APART + number / PLACES_IN_A_ROW * PLACES_APART,
-            LONGITUDE + number % PLACES_IN_A_ROW * PLACES_APART * 1.3
+            LATITUDE + group.field() * FIELDS_APART + number / POSITIONS_IN_A_ROW * POSITIONS_APART,
+            LONGITUDE + number % POSITIONS_IN_A_ROW * POSITIONS_APART * 1.3
         };
     }
 
-    private static Device device(Group group, int number, double[] place) {
+    private static Device device(Group group, int number, double[] position) {
         String id = "urn:ngsi-ld:%s:%s-%d".formatted(group.type(), group.mission(), number);
         ObjectNode behavior = NODES.objectNode()
                 .put("device", id)
@@ -184,7 +187,7 @@ final class ProgramPlan {
                 .put("fault", group.fault());
         group.names().forEach(behavior.putObject("names")::put);
         if (!group.isWithoutGps()) {
-            behavior.putArray("place").add(place[0]).add(place[1]);
+            behavior.putArray("place").add(position[0]).add(position[1]);
         }
         if (group.every().toSeconds() >= 30) {
             behavior.put("stored", STORED);
@@ -201,7 +204,10 @@ final class ProgramPlan {
         return new Device(id, group.mission(), group.fault(), name(group.field()), group.every(), behavior);
     }
 
-    /** The first of a pair stands, the second comes to it and leaves again; that of the last pair stays 8 m away. */
+    /**
+     * The first device of a pair does not move, the second approaches it and leaves again; that of the last pair stays
+     * 8 m away.
+     */
     private static ObjectNode path(int index) {
         boolean stands = index % 2 == 0;
         boolean meets = index < 8;
@@ -211,7 +217,7 @@ final class ProgramPlan {
                 .put("seconds", 36 + index);
     }
 
-    /** Who meets whom: their ids, the lesser first. */
+    /** The pairs that meet: their ids, the lesser first. */
     List<String> pairs() {
         var ids = devices().stream().filter(Device::isTractor).map(Device::id).toList();
         List<String> pairs = new ArrayList<>();

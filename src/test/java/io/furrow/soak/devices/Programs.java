@@ -14,14 +14,17 @@ import java.util.Map;
 
 import static java.nio.charset.StandardCharsets.US_ASCII;
 
-/** The programs of devices: processes of Python, each with up to 20 devices of a mission, which have a connection each. */
+/**
+ * Runs the programs of devices as Python processes, each with up to 20 devices of a mission, which have a connection
+ * each.
+ */
 final class Programs implements AutoCloseable {
     private static final int DEVICES_OF_A_PROCESS = 20;
 
     private final Path program;
     private final Path folder;
     private final List<Process> processes = new ArrayList<>();
-    /** How many bytes of each were read. */
+    /** The number of bytes read from each log. */
     private final Map<Path, Long> logs = new LinkedHashMap<>();
 
     private final List<ProgramEvent> events = new ArrayList<>();
@@ -31,10 +34,11 @@ final class Programs implements AutoCloseable {
         this.folder = Files.createDirectories(folder);
     }
 
-    /** Brings the devices of a mission their credentials, for the first time or anew. */
-    void bring(String mission, String csv) throws IOException {
-        Path fresh = Files.writeString(folder.resolve(mission + ".csv.new"), csv);
-        Files.move(fresh, credentials(mission), StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
+    /** Writes the credentials of a mission's devices, which running programs reload. */
+    void setCredentials(String mission, String csv) throws IOException {
+        Path temporary = Files.writeString(folder.resolve(mission + ".csv.new"), csv);
+        Files.move(
+                temporary, credentials(mission), StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
     }
 
     private Path credentials(String mission) {
@@ -73,15 +77,15 @@ final class Programs implements AutoCloseable {
         return processes.stream().allMatch(Process::isAlive);
     }
 
-    /** All so far, in the order of their times. */
+    /** All events so far, sorted by time. */
     List<ProgramEvent> events() {
-        logs.replaceAll((log, read) -> read + readOn(log, read));
+        logs.replaceAll((log, read) -> read + readNewLines(log, read));
         events.sort(Comparator.comparingLong(ProgramEvent::at));
         return List.copyOf(events);
     }
 
-    /** Takes the lines that were added, without one that is just being written. @return how many bytes these are */
-    private int readOn(Path log, long from) {
+    /** Reads complete new lines. @return their number of bytes */
+    private int readNewLines(Path log, long from) {
         try (InputStream in = Files.newInputStream(log)) {
             in.skipNBytes(from);
             String text = new String(in.readAllBytes(), US_ASCII);

@@ -10,13 +10,16 @@ import java.util.stream.Stream;
 import io.furrow.soak.control.JavaProcess;
 import io.furrow.soak.control.Until;
 
-/** Two hundred devices on a farm of processes: first undisturbed, then while agent, control plane and broker are killed in turn. */
+/**
+ * Runs two hundred devices on a farm of processes: first undisturbed, then while agent, control plane and broker are
+ * killed in turn.
+ */
 public final class RealDevices {
-    private static final Duration UNAVAILABLE = Duration.ofSeconds(8);
+    private static final Duration OUTAGE = Duration.ofSeconds(8);
     private static final Duration TIMEOUT = Duration.ofMinutes(1);
-    private static final Duration SETTLED = Duration.ofSeconds(10);
-    /** The stand-in writes its file so often at least. */
-    private static final Duration STORED = Duration.ofSeconds(8);
+    private static final Duration SETTLE_TIME = Duration.ofSeconds(10);
+    /** Interval within which the stand-in writes its file. */
+    private static final Duration STORE_INTERVAL = Duration.ofSeconds(8);
 
     private final Path home;
     private final Path folder;
@@ -27,7 +30,7 @@ public final class RealDevices {
     private final Programs programs;
     private final LoginChecks logins;
     private final MeasureChecks measures;
-    private final DeviceViews shown;
+    private final DeviceViews views;
 
     private RealDevices(Path home, Path folder, Duration undisturbed) throws IOException, InterruptedException {
         this.home = home;
@@ -37,16 +40,16 @@ public final class RealDevices {
         programs = new Programs(program(), folder.resolve("programs"));
         logins = new LoginChecks(farm, plan, programs, verdicts);
         measures = new MeasureChecks(farm.up.kafka(), plan, verdicts);
-        shown = new DeviceViews(farm.up, plan, verdicts);
+        views = new DeviceViews(farm.up, plan, verdicts);
     }
 
     private Path program() {
         return home.resolve("soak").resolve("parts").resolve("device_programs.py");
     }
 
-    /** Arguments: the checkout, a folder for data and logs, for how many seconds nothing is disturbed. */
+    /** Arguments: the checkout, a folder for data and logs, seconds without disturbance. */
     public static void main(String... args) throws Exception {
-        JavaProcess.endAllWithThisOne();
+        JavaProcess.killChildrenAtExit();
         RealDevices soak = new RealDevices(
                 Path.of(args[0]).toAbsolutePath(),
                 Path.of(args[1]).toAbsolutePath(),
@@ -64,21 +67,21 @@ public final class RealDevices {
     private boolean run() throws Exception {
         print("Mosquitto, the stand-ins of Orion and IoT Agent, and ./furrow up start");
         farm.start();
-        long began = System.currentTimeMillis();
+        long startedAt = System.currentTimeMillis();
         startMissions(farm.up, programs, plan.missions());
         print("%d devices in %d processes".formatted(plan.devices().size(), programs.processes()));
-        shown.missions();
-        undisturbed("undisturbed", began);
-        shown.soundDevices("undisturbed");
-        shown.faultsBesideMosquitto("undisturbed");
-        logins.obey(every(60));
-        logins.answer("undisturbed", commanded());
+        views.missions();
+        undisturbed("undisturbed", startedAt);
+        views.soundDevices("undisturbed");
+        views.faultsBesideMosquitto("undisturbed");
+        logins.checkCommandLine(every(60));
+        logins.checkCommands("undisturbed", commanded());
         logins.rotate(every(40));
         killEachOnce();
         undisturbed("after all came back", System.currentTimeMillis());
-        shown.soundDevices("after all came back");
-        shown.nobodyIsSilent(quiet());
-        logins.answer("to those that said nothing", quiet());
+        views.soundDevices("after all came back");
+        views.noSoundDeviceIsSilent(quiet());
+        logins.checkCommands("to those that said nothing", quiet());
         boolean alive = programs.areAlive();
         programs.close();
         farm.close();
@@ -86,7 +89,7 @@ public final class RealDevices {
         return verdicts.hold() && alive;
     }
 
-    /** The same faults where broker and agent are the suite's own, which know more of them. */
+    /** Checks the same faults with the suite's own broker and agent, which detect more of them. */
     private void faultsAtTheSuitesOwnBroker() throws Exception {
         print("./furrow up starts with its own broker and agent");
         try (UpProcess up = new UpProcess(home, folder.resolve("own"), List.of("--start-timeout", "20s"));
@@ -116,63 +119,65 @@ public final class RealDevices {
                     mission.groups().toString());
         }
         for (ProgramPlan.Mission mission : missions) {
-            programs.bring(
+            programs.setCredentials(
                     mission.name(), up.run("device", "credentials", "--mission", mission.name(), "--output", "csv"));
             programs.start(mission);
         }
     }
 
-    /** Lets time pass, and compares what came of it. */
+    /** Waits, and compares the results of the period. */
     private void undisturbed(String when, long since) throws Exception {
-        Thread.sleep(SETTLED.toMillis());
+        Thread.sleep(SETTLE_TIME.toMillis());
         long from = System.currentTimeMillis();
         Thread.sleep(undisturbed.toMillis());
         long to = System.currentTimeMillis();
         Thread.sleep(MeasureChecks.VISIBLE_AFTER.toMillis());
         List<ProgramEvent> events = programs.events();
-        measures.arrived(when, events, since, to, true);
-        measures.averages(when, events, from, to);
-        measures.encounters(when, events, from, to);
+        measures.checkArrivals(when, events, since, to, true);
+        measures.checkAverages(when, events, from, to);
+        measures.checkEncounters(when, events, from, to);
     }
 
     private void killEachOnce() throws Exception {
-        Thread.sleep(STORED.toMillis());
+        Thread.sleep(STORE_INTERVAL.toMillis());
         Map<String, String> before = logins.connected();
-        long killed = System.currentTimeMillis();
+        long killedAt = System.currentTimeMillis();
         print("kill -9 of context broker and IoT Agent");
         farm.standIn.kill();
-        Thread.sleep(UNAVAILABLE.toMillis());
+        Thread.sleep(OUTAGE.toMillis());
         farm.standIn.start();
-        isBack("the agent's end", before, killed, false);
+        checkRecovery("the agent's end", before, killedAt, false);
 
-        killed = System.currentTimeMillis();
+        killedAt = System.currentTimeMillis();
         print("kill -9 of ./furrow up, with control plane, Kafka, Connect and Flink");
         farm.up.kill();
-        Thread.sleep(UNAVAILABLE.toMillis());
+        Thread.sleep(OUTAGE.toMillis());
         farm.up.start();
-        isBack("the control plane's end", before, killed, false);
-        shown.soundDevices("after the control plane's end");
-        shown.faultsBesideMosquitto("after it");
+        checkRecovery("the control plane's end", before, killedAt, false);
+        views.soundDevices("after the control plane's end");
+        views.faultsBesideMosquitto("after it");
 
-        killed = System.currentTimeMillis();
+        killedAt = System.currentTimeMillis();
         print("kill -9 of Mosquitto");
         long subscriptions = farm.agentSubscriptions();
         farm.mosquitto.kill();
-        Thread.sleep(UNAVAILABLE.toMillis());
+        Thread.sleep(OUTAGE.toMillis());
         farm.mosquitto.start();
         Until.isTrue("the agent is back at Mosquitto", TIMEOUT, () -> farm.agentSubscriptions() > subscriptions);
-        isBack("the broker's end", before, killed, true);
+        checkRecovery("the broker's end", before, killedAt, true);
     }
 
-    private void isBack(String after, Map<String, String> before, long since, boolean mayBeCut) throws Exception {
-        logins.remain(after, before, since, mayBeCut);
+    private void checkRecovery(String after, Map<String, String> before, long since, boolean mayBeCut)
+            throws Exception {
+        logins.checkUnchanged(after, before, since, mayBeCut);
         long requested = System.currentTimeMillis();
-        logins.answer("after " + after, commanded());
-        Thread.sleep(SETTLED.toMillis());
-        measures.arrived("after " + after, programs.events(), requested, System.currentTimeMillis() - 5_000, false);
+        logins.checkCommands("after " + after, commanded());
+        Thread.sleep(SETTLE_TIME.toMillis());
+        measures.checkArrivals(
+                "after " + after, programs.events(), requested, System.currentTimeMillis() - 5_000, false);
     }
 
-    /** Devices with a period of 15 min that are not sent anything until the end. */
+    /** Devices with a period of 15 min that receive no command until the end. */
     private List<ProgramPlan.Device> quiet() {
         return plan.devices().stream()
                 .filter(each -> each.mission().equals("quarter-hour"))
@@ -187,7 +192,7 @@ public final class RealDevices {
                 .toList();
     }
 
-    /** The first of so many that can be commanded. */
+    /** Every {@code count}-th device that can receive commands. */
     private List<ProgramPlan.Device> every(int count) {
         List<ProgramPlan.Device> all = commanded();
         return Stream.iterate(0, index -> index < all.size(), index -> index + count)

@@ -13,7 +13,10 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.soak.control.Http;
 import io.furrow.soak.control.MosquittoProcess;
 
-/** A farm of processes: Mosquitto, the stand-ins of context broker and IoT Agent, and {@code ./furrow up}, which is told of both. */
+/**
+ * Starts a farm of processes: Mosquitto, the stand-ins of context broker and IoT Agent, and {@code ./furrow up} with
+ * the options for both.
+ */
 final class RealFarm implements AutoCloseable {
     static final String WINDOW = "10s";
 
@@ -53,7 +56,9 @@ final class RealFarm implements AutoCloseable {
         up.start();
     }
 
-    /** How often the IoT Agent has subscribed to what devices send: it comes back to the broker later than they do. */
+    /**
+     * How often the IoT Agent has subscribed to what devices send: it reconnects to the broker later than the devices.
+     */
     long agentSubscriptions() {
         try (Stream<String> lines = Files.lines(log)) {
             return lines.filter(line -> line.endsWith(" 1 /json/+/+/cmdexe")).count();

@@ -14,7 +14,10 @@ import io.furrow.soak.control.JavaProcess;
 import io.furrow.soak.control.MosquittoProcess;
 import io.furrow.soak.control.Until;
 
-/** The stand-ins of context broker and IoT Agent in a process of their own, which keeps entities and devices in a file as those do in MongoDB. */
+/**
+ * Runs the stand-ins of context broker and IoT Agent as a process, which stores entities and devices in a file as the
+ * real ones do in MongoDB.
+ */
 public final class StandInProcess implements AutoCloseable {
     private static final Duration START_TIMEOUT = Duration.ofSeconds(60);
 
@@ -37,7 +40,10 @@ public final class StandInProcess implements AutoCloseable {
                         started.toString()));
     }
 
-    /** Runs until it is killed; arguments: both ports, MQTT broker, file of the state, file to be made when it has started. */
+    /**
+     * Runs until it is killed; arguments: both ports, MQTT broker, file for the state, file that is created after the
+     * start.
+     */
     public static void main(String... args) throws IOException, InterruptedException {
         FiwareStandIn.start(new FiwareSettings(
                         Integer.parseInt(args[0]),
@@ -58,7 +64,7 @@ public final class StandInProcess implements AutoCloseable {
         return URI.create("http://127.0.0.1:" + iotAgent);
     }
 
-    /** Returns when it answers and hears the devices. */
+    /** Returns once it answers and receives from devices. */
     public void start() throws IOException {
         Files.deleteIfExists(started);
         process.start();

@@ -17,7 +17,7 @@ import io.furrow.embedded.FreePort;
 import io.furrow.soak.control.Http;
 import io.furrow.soak.control.Until;
 
-/** {@code ./furrow up} in a process of its own, on the same ports and directory whenever it is started, and commands to it. */
+/** Runs {@code ./furrow up} as a process, on the same ports and directory after each start, and commands against it. */
 public final class UpProcess implements AutoCloseable {
     private static final Duration START_TIMEOUT = Duration.ofSeconds(180);
     private static final long COMMAND_SECONDS = 90;
@@ -31,12 +31,12 @@ public final class UpProcess implements AutoCloseable {
     private final List<String> command = new ArrayList<>();
     private Process process;
 
-    /** @param home of the checkout @param folder for its data and what it prints */
+    /** @param home checkout @param folder for data and output */
     public UpProcess(Path home, Path folder, List<String> options) throws IOException {
         this(List.of(home.resolve("furrow").toString()), folder, options);
     }
 
-    /** @param furrow the words before its own that start it @param folder for its data and what it prints */
+    /** @param furrow command that starts Furrow @param folder for data and output */
     public UpProcess(List<String> furrow, Path folder, List<String> options) throws IOException {
         this.furrow = furrow;
         this.folder = Files.createDirectories(folder);
@@ -58,7 +58,7 @@ public final class UpProcess implements AutoCloseable {
         return URI.create("http://127.0.0.1:" + ports.get("dashboard"));
     }
 
-    /** A further option, before the first start. */
+    /** Adds an option before the first start. */
     public void with(String option, String value) {
         command.addAll(List.of(option, value));
     }
@@ -67,7 +67,7 @@ public final class UpProcess implements AutoCloseable {
         return ports.get(name);
     }
 
-    /** The Java process of the suite, which the script has become. */
+    /** The Java process of the suite, which replaced the script. */
     public ProcessHandle javaProcess() {
         return process.toHandle();
     }
@@ -76,7 +76,7 @@ public final class UpProcess implements AutoCloseable {
         return "127.0.0.1:" + ports.get("kafka");
     }
 
-    /** Returns when it is ready. */
+    /** Returns once it is ready. */
     public void start() throws IOException {
         process = new ProcessBuilder(command)
                 .redirectErrorStream(true)
@@ -94,34 +94,34 @@ public final class UpProcess implements AutoCloseable {
         return Http.get(ready).body().path("status").asText().equals("ready");
     }
 
-    /** Ends it as {@code kill -9} does. */
+    /** Kills the process like {@code kill -9}. */
     public void kill() throws InterruptedException {
         process.destroyForcibly().waitFor();
     }
 
-    /** What a path of the REST API has. */
+    /** Reads a path of the REST API. */
     public JsonNode get(String path) {
         return Http.get(api(path)).body();
     }
 
-    /** Runs a command of {@code ./furrow} to its end. @return what it printed */
+    /** Runs a command of {@code ./furrow} to its end. @return its output */
     public String run(String... arguments) throws IOException, InterruptedException {
         List<String> all = new ArrayList<>(furrow);
         all.addAll(List.of(arguments));
         all.addAll(List.of("--api", api("").toString()));
         Path output = Files.createTempFile(folder, "command", ".out");
-        Process ran = new ProcessBuilder(all)
+        Process started = new ProcessBuilder(all)
                 .redirectErrorStream(true)
                 .redirectOutput(output.toFile())
                 .start();
-        if (!ran.waitFor(COMMAND_SECONDS, TimeUnit.SECONDS)) {
-            ran.destroyForcibly();
+        if (!started.waitFor(COMMAND_SECONDS, TimeUnit.SECONDS)) {
+            started.destroyForcibly();
             throw new IOException("has not ended within %d s: %s".formatted(COMMAND_SECONDS, all));
         }
         String printed = Files.readString(output);
         Files.delete(output);
-        if (ran.exitValue() != 0) {
-            throw new IOException("%s ended with %d: %s".formatted(all, ran.exitValue(), printed));
+        if (started.exitValue() != 0) {
+            throw new IOException("%s ended with %d: %s".formatted(all, started.exitValue(), printed));
         }
         return printed;
     }

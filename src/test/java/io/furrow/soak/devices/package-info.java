@@ -1,2 +1,2 @@
-/** Two hundred devices that have nothing but an MQTT client and their credentials, on a farm whose parts are killed. */
+/** Two hundred devices with only an MQTT client and their credentials, on a farm whose parts are killed. */
 package io.furrow.soak.devices;

@@ -14,7 +14,7 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
 import io.furrow.model.topic.Topics;
 
-/** What a reader of committed records finds on the topics {@code data.*} that are written by the job. */
+/** Reads the committed records of the topics {@code data.*} that the job writes. */
 final class CommittedTopics implements AutoCloseable {
     private static final Duration TIMEOUT = Duration.ofMinutes(1);
 
@@ -44,7 +44,7 @@ final class CommittedTopics implements AutoCloseable {
         return names;
     }
 
-    /** All records to the end that the topic has now. */
+    /** All records up to the current end of the topic. */
     List<ConsumerRecord<byte[], byte[]>> read(String topic) throws IOException {
         List<TopicPartition> partitions = partitions(topic);
         committed.assign(partitions);
@@ -61,7 +61,7 @@ final class CommittedTopics implements AutoCloseable {
         return records;
     }
 
-    /** The partitions whose committed records end before their last record: readers are held up there. */
+    /** Partitions with records of an open transaction, behind which readers of committed records wait. */
     List<String> behindAnOpenTransaction() {
         List<TopicPartition> all =
                 names().stream().flatMap(name -> partitions(name).stream()).toList();

@@ -15,8 +15,8 @@ import io.furrow.model.topic.Topics;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
- * Numbered records of {@code data.raw}, the same number, the same record: thermometers, robots that name no mission and change
- * it on the way, cameras, and among them repeats, deletions, late events and what becomes dead letters.
+ * Generates records of {@code data.raw} by number: of thermometers, of robots that name no mission and change it
+ * meanwhile, and of cameras; with repeats, deletions, late events and records that become dead letters.
  */
 final class FarmLoad {
     static final int PARTITIONS = 4;
@@ -28,7 +28,7 @@ final class FarmLoad {
 
     private FarmLoad() {}
 
-    /** What {@code service.devices} says of the robots, from the beginning. */
+    /** The versions of the robots on {@code service.devices}. */
     static Stream<DeviceVersion> devices() {
         return ROBOTS.stream()
                 .flatMap(robot -> Stream.of(
@@ -38,7 +38,7 @@ final class FarmLoad {
 
     static ProducerRecord<byte[], byte[]> record(int number) {
         if (number % 50 == 49) {
-            return record(number - 7); // a repeat: the same event id
+            return record(number - 7); // a repeat has the same event id
         }
         long time = TIME + number - (number % 37 == 36 ? 700 : 0);
         String thermometer = "thermometer-" + number % 36;
@@ -51,12 +51,12 @@ final class FarmLoad {
         return switch (number % 10) {
             case 6, 7 -> report(number, time, "robot-" + number % 20, "");
             case 8 -> report(number, time, "camera-" + number % 40, belonging(number) + "," + image(number));
-            case 9 -> report(number, time, "stray-" + number % 30, ""); // of no domain
+            case 9 -> report(number, time, "stray-" + number % 30, ""); // without a domain
             default -> report(number, time, thermometer, belonging(number) + "," + oddity(number));
         };
     }
 
-    /** The last record of a partition, whose event shows that all before it have been read. */
+    /** The last record of a partition: once its event is written, all before it were read. */
     static ProducerRecord<byte[], byte[]> closing(int partition, int number) {
         String id = "closing-" + partition;
         return record(number + partition, partition, TIME + number, id, entity(id, number, belonging(number)));
@@ -71,7 +71,7 @@ final class FarmLoad {
                 + attribute("Mission", number % 3 == 0 ? "\"weeding\"" : "\"sowing\"");
     }
 
-    /** Every 101st camera's image is none. */
+    /** The image of every 101st camera is invalid. */
     private static String image(int number) {
         return attribute(
                 "Image",
@@ -82,7 +82,7 @@ final class FarmLoad {
                         + '"');
     }
 
-    /** Some have a number that no document of MongoDB can hold. */
+    /** Some reports have a number that MongoDB cannot represent. */
     private static String oddity(int number) {
         return attribute("Odd" + number % 5, number % 83 == 82 ? "1234567890".repeat(4) : Integer.toString(number));
     }

@@ -30,7 +30,10 @@ import io.furrow.ingest.IngestOptions;
 
 import static org.awaitility.Awaitility.await;
 
-/** The job {@code ingest}, exactly-once, with missions and images, on a broker and a cluster in this JVM, under load. */
+/**
+ * Runs the job {@code ingest}, exactly-once, with missions and images, on a broker and a cluster in this JVM, under
+ * load.
+ */
 final class FarmRun implements AutoCloseable {
     private static final int SLOTS = 3;
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
@@ -52,15 +55,15 @@ final class FarmRun implements AutoCloseable {
         this.load = new LoadWriter(kafka.bootstrapServers());
     }
 
-    /** Starts servers and load; the job is to be started. */
+    /** Starts servers and load, but not the job. */
     static FarmRun start(Path folder, int records, int perSecond) throws Exception {
         FarmRun run = new FarmRun(folder);
-        run.load.makeTopics();
+        run.load.createTopics();
         run.writing = CompletableFuture.supplyAsync(() -> run.load.write(perSecond, number -> number < records));
         return run;
     }
 
-    /** @param savepoint null to begin from nothing */
+    /** @param savepoint null to start without state */
     void startJob(int parallelism, String savepoint) {
         IngestOptions options = new IngestOptions();
         String[] args = {
@@ -80,7 +83,7 @@ final class FarmRun implements AutoCloseable {
                     SavepointRestoreSettings.forPath(savepoint, false, RecoveryClaimMode.NO_CLAIM));
         }
         job = flink.submit(graph);
-        // Of a job that is being initialized nothing else is told.
+        // A job that is being initialized cannot be queried.
         await().atMost(TIMEOUT).until(() -> flink.status(job) != JobStatus.INITIALIZING);
     }
 
@@ -88,13 +91,13 @@ final class FarmRun implements AutoCloseable {
         await().atMost(TIMEOUT).until(() -> load.written() >= records);
     }
 
-    /** Returns when one more checkpoint is complete than were at the call. */
+    /** Returns once one more checkpoint is complete than at the call. */
     void awaitCheckpoint() throws Exception {
         long before = checkpoints().getNumberOfCompletedCheckpoints();
         await().atMost(TIMEOUT).until(() -> checkpoints().getNumberOfCompletedCheckpoints() > before);
     }
 
-    /** How often the job went on from a checkpoint. */
+    /** How often the job was restored from a checkpoint. */
     long restored() throws Exception {
         return checkpoints().getNumberOfRestoredCheckpoints();
     }
@@ -116,18 +119,18 @@ final class FarmRun implements AutoCloseable {
         return true;
     }
 
-    /** Ends the one there is, with all that it holds, and starts another. */
+    /** Terminates the task manager with all its state, and starts another. */
     void replaceTaskManager() throws Exception {
         flink.cluster().terminateTaskManager(taskManagers++).get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
         flink.cluster().startTaskManager();
     }
 
-    /** Where the savepoint is with which the job ended. */
+    /** Stops the job with a savepoint. @return the savepoint's path */
     String stopJob() throws Exception {
         return stopJob(false);
     }
 
-    /** @param drained whether event time goes to its end first, so that nothing waits for it any more */
+    /** @param drained whether event time first advances to its end, so that nothing waits for it */
     private String stopJob(boolean drained) throws Exception {
         await().atMost(TIMEOUT).until(this::isRunning);
         String target = folder.resolve("savepoints").toUri().toString();
@@ -142,7 +145,7 @@ final class FarmRun implements AutoCloseable {
         }
     }
 
-    /** What the web UI tells of the job's failures, newest first, as JSON. */
+    /** The job's failures from the REST API, newest first, as JSON. */
     private String exceptions() throws Exception {
         HttpRequest request = HttpRequest.newBuilder(
                         flink.webUi().resolve("/jobs/" + job + "/exceptions?maxExceptions=5"))
@@ -152,7 +155,7 @@ final class FarmRun implements AutoCloseable {
                 .body();
     }
 
-    /** What there is when all has come out and the job has ended. */
+    /** Waits for all output and the end of the job, and returns what was written. */
     IngestOutcome outcome() throws Exception {
         writing.get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
         load.awaitOutput(TIMEOUT);

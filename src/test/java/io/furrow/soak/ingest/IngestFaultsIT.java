@@ -11,14 +11,17 @@ import org.junit.jupiter.api.io.TempDir;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** All that the job leaves in topics, collections and files is what a run without faults leaves; long form: {@code ingest-kill}. */
+/** A run with faults writes the same topics, collections and files as a run without; long form: {@code ingest-kill}. */
 @Timeout(300)
 @Tag("soak")
 class IngestFaultsIT {
     private static final int RECORDS = 9_000;
     private static final int PER_SECOND = 1_500;
     private static final int KILLS = 3;
-    /** One length for all: the catalog counts the bytes of events, in which is where images are. */
+    /**
+     * All folder names have the same length, because the catalog counts the bytes of events, which contain the location
+     * of images.
+     */
     private static final String FAULTLESS = "faultless";
 
     @TempDir
@@ -44,7 +47,7 @@ class IngestFaultsIT {
     }
 
     @Test
-    void leavesTheSameWhenItsTaskManagerIsKilledUnderLoad() throws Exception {
+    void writesTheSameIfItsTaskManagerIsKilledUnderLoad() throws Exception {
         long seed = System.nanoTime();
         System.out.println("seed " + seed);
         int[] moments = new Random(seed)
@@ -54,7 +57,7 @@ class IngestFaultsIT {
         try (FarmRun run = FarmRun.start(directory.resolve("killed-it"), RECORDS, PER_SECOND)) {
             run.startJob(2, null);
             run.awaitWritten(moments[0]);
-            run.replaceTaskManager(); // perhaps before the first checkpoint
+            run.replaceTaskManager(); // possibly before the first checkpoint
             for (int i = 1; i < KILLS; i++) {
                 run.awaitCheckpoint();
                 run.awaitWritten(moments[i]);
@@ -68,7 +71,7 @@ class IngestFaultsIT {
     }
 
     @Test
-    void leavesTheSameWhenItGoesOnFromSavepointsAtOtherParallelisms() throws Exception {
+    void writesTheSameIfItContinuesFromSavepointsAtOtherParallelisms() throws Exception {
         try (FarmRun run = FarmRun.start(directory.resolve("resumed-1"), RECORDS, PER_SECOND)) {
             run.startJob(1, null);
             run.awaitWritten(RECORDS / 3);

@@ -27,18 +27,21 @@ import io.furrow.model.topic.Topics;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
- * All that the job left, as sorted lines by topic, collection and folder, to be compared with those of another run.
+ * All that the job wrote, as sorted lines by topic, collection and folder, for comparison with another run.
  *
- * <p>Left out, because two runs differ in it rightly: {@code ts-ingest}, the wall clock at which an event passed; the folder of
- * the images; of {@code data.catalog} all records of a key but the last, because others depend on when event time moved on; files
- * whose names begin with {@code .unfinished-}, left behind by a process that died. The order of records is that of their key; of
- * dead letters that of their key and stage.
+ * <p>Excludes what legitimately differs between runs: {@code ts-ingest}, the wall clock at which an event was
+ * processed; the folder of the images; all records of a key of {@code data.catalog} but the last, because the others
+ * depend on when event time advanced; files whose names begin with {@code .unfinished-}, left by a killed process.
+ * Records are numbered per key; dead letters per key and stage.
  */
 public record IngestOutcome(SortedMap<String, List<String>> lines) {
     private static final String UNFINISHED = ".unfinished-";
-    private static final int SHOWN = 3;
+    private static final int MAX_SHOWN = 3;
 
-    /** Arguments: bootstrap servers, URI of MongoDB, folder of the images, file for the lines; prints how many there are. */
+    /**
+     * Arguments: bootstrap servers, URI of MongoDB, folder of the images, file for the lines; prints the number of
+     * lines.
+     */
     public static void main(String... args) throws IOException {
         IngestOutcome outcome = of(args[0], args[1], Path.of(args[2]));
         try (var out = Files.newBufferedWriter(Path.of(args[3]))) {
@@ -74,7 +77,7 @@ public record IngestOutcome(SortedMap<String, List<String>> lines) {
         return new IngestOutcome(lines);
     }
 
-    /** Each with its number among those of its key. */
+    /** Numbers the records of each key. */
     private static List<String> records(List<ConsumerRecord<byte[], byte[]>> records, String root) {
         Map<String, Integer> numbers = new HashMap<>();
         List<String> lines = new ArrayList<>();
@@ -145,7 +148,7 @@ public record IngestOutcome(SortedMap<String, List<String>> lines) {
         return lines.getOrDefault(place, List.of()).size();
     }
 
-    /** Sentences on what is here and not there, or there and not here; some of each. */
+    /** Describes lines that are only here or only in the other outcome, with some examples. */
     List<String> differencesTo(IngestOutcome other) {
         List<String> differences = new ArrayList<>();
         for (String place : Stream.concat(lines.keySet().stream(), other.lines.keySet().stream())
@@ -166,7 +169,7 @@ public record IngestOutcome(SortedMap<String, List<String>> lines) {
         var existing = new java.util.HashSet<>(others);
         return some.stream()
                 .filter(line -> !existing.contains(line))
-                .limit(SHOWN)
+                .limit(MAX_SHOWN)
                 .map(line -> "only " + where + ": " + line)
                 .toList();
     }

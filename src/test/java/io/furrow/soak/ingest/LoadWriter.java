@@ -27,7 +27,10 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
 
-/** Makes the input topics, writes the {@link FarmLoad} to them at a rate, and waits until the job has brought it out. */
+/**
+ * Creates the input topics, writes the {@link FarmLoad} to them at a rate, and waits until the job has written its
+ * output.
+ */
 public final class LoadWriter {
     private static final Duration TIMEOUT = Duration.ofMinutes(2);
 
@@ -39,32 +42,32 @@ public final class LoadWriter {
     }
 
     /**
-     * Arguments: bootstrap servers, records per second (0: as fast as it goes), and either how many records or a file whose
-     * appearance says that it is enough. The last line says how many there were.
+     * Arguments: bootstrap servers, records per second (0 for no limit), and either the number of records or a file
+     * that ends the load when it exists. The last line of the output is the number of records.
      */
     public static void main(String... args) throws Exception {
         LoadWriter writer = new LoadWriter(args[0]);
-        writer.makeTopics();
+        writer.createTopics();
         System.out.println("writing");
         boolean counted = args[2].matches("\\d+");
         int max = counted ? Integer.parseInt(args[2]) : Integer.MAX_VALUE;
-        Path enough = Path.of(args[2]);
+        Path endFile = Path.of(args[2]);
         int count =
-                writer.write(Integer.parseInt(args[1]), number -> number < max && (counted || !Files.exists(enough)));
+                writer.write(Integer.parseInt(args[1]), number -> number < max && (counted || !Files.exists(endFile)));
         System.out.println("wrote " + count + " records");
-        long begin = System.nanoTime();
+        long startedAt = System.nanoTime();
         writer.awaitOutput(TIMEOUT);
         System.out.printf(
                 "all read %d ms after the last%n",
-                Duration.ofNanos(System.nanoTime() - begin).toMillis());
+                Duration.ofNanos(System.nanoTime() - startedAt).toMillis());
         System.out.println(count);
     }
 
     /**
-     * They keep records of any time: retention goes by the record timestamp. {@code data.latest} is made beforehand and not
-     * compacted, so that all that was written to it can be compared.
+     * Creates topics that retain records of any time, because retention depends on the record timestamp. {@code
+     * data.latest} is created in advance without compaction, so that all records written to it can be compared.
      */
-    void makeTopics() throws ExecutionException, InterruptedException {
+    void createTopics() throws ExecutionException, InterruptedException {
         try (Admin admin = Admin.create(kafka);
                 var producer = producer()) {
             admin.createTopics(List.of(
@@ -85,36 +88,36 @@ public final class LoadWriter {
         return new NewTopic(name, Optional.of(partitions), Optional.empty()).configs(Map.of("retention.ms", "-1"));
     }
 
-    /** @param goOn whether the record of this number is wanted; asked for one number after the other */
-    int write(int perSecond, IntPredicate goOn) {
-        AtomicReference<Exception> lost = new AtomicReference<>();
+    /** @param hasNext whether to write the record with this number; called once per number */
+    int write(int perSecond, IntPredicate hasNext) {
+        AtomicReference<Exception> firstFailure = new AtomicReference<>();
         try (var producer = producer()) {
-            long begin = System.nanoTime();
-            for (; goOn.test(written); written++) {
+            long startedAt = System.nanoTime();
+            for (; hasNext.test(written); written++) {
                 if (perSecond > 0) {
-                    LockSupport.parkNanos(begin + written * 1_000_000_000L / perSecond - System.nanoTime());
+                    LockSupport.parkNanos(startedAt + written * 1_000_000_000L / perSecond - System.nanoTime());
                 }
-                producer.send(FarmLoad.record(written), (done, failure) -> lost.compareAndSet(null, failure));
+                producer.send(FarmLoad.record(written), (done, failure) -> firstFailure.compareAndSet(null, failure));
             }
             for (int partition = 0; partition < FarmLoad.PARTITIONS; partition++) {
                 producer.send(FarmLoad.closing(partition, written));
             }
         }
-        if (lost.get() != null) {
-            throw new IllegalStateException("a record was not written", lost.get());
+        if (firstFailure.get() != null) {
+            throw new IllegalStateException("a record was not written", firstFailure.get());
         }
         return written;
     }
 
-    /** How many records were handed over so far. */
+    /** The number of records sent so far. */
     int written() {
         return written;
     }
 
     /**
-     * Returns when the last event of each partition is committed on the topic of its domain.
+     * Returns once the last event of each partition is committed on the topic of its domain.
      *
-     * @param timeout how long nothing may come out before that
+     * @param timeout maximum time without output
      */
     void awaitOutput(Duration timeout) {
         long until = System.nanoTime() + timeout.toNanos();
@@ -142,7 +145,7 @@ public final class LoadWriter {
         }
     }
 
-    /** False as long as the topic is not there. */
+    /** False until the topic exists. */
     private static boolean assign(KafkaConsumer<byte[], byte[]> consumer) {
         if (consumer.assignment().isEmpty()) {
             consumer.assign(consumer.partitionsFor(Topics.realtime(FarmLoad.DOMAIN)).stream()
@@ -157,7 +160,8 @@ public final class LoadWriter {
         Map<String, Object> settings = new HashMap<>(kafka);
         settings.put("acks", "all");
         settings.put("linger.ms", "5");
-        // Topics just made could refuse the first of two requests and take the second (KAFKA-15591).
+        // With topics that were just created, a broker may reject the first of two requests and accept the second
+        // (KAFKA-15591).
         settings.put("max.in.flight.requests.per.connection", "1");
         return new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
     }

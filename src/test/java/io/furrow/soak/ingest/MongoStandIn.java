@@ -5,11 +5,11 @@ import java.util.concurrent.CountDownLatch;
 
 import io.furrow.embedded.EmbeddedMongo;
 
-/** The stand-in for MongoDB as a process of its own. */
+/** Runs the stand-in for MongoDB as a process. */
 public final class MongoStandIn {
     private MongoStandIn() {}
 
-    /** Arguments: folder, port. Ends when it is killed. */
+    /** Arguments: folder, port. Runs until it is killed. */
     public static void main(String... args) throws InterruptedException {
         EmbeddedMongo.start(Path.of(args[0]), Integer.parseInt(args[1]));
         new CountDownLatch(1).await();

@@ -1,2 +1,2 @@
-/** The job {@code ingest} whose task manager is killed under load, beside the same job undisturbed. */
+/** Kills the task manager of the job {@code ingest} under load, and compares the result with an undisturbed run. */
 package io.furrow.soak.ingest;

@@ -7,7 +7,7 @@ import java.util.List;
 import java.util.SortedMap;
 import java.util.TreeMap;
 
-/** What the topic of a replay holds, by epoch and sequence, and what is wrong with it. */
+/** Collects the records of a replay's topic by epoch and sequence, and finds faults. */
 final class PlayedEpochs {
     private static final String EVENT = "event";
     private static final String END = "end";
@@ -19,7 +19,7 @@ final class PlayedEpochs {
      * A record.
      *
      * @param kind event, prime or end
-     * @param number of the event in its mission; −1 of any other kind
+     * @param number of the event in its mission; −1 for other kinds
      */
     record Entry(String kind, int partition, long number) {}
 
@@ -38,8 +38,8 @@ final class PlayedEpochs {
         return records;
     }
 
-    /** Sequences that are there more than once, ends excepted, which go to every partition. */
-    long doubled() {
+    /** The number of sequences that occur more than once, except ends, which are written to every partition. */
+    long repeated() {
         return epochs.values().stream()
                 .flatMap(epoch -> epoch.values().stream())
                 .filter(entries -> entries.size() > 1 && !isEnd(entries))
@@ -50,7 +50,7 @@ final class PlayedEpochs {
         return entries.stream().allMatch(entry -> entry.kind().equals(END));
     }
 
-    /** Sequences that are missing before the last of an epoch. */
+    /** Sequences that are missing before the last one of an epoch. */
     List<String> gaps() {
         List<String> gaps = new ArrayList<>();
         epochs.forEach((epoch, sequences) -> {
@@ -65,7 +65,7 @@ final class PlayedEpochs {
         return gaps;
     }
 
-    /** Sequences under which there are different events: a number of an epoch that was used again. */
+    /** Sequences with different events: a sequence of an epoch that was reused. */
     List<String> changed() {
         List<String> changed = new ArrayList<>();
         epochs.forEach((epoch, sequences) -> sequences.forEach((sequence, entries) -> {
@@ -81,11 +81,11 @@ final class PlayedEpochs {
         return changed;
     }
 
-    /** What must not be where each record is written exactly once. */
+    /** Faults of a topic on which each record must be exactly once. */
     List<String> faultsOfExactlyOnce(int partitions) {
         List<String> faults = new ArrayList<>();
         epochs.forEach((epoch, sequences) -> {
-            long before = -1;
+            long previous = -1;
             for (var each : sequences.entrySet()) {
                 List<Entry> entries = each.getValue();
                 Entry entry = entries.get(0);
@@ -93,10 +93,10 @@ final class PlayedEpochs {
                     faults.add("epoch %d: %d is there %d times".formatted(epoch, each.getKey(), entries.size()));
                 }
                 if (entry.kind().equals(EVENT)) {
-                    if (before >= 0 && entry.number() != before + 1) {
-                        faults.add("epoch %d: event %d follows event %d".formatted(epoch, entry.number(), before));
+                    if (previous >= 0 && entry.number() != previous + 1) {
+                        faults.add("epoch %d: event %d follows event %d".formatted(epoch, entry.number(), previous));
                     }
-                    before = entry.number();
+                    previous = entry.number();
                 }
             }
             List<Entry> last = sequences.get(sequences.lastKey());

@@ -19,7 +19,7 @@ class PlayedEpochsTest {
     }
 
     @Test
-    void findsNothingWhereEachEpochIsWhole() {
+    void findsNoFaultInCompleteEpochs() {
         epochs.add(0, 0, new Entry("prime", 1, -1));
         event(0, 1, 7);
         event(0, 2, 8);
@@ -29,12 +29,12 @@ class PlayedEpochsTest {
 
         assertThat(epochs.gaps()).isEmpty();
         assertThat(epochs.faultsOfExactlyOnce(2)).isEmpty();
-        assertThat(epochs.doubled()).isZero();
+        assertThat(epochs.repeated()).isZero();
         assertThat(epochs.count()).isEqualTo(2);
     }
 
     @Test
-    void findsALostEvent() {
+    void findsAMissingEvent() {
         event(3, 0, 0);
         event(3, 2, 2);
         end(3, 3);
@@ -43,25 +43,25 @@ class PlayedEpochsTest {
     }
 
     @Test
-    void findsALostBeginning() {
+    void findsAMissingFirstEvent() {
         event(0, 1, 1);
 
         assertThat(epochs.gaps()).containsExactly("epoch 0: 0 to 0 are missing");
     }
 
     @Test
-    void findsWhatIsDoubled() {
+    void findsRepeatedRecords() {
         event(0, 0, 0);
         event(0, 0, 0);
         end(0, 1);
 
-        assertThat(epochs.doubled()).isEqualTo(1);
+        assertThat(epochs.repeated()).isEqualTo(1);
         assertThat(epochs.gaps()).isEmpty();
         assertThat(epochs.faultsOfExactlyOnce(2)).containsExactly("epoch 0: 0 is there 2 times");
     }
 
     @Test
-    void findsAnEpochThatWasUsedAgain() {
+    void findsAReusedSequence() {
         event(0, 0, 4);
         event(0, 1, 5);
         event(0, 0, 4);
@@ -71,7 +71,7 @@ class PlayedEpochsTest {
     }
 
     @Test
-    void findsAnEventThatIsNotTheNextOfItsMission() {
+    void findsASkippedEvent() {
         event(0, 0, 4);
         event(0, 1, 6);
         end(0, 2);

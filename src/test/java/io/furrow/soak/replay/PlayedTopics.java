@@ -14,38 +14,38 @@ import io.furrow.soak.replay.PlayedEpochs.Entry;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** Reads the topics of all steered replays and says what is wrong with them. */
+/** Reads the topics of all steered replays and prints their faults. */
 public final class PlayedTopics {
-    private static final int SHOWN = 20;
+    private static final int MAX_SHOWN = 20;
 
     private final String bootstrapServers;
-    private final String plant;
+    private final String fault;
     private final Random random;
 
-    private PlayedTopics(String bootstrapServers, String plant, long seed) {
+    private PlayedTopics(String bootstrapServers, String fault, long seed) {
         this.bootstrapServers = bootstrapServers;
-        this.plant = plant;
+        this.fault = fault;
         this.random = new Random(seed);
     }
 
     /**
-     * Arguments: bootstrap servers, at-least-once or exactly-once, number of replays, what to plant (none, lost, doubled), seed. The exit
-     * code is 0 where nothing is wrong.
+     * Arguments: bootstrap servers, at-least-once or exactly-once, number of replays, fault to insert (none, lost,
+     * doubled), seed. The exit code is 0 if there are no faults.
      */
     public static void main(String... args) throws UnreadableException {
         PlayedTopics topics = new PlayedTopics(args[0], args[3], Long.parseLong(args[4]));
         boolean exactlyOnce = args[1].equals("exactly-once");
-        int wrong = 0;
+        int faults = 0;
         for (int i = 0; i < Integer.parseInt(args[2]); i++) {
-            wrong += topics.check(SteeredReplay.topic(i), exactlyOnce);
+            faults += topics.check(SteeredReplay.topic(i), exactlyOnce);
         }
-        System.exit(wrong == 0 ? 0 : 1);
+        System.exit(faults == 0 ? 0 : 1);
     }
 
     private int check(String topic, boolean exactlyOnce) throws UnreadableException {
         List<ConsumerRecord<String, byte[]>> records = new ArrayList<>();
         CommittedState.read(bootstrapServers, List.of(topic), records::add);
-        plant(records);
+        insertFault(records);
         PlayedEpochs epochs = new PlayedEpochs();
         int partitions = 0;
         for (ConsumerRecord<String, byte[]> record : records) {
@@ -62,21 +62,21 @@ public final class PlayedTopics {
         }
         System.out.printf(
                 "%s: %d epochs, %d records, %d sequences more than once, %d faults%n",
-                topic, epochs.count(), epochs.records(), epochs.doubled(), faults.size());
-        faults.stream().limit(SHOWN).forEach(fault -> System.out.println("    " + fault));
+                topic, epochs.count(), epochs.records(), epochs.repeated(), faults.size());
+        faults.stream().limit(MAX_SHOWN).forEach(each -> System.out.println("    " + each));
         return faults.size() + (records.isEmpty() ? 1 : 0);
     }
 
-    /** As if one of the records were not there, or twice. */
-    private void plant(List<ConsumerRecord<String, byte[]>> records) {
-        if (plant.equals("none")) {
+    /** Removes or repeats a record. */
+    private void insertFault(List<ConsumerRecord<String, byte[]>> records) {
+        if (fault.equals("none")) {
             return;
         }
         int index = random.nextInt(records.size());
         while (!header(records.get(index), HeaderNames.REPLAY_KIND).equals("event")) {
             index = random.nextInt(records.size());
         }
-        if (plant.equals("lost")) {
+        if (fault.equals("lost")) {
             records.remove(index);
         } else {
             records.add(records.get(index));

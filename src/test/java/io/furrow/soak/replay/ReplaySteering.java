@@ -31,10 +31,10 @@ import io.furrow.model.topic.Topics;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** Stores missions, lets them be replayed, steers the replays at random until it is enough, and stops them. */
+/** Stores missions, starts replays of them, sends random commands until a file exists, and stops the replays. */
 public final class ReplaySteering {
-    private static final long MIN_MILLIS = 200;
-    private static final int MORE_MILLIS = 1_500;
+    private static final int MIN_MILLIS = 200;
+    private static final int MAX_MILLIS = 1_700;
     private static final Duration TIMEOUT = Duration.ofMinutes(3);
 
     private final Map<String, Object> kafka;
@@ -48,8 +48,8 @@ public final class ReplaySteering {
     }
 
     /**
-     * Arguments: bootstrap servers, URI of MongoDB, number of replays, seed, and a file whose appearance says that it is enough. Returns when
-     * all replays are stopped and settled.
+     * Arguments: bootstrap servers, URI of MongoDB, number of replays, seed, and a file that ends the run when it
+     * exists. Returns once all replays are stopped and settled.
      */
     public static void main(String... args) throws Exception {
         ReplaySteering steering = new ReplaySteering(args[0], Integer.parseInt(args[2]), Long.parseLong(args[3]));
@@ -58,11 +58,11 @@ public final class ReplaySteering {
                 replay.store(client);
             }
         }
-        steering.makeTopics();
+        steering.createTopics();
         steering.run(Path.of(args[4]));
     }
 
-    private void makeTopics() throws Exception {
+    private void createTopics() throws Exception {
         try (Admin admin = Admin.create(kafka)) {
             admin.createTopics(List.of(compacted(Topics.REPLAYS), compacted(Topics.REPLAYS_STATUS)))
                     .all()
@@ -74,55 +74,55 @@ public final class ReplaySteering {
         return new NewTopic(name, Optional.of(1), Optional.empty()).configs(Map.of("cleanup.policy", "compact"));
     }
 
-    private void run(Path enough) throws Exception {
-        Map<String, Integer> given = new TreeMap<>();
+    private void run(Path endFile) throws Exception {
+        Map<String, Integer> commands = new TreeMap<>();
         try (var producer = new KafkaProducer<>(kafka, new ByteArraySerializer(), new ByteArraySerializer())) {
             for (SteeredReplay replay : replays) {
-                desire(replay, producer);
+                write(replay, producer);
             }
             System.out.println("steering");
-            while (!Files.exists(enough)) {
-                LockSupport.parkNanos(Duration.ofMillis(MIN_MILLIS + random.nextInt(MORE_MILLIS))
+            while (!Files.exists(endFile)) {
+                LockSupport.parkNanos(Duration.ofMillis(random.nextInt(MIN_MILLIS, MAX_MILLIS))
                         .toNanos());
                 SteeredReplay replay = replays.get(random.nextInt(replays.size()));
-                given.merge(replay.steer(random), 1, Integer::sum);
-                desire(replay, producer);
+                commands.merge(replay.steer(random), 1, Integer::sum);
+                write(replay, producer);
             }
             for (SteeredReplay replay : replays) {
                 replay.stop();
-                desire(replay, producer);
+                write(replay, producer);
             }
         }
         awaitStopped();
-        System.out.println("steered: " + given);
+        System.out.println("steered: " + commands);
     }
 
-    private static void desire(SteeredReplay replay, KafkaProducer<byte[], byte[]> producer) throws Exception {
+    private static void write(SteeredReplay replay, KafkaProducer<byte[], byte[]> producer) throws Exception {
         byte[] key = replay.desired().replay().getBytes(UTF_8);
         producer.send(new ProducerRecord<>(Topics.REPLAYS, key, replay.desired().toBytes()))
                 .get();
     }
 
     private void awaitStopped() throws UnreadableException {
-        Set<String> open =
+        Set<String> pending =
                 replays.stream().map(replay -> replay.desired().replay()).collect(Collectors.toSet());
         long until = System.nanoTime() + TIMEOUT.toNanos();
         TopicPartition statuses = new TopicPartition(Topics.REPLAYS_STATUS, 0);
         try (var consumer = new KafkaConsumer<>(kafka, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
             consumer.assign(List.of(statuses));
             consumer.seekToBeginning(List.of(statuses));
-            while (!open.isEmpty()) {
+            while (!pending.isEmpty()) {
                 for (ConsumerRecord<byte[], byte[]> record : consumer.poll(Duration.ofMillis(200))) {
                     ReplayStatus status = ReplayStatus.read(record.value());
                     if (status.state() == ReplayStatus.State.FAILED) {
                         throw new IllegalStateException("a replay failed: " + status.reason());
                     }
                     if (status.state() == ReplayStatus.State.STOPPED && status.settled()) {
-                        open.remove(new String(record.key(), UTF_8));
+                        pending.remove(new String(record.key(), UTF_8));
                     }
                 }
                 if (System.nanoTime() > until) {
-                    throw new IllegalStateException("not stopped after " + TIMEOUT + ": " + open);
+                    throw new IllegalStateException("not stopped after " + TIMEOUT + ": " + pending);
                 }
             }
         }

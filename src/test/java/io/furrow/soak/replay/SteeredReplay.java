@@ -22,14 +22,14 @@ import io.furrow.model.control.ReplayStatus.State;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/** A mission of numbered events that is played over and over, and what is wanted of its replay. */
+/** A mission of numbered events that is replayed in a loop, and the desired state of its replay. */
 final class SteeredReplay {
-    /** The attribute that holds an event's number. */
+    /** The attribute with an event's number. */
     static final String NUMBER = "n";
 
     private static final long TIME = 1_600_000_000_000L;
     private static final int EVENTS = 2_000;
-    private static final int APART = 20;
+    private static final int INTERVAL_MS = 20;
     private static final int DEVICES = 5;
     private static final double[] SPEEDS = {0.5, 1, 2, 5, 20, ReplayCommand.MAX};
     private static final ReplayPlan LOOP =
@@ -63,14 +63,14 @@ final class SteeredReplay {
             ObjectNode entity =
                     JsonNodeFactory.instance.objectNode().put("id", id).put("type", "Robot");
             entity.putObject(NUMBER).put("type", "Integer").put("value", i).putObject("metadata");
-            StoredEvent event =
-                    new StoredEvent("e%05d".formatted(i), TIME + i * APART, id, Map.of("ce_source", "/soak"), entity);
+            StoredEvent event = new StoredEvent(
+                    "e%05d".formatted(i), TIME + i * INTERVAL_MS, id, Map.of("ce_source", "/soak"), entity);
             events.add(new RawBsonDocument(EventDocumentCodec.write(event)));
         }
         missions.prepared(MissionCollections.nameOf(mission(index))).insertMany(events);
     }
 
-    /** Changes what is wanted at random. @return the command's name */
+    /** Changes the desired state at random. @return the command's name */
     String steer(Random random) {
         long next = desired.sequence() + 1;
         boolean paused = desired.desired() == State.PAUSED;
@@ -80,7 +80,7 @@ final class SteeredReplay {
                 return paused ? "resume" : "pause";
             }
             case 1 -> {
-                desired = desired.seeking(TIME + random.nextInt(EVENTS * APART), next);
+                desired = desired.seeking(TIME + random.nextInt(EVENTS * INTERVAL_MS), next);
                 return "seek";
             }
             case 2 -> {

@@ -1,2 +1,2 @@
-/** The job replay while its task manager is killed and its replays are steered: what its topics hold by epoch. */
+/** Checks the topics of replays by epoch, while the job's task manager is killed and its replays receive commands. */
 package io.furrow.soak.replay;

@@ -14,7 +14,7 @@ import io.furrow.model.event.HeaderNames;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** Which changes are on {@code data.raw}, committed; grows with each reading. */
+/** Counts the committed changes on {@code data.raw}; each read adds the new ones. */
 final class ChangesOnTopic implements AutoCloseable {
     private final CommittedRecords records;
     private final Map<NumberedChange, Integer> notified = new HashMap<>();
@@ -28,7 +28,7 @@ final class ChangesOnTopic implements AutoCloseable {
         records = new CommittedRecords(bootstrapServers);
     }
 
-    /** Reads to the end that the topic has now. */
+    /** Reads to the current end of the topic. */
     void read() {
         records.read(this::count);
     }
@@ -41,8 +41,8 @@ final class ChangesOnTopic implements AutoCloseable {
             notified.merge(change, 1, Integer::sum);
         }
         String id = text(record, HeaderNames.CE_ID);
-        String before = ids.putIfAbsent(change, id);
-        differentIds += before == null || before.equals(id) ? 0 : 1;
+        String existing = ids.putIfAbsent(change, id);
+        differentIds += existing == null || existing.equals(id) ? 0 : 1;
         newest.merge(change.entity(), change.number(), Math::max);
         last.put(change.entity(), change.number());
     }
@@ -60,12 +60,12 @@ final class ChangesOnTopic implements AutoCloseable {
         return header == null ? "" : new String(header.value(), UTF_8);
     }
 
-    /** Records of this change that a notification brought. */
+    /** The number of records of a change that come from notifications. */
     int notified(NumberedChange change) {
         return notified.getOrDefault(change, 0);
     }
 
-    /** Whether the newest that is known of each of these entities is this. */
+    /** Changes that are not the newest ones on the topic for their entity. */
     List<NumberedChange> notNewest(List<NumberedChange> expected) {
         List<NumberedChange> other = new ArrayList<>();
         for (NumberedChange change : expected) {
@@ -76,7 +76,7 @@ final class ChangesOnTopic implements AutoCloseable {
         return other;
     }
 
-    /** Entities whose last record is older than another before it. */
+    /** The number of entities whose last record is older than an earlier one. */
     int lastIsOlder() {
         return (int) last.entrySet().stream()
                 .filter(entity -> entity.getValue() < newest.get(entity.getKey()))
@@ -87,12 +87,12 @@ final class ChangesOnTopic implements AutoCloseable {
         return notified.values().stream().mapToInt(Integer::intValue).sum();
     }
 
-    /** Records that the repair brought. */
+    /** The number of records that the repair wrote. */
     int repaired() {
         return repaired;
     }
 
-    /** Records of a change that had a record with another {@code ce_id} before. */
+    /** The number of records of a change that differ in {@code ce_id} from its first record. */
     int differentIds() {
         return differentIds;
     }

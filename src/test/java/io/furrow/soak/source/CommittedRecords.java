@@ -12,7 +12,7 @@ import org.apache.kafka.common.TopicPartition;
 import io.furrow.model.topic.Topics;
 import io.furrow.soak.CommittedState;
 
-/** The committed records of {@code data.raw}, from the beginning on. */
+/** Reads the committed records of {@code data.raw} from the beginning. */
 final class CommittedRecords implements AutoCloseable {
     private final String bootstrapServers;
     private final KafkaConsumer<String, byte[]> consumer;
@@ -23,12 +23,12 @@ final class CommittedRecords implements AutoCloseable {
         CommittedState.assign(consumer, List.of(Topics.RAW));
     }
 
-    /** Reads on to the end that the topic has now, also through transactions that are just being ended. */
+    /** Reads to the current end of the topic, and waits for transactions that are about to end. */
     void read(Consumer<ConsumerRecord<String, byte[]>> reader) {
         Map<TopicPartition, Long> ends = endsWithOpenTransactions();
-        long timeout = System.nanoTime() + Duration.ofSeconds(120).toNanos();
+        long deadline = System.nanoTime() + Duration.ofSeconds(120).toNanos();
         while (ends.entrySet().stream().anyMatch(end -> consumer.position(end.getKey()) < end.getValue())) {
-            if (System.nanoTime() > timeout) {
+            if (System.nanoTime() > deadline) {
                 throw new IllegalStateException("the topic cannot be read to its end: a transaction is open");
             }
             consumer.poll(Duration.ofMillis(100)).forEach(reader);
@@ -36,8 +36,8 @@ final class CommittedRecords implements AutoCloseable {
     }
 
     private Map<TopicPartition, Long> endsWithOpenTransactions() {
-        try (var any = CommittedState.consumer(bootstrapServers, "read_uncommitted")) {
-            return any.endOffsets(consumer.assignment());
+        try (var uncommitted = CommittedState.consumer(bootstrapServers, "read_uncommitted")) {
+            return uncommitted.endOffsets(consumer.assignment());
         }
     }
 

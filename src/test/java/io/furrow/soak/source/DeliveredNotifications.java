@@ -10,7 +10,7 @@ import io.furrow.model.event.HeaderNames;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** What of the numbered notifications is on {@code data.raw}, committed; grows with each reading. */
+/** Counts the committed records of numbered notifications on {@code data.raw}; each read adds the new ones. */
 final class DeliveredNotifications implements AutoCloseable {
     private final CommittedRecords records;
     private final Map<Integer, String> events = new HashMap<>();
@@ -21,7 +21,7 @@ final class DeliveredNotifications implements AutoCloseable {
         records = new CommittedRecords(bootstrapServers);
     }
 
-    /** Reads to the end that the topic has now. */
+    /** Reads to the current end of the topic. */
     void read() {
         records.read(this::count);
     }
@@ -29,14 +29,14 @@ final class DeliveredNotifications implements AutoCloseable {
     private void count(ConsumerRecord<String, byte[]> record) {
         int number = Integer.parseInt(record.key().substring(record.key().lastIndexOf(':') + 1));
         String event = new String(record.headers().lastHeader(HeaderNames.CE_ID).value(), UTF_8);
-        String before = events.putIfAbsent(number, event);
-        if (before != null) {
+        String existing = events.putIfAbsent(number, event);
+        if (existing != null) {
             repeated++;
-            repeatedWithAnotherId += before.equals(event) ? 0 : 1;
+            repeatedWithAnotherId += existing.equals(event) ? 0 : 1;
         }
     }
 
-    /** How many of these are not there. */
+    /** The number of acknowledged notifications that are missing. */
     int missingOf(BitSet acknowledged) {
         return (int) acknowledged.stream()
                 .filter(number -> !events.containsKey(number))
@@ -47,12 +47,12 @@ final class DeliveredNotifications implements AutoCloseable {
         return events.size();
     }
 
-    /** Records that were there before. */
+    /** The number of repeated records. */
     int repeated() {
         return repeated;
     }
 
-    /** Those of them whose {@code ce_id} differs from the first. */
+    /** The number of repeated records whose {@code ce_id} differs from the first. */
     int repeatedWithAnotherId() {
         return repeatedWithAnotherId;
     }

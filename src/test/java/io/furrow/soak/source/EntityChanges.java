@@ -14,7 +14,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.soak.control.Http;
 
-/** Changes entities at a context broker, one after another at a rate, each entity from one thread. */
+/** Changes entities at a context broker at a rate; each entity is changed by one thread. */
 final class EntityChanges implements AutoCloseable {
     private static final int THREADS = 4;
     private static final String FILLING = "x".repeat(700);
@@ -23,8 +23,8 @@ final class EntityChanges implements AutoCloseable {
     private final long nanosPerChange;
     private final AtomicIntegerArray newest;
     private final List<Thread> threads = new ArrayList<>();
-    private volatile boolean held = true;
-    private volatile boolean ended;
+    private volatile boolean paused = true;
+    private volatile boolean closed;
 
     private EntityChanges(URI contextBroker, int entityCount, int perSecond) {
         entities = URI.create(contextBroker + "/v2/entities?options=upsert");
@@ -32,7 +32,7 @@ final class EntityChanges implements AutoCloseable {
         newest = new AtomicIntegerArray(entityCount);
     }
 
-    /** Nothing changes before {@link #goOn}. */
+    /** Starts paused; {@link #resume} begins. */
     static EntityChanges prepare(URI contextBroker, int entityCount, int perSecond) {
         EntityChanges changes = new EntityChanges(contextBroker, entityCount, perSecond);
         for (int i = 0; i < THREADS; i++) {
@@ -48,8 +48,8 @@ final class EntityChanges implements AutoCloseable {
     private void change(int first) {
         int entity = first;
         long next = System.nanoTime();
-        while (!ended) {
-            if (held) {
+        while (!closed) {
+            if (paused) {
                 LockSupport.parkNanos(Duration.ofMillis(20).toNanos());
                 next = System.nanoTime();
                 continue;
@@ -57,7 +57,7 @@ final class EntityChanges implements AutoCloseable {
             LockSupport.parkNanos(next - System.nanoTime());
             next += nanosPerChange;
             synchronized (Thread.currentThread()) {
-                if (!held) {
+                if (!paused) {
                     post(new NumberedChange(entity, newest.get(entity) + 1));
                 }
             }
@@ -77,23 +77,23 @@ final class EntityChanges implements AutoCloseable {
         newest.set(change.entity(), change.number());
     }
 
-    void goOn() {
-        held = false;
+    void resume() {
+        paused = false;
     }
 
-    /** Returns when no change is under way any more. */
-    void hold() {
-        held = true;
+    /** Returns once no change is being sent. */
+    void pause() {
+        paused = true;
         for (Thread thread : threads) {
             synchronized (thread) {
                 if (!thread.isAlive()) {
-                    throw new IllegalStateException("a change was refused; see the output above");
+                    throw new IllegalStateException("a change was rejected; see the output above");
                 }
             }
         }
     }
 
-    /** The newest state of each entity; {@link #hold} first. */
+    /** The newest state of each entity; call {@link #pause} first. */
     List<NumberedChange> newest() {
         return IntStream.range(0, newest.length())
                 .mapToObj(i -> new NumberedChange(i, newest.get(i)))
@@ -102,6 +102,6 @@ final class EntityChanges implements AutoCloseable {
 
     @Override
     public void close() {
-        ended = true;
+        closed = true;
     }
 }

@@ -21,64 +21,65 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.stub.StubServer;
 
 /**
- * Stands between a context broker and the listeners of the tasks, and remembers which changes each answered 2xx. A listener that
- * gives no answer gives none here either: the connection is closed. What is posted to {@code /<port>/…} goes to that port.
+ * Forwards notifications from a context broker to the listeners of the tasks, and stores which changes were answered
+ * 2xx. If a listener does not answer, the connection is closed. Requests to {@code /<port>/…} are forwarded to that
+ * port.
  */
 final class NotificationTap implements AutoCloseable {
     private static final Duration TIMEOUT = Duration.ofSeconds(10);
     private static final Set<String> OWN_HEADERS =
             Set.of("host", "connection", "content-length", "expect", "upgrade", "transfer-encoding", "accept-encoding");
 
-    private final StubServer server = new StubServer(this::pass);
+    private final StubServer server = new StubServer(this::forward);
     private final HttpClient client = HttpClient.newBuilder()
             .version(HttpClient.Version.HTTP_1_1)
             .connectTimeout(Duration.ofSeconds(2))
             .build();
     private final Map<NumberedChange, ConcurrentLinkedQueue<Try>> tries = new ConcurrentHashMap<>();
-    private final AtomicInteger underWay = new AtomicInteger();
+    private final AtomicInteger pending = new AtomicInteger();
     private volatile PlantedFault fault = PlantedFault.NONE;
 
-    /** One notification of a change to the listener on a port. @param status 0 without an answer */
+    /** A notification of a change to the listener on a port. @param status 0 without a response */
     record Try(int port, int status) {
         boolean isAcknowledged() {
             return status / 100 == 2;
         }
     }
 
-    /** The address of a source behind it; {@code {port}} is for the source to fill in. */
+    /** The address for a source behind the tap; the source replaces {@code {port}}. */
     String publicUrl() {
         return server.uri("") + "/{port}/v2/notify";
     }
 
-    /** The next notification is treated so. */
-    void plant(PlantedFault next) {
+    /** Applies a fault to the next notification. */
+    void insertFault(PlantedFault next) {
         fault = next;
     }
 
-    private void pass(HttpExchange exchange) throws IOException {
-        underWay.incrementAndGet();
+    private void forward(HttpExchange exchange) throws IOException {
+        pending.incrementAndGet();
         try (exchange) {
             byte[] body = exchange.getRequestBody().readAllBytes();
             String[] path = exchange.getRequestURI().getPath().split("/", 3);
             int port = Integer.parseInt(path[1]);
-            PlantedFault planted = takeFault();
-            int status = planted == PlantedFault.LOSE ? 200 : send(port, "/" + path[2], exchange, body);
-            if (planted == PlantedFault.REPEAT) {
+            PlantedFault current = removeFault();
+            int status = current == PlantedFault.LOSE ? 200 : send(port, "/" + path[2], exchange, body);
+            if (current == PlantedFault.REPEAT) {
                 send(port, "/" + path[2], exchange, body);
             }
-            remember(body, new Try(port, status));
+            store(body, new Try(port, status));
             if (status > 0) {
                 exchange.sendResponseHeaders(status, -1);
             }
         } finally {
-            underWay.decrementAndGet();
+            pending.decrementAndGet();
         }
     }
 
-    private synchronized PlantedFault takeFault() {
-        PlantedFault taken = fault;
+    private synchronized PlantedFault removeFault() {
+        PlantedFault current = fault;
         fault = PlantedFault.NONE;
-        return taken;
+        return current;
     }
 
     private int send(int port, String path, HttpExchange from, byte[] body) {
@@ -101,7 +102,7 @@ final class NotificationTap implements AutoCloseable {
         }
     }
 
-    private void remember(byte[] body, Try tried) throws IOException {
+    private void store(byte[] body, Try tried) throws IOException {
         for (JsonNode entity : NgsiJson.mapper().readTree(body).path("data")) {
             tries.computeIfAbsent(NumberedChange.of(entity), change -> new ConcurrentLinkedQueue<>())
                     .add(tried);
@@ -109,15 +110,15 @@ final class NotificationTap implements AutoCloseable {
     }
 
     boolean isIdle() {
-        return underWay.get() == 0;
+        return pending.get() == 0;
     }
 
-    /** Every change that was notified. */
+    /** All notified changes. */
     Set<NumberedChange> changes() {
         return tries.keySet();
     }
 
-    /** What became of its notifications. */
+    /** The notifications of a change. */
     List<Try> tries(NumberedChange change) {
         return List.copyOf(tries.get(change));
     }

@@ -6,7 +6,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 
-/** One change of one entity: the value that its attribute {@code Number} got, which grows by one each time. */
+/** A change of an entity: the value of its attribute {@code Number}, which is incremented by each change. */
 record NumberedChange(int entity, int number) {
     static final String TYPE = "Thermometer";
 

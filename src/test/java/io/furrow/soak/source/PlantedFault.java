@@ -1,12 +1,12 @@
 package io.furrow.soak.source;
 
-/** What a soak can be told to do wrong, to show that its checks see it. */
+/** A fault that a soak can insert to show that its checks detect it. */
 enum PlantedFault {
     NONE,
-    /** A notification is answered 200 and goes nowhere. */
+    /** A notification is answered 200 and dropped. */
     LOSE,
-    /** A notification goes to the listener twice, and is known of as one. */
+    /** A notification is sent to the listener twice but counted once. */
     REPEAT,
-    /** A journal is taken from a disk while its worker is away. */
+    /** A journal is deleted from a disk while its worker is stopped. */
     TAKE_JOURNAL
 }

@@ -17,26 +17,26 @@ import static java.nio.charset.StandardCharsets.US_ASCII;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
- * Connections that send numbered notifications of about 1 kB at a rate, each once, and remember which were answered 200. A
- * connection that breaks is made again for the next number.
+ * Connections that send numbered notifications of about 1 kB at a rate, each once, and store which were answered 200. A
+ * broken connection is replaced for the next number.
  */
 final class Senders {
     static final int CONNECTIONS = 16;
-    /** Kafka keeps records by their time, which is that of the event: an old one would be deleted. */
+    /** The current time, because retention depends on the time of the event. */
     private static final long TIME = System.currentTimeMillis();
 
     private static final String FILLING = "x".repeat(700);
 
     private final int port;
     private final long nanosPerNotification;
-    private final long begin = System.nanoTime();
+    private final long startedAt = System.nanoTime();
     private final int first;
     private final AtomicInteger next;
     private final BitSet acknowledged;
     private final List<Thread> threads = new ArrayList<>();
-    private volatile boolean ending;
+    private volatile boolean stopped;
 
-    /** @param acknowledged the numbers that were answered 200; grows */
+    /** @param acknowledged receives the numbers that were answered 200 */
     private Senders(int port, int perSecond, int first, BitSet acknowledged) {
         this.port = port;
         this.nanosPerNotification = Duration.ofSeconds(1).toNanos() / perSecond;
@@ -56,16 +56,16 @@ final class Senders {
         return senders;
     }
 
-    /** The first number that was not given to a notification. */
+    /** The first number that was not used. */
     int next() {
         return next.get();
     }
 
     private void send() {
         Socket socket = null;
-        while (!ending) {
+        while (!stopped) {
             int number = next.getAndIncrement();
-            LockSupport.parkNanos(begin + (number - first) * nanosPerNotification - System.nanoTime());
+            LockSupport.parkNanos(startedAt + (number - first) * nanosPerNotification - System.nanoTime());
             try {
                 if (socket == null) {
                     socket = connect();
@@ -76,7 +76,7 @@ final class Senders {
                     }
                 }
             } catch (IOException e) {
-                // What has no answer is not counted; an Orion would not send it again either.
+                // without an answer a notification is not counted; Orion does not retry either
                 closeQuietly(socket);
                 socket = null;
             }
@@ -138,13 +138,13 @@ final class Senders {
                 socket.close();
             }
         } catch (IOException e) {
-            // it is of no use any more
+            // the socket is not used any more
         }
     }
 
-    /** Returns when every connection has its last answer. */
+    /** Returns once every connection has received its last answer. */
     void stop() {
-        ending = true;
+        stopped = true;
         for (Thread thread : threads) {
             try {
                 thread.join(20_000);

@@ -20,12 +20,12 @@ import io.furrow.process.Ports;
 import io.furrow.soak.control.Http;
 import io.furrow.soak.control.Until;
 
-/** The workers of one Connect group, each with its disk and its address, and the source with three tasks that runs on them. */
+/** The workers of a Connect group, each with its own disk and address, and a source with three tasks. */
 final class SourceGroup implements AutoCloseable {
     static final int TASKS = 3;
 
     private static final Duration TIMEOUT = Duration.ofSeconds(120);
-    /** A killed worker keeps its tasks until the group misses it. */
+    /** The tasks of a killed worker are reassigned after the session timeout. */
     private static final String[] SETTINGS = """
             session.timeout.ms=6000 heartbeat.interval.ms=2000 config.providers=env
             config.providers.env.class=org.apache.kafka.common.config.provider.EnvVarConfigProvider""".split("\\s+");
@@ -42,7 +42,7 @@ final class SourceGroup implements AutoCloseable {
         this.exactlyOnce = exactlyOnce;
     }
 
-    /** A worker. @param port of the first task; task i has this one + i */
+    /** A worker. @param port of the first task; task i listens on port + i */
     record Member(String name, Path disk, int port, WorkerProcess process, WorkerGauges gauges) {
         /** Whether one of the tasks listens on this port when it runs here. */
         boolean has(int listener) {
@@ -55,22 +55,22 @@ final class SourceGroup implements AutoCloseable {
         }
     }
 
-    /** Starts a worker with this disk, which may be there already, at an address of its own. */
+    /** Starts a worker with a new or existing disk, at an address of its own. */
     Member join(String name, String disk) throws IOException {
-        Path own = folder.resolve(disk).toAbsolutePath();
+        Path path = folder.resolve(disk).toAbsolutePath();
         int port = freePorts();
         Map<String, String> environment =
-                Map.of("FURROW_JOURNAL", own.resolve("journal").toString(), "FURROW_PORT", Integer.toString(port));
+                Map.of("FURROW_JOURNAL", path.resolve("journal").toString(), "FURROW_PORT", Integer.toString(port));
         WorkerProcess process = new WorkerProcess(
                 folder.resolve(name), bootstrapServers, environment, SourceWorker.settings(exactlyOnce, SETTINGS));
-        Member member = new Member(name, own, port, process, new WorkerGauges(process.jmxPort()));
+        Member member = new Member(name, path, port, process, new WorkerGauges(process.jmxPort()));
         members.add(member);
-        departed.removeIf(other -> other.disk().equals(own));
+        departed.removeIf(other -> other.disk().equals(path));
         process.start();
         return member;
     }
 
-    /** The same worker again, on its disk and at its address. */
+    /** Starts the same worker again, with its disk and address. */
     void restart(Member member) throws IOException {
         member.process().start();
         members.add(member);
@@ -93,7 +93,7 @@ final class SourceGroup implements AutoCloseable {
         return List.copyOf(members);
     }
 
-    /** Those that were killed or stopped, and whose disk no other has. */
+    /** Workers that were killed or stopped, and whose disk no other worker uses. */
     List<Member> departed() {
         return List.copyOf(departed);
     }
@@ -119,11 +119,11 @@ final class SourceGroup implements AutoCloseable {
     }
 
     private void change(String verb) {
-        ObjectNode nothing = JsonNodeFactory.instance.objectNode();
+        ObjectNode empty = JsonNodeFactory.instance.objectNode();
         Until.isTrue(
                 verb,
                 TIMEOUT,
-                () -> Http.send("PUT", connectors("/" + SourceWorker.CONNECTOR + "/" + verb), NgsiJson.write(nothing))
+                () -> Http.send("PUT", connectors("/" + SourceWorker.CONNECTOR + "/" + verb), NgsiJson.write(empty))
                                         .join()
                                         .status()
                                 / 100
@@ -139,7 +139,7 @@ final class SourceGroup implements AutoCloseable {
         return members.get(0).process().connectors(path);
     }
 
-    /** Returns when all tasks run, and each of the workers has one. */
+    /** Returns once all tasks run, and each worker has one. */
     void awaitTasks() {
         Until.isTrue("all tasks run on " + members, TIMEOUT, () -> {
             var shown = shown().values();
@@ -164,14 +164,14 @@ final class SourceGroup implements AutoCloseable {
         return tasks;
     }
 
-    /** What each worker shows now. */
+    /** The current gauges of each worker. */
     Map<String, WorkerGauges.Shown> shown() {
         Map<String, WorkerGauges.Shown> shown = new TreeMap<>();
         members().forEach(member -> shown.put(member.name(), member.gauges().read()));
         return shown;
     }
 
-    /** Journals that Connect knows offsets of. */
+    /** The number of journals with offsets in Connect. */
     int journalsInOffsets() {
         return Http.get(connectors("/" + SourceWorker.CONNECTOR + "/offsets"))
                 .body()
@@ -179,7 +179,7 @@ final class SourceGroup implements AutoCloseable {
                 .size();
     }
 
-    /** Below those that systems give to clients. */
+    /** Finds free ports below those that operating systems assign to clients. */
     private int freePorts() {
         while (true) {
             int first = ThreadLocalRandom.current().nextInt(20_000, 32_000);

@@ -8,20 +8,20 @@ import java.util.concurrent.locks.LockSupport;
 
 import io.furrow.embedded.EmbeddedKafka;
 
-/** Kills the worker of the NGSI source under load, again and again, and compares what it answered with what is in Kafka. */
+/** Repeatedly kills the worker of the NGSI source under load, and compares its answers with the records in Kafka. */
 public final class SourceKill {
-    private static final Duration MIN = Duration.ofSeconds(1);
-    private static final int SPREAD_MS = 4000;
-    /** A killed worker keeps its tasks until the group misses it. */
-    private static final String[] SOON_MISSED = {"session.timeout.ms=6000", "heartbeat.interval.ms=2000"};
+    private static final int MIN_MILLIS = 1_000;
+    private static final int MAX_MILLIS = 5_000;
+    /** The tasks of a killed worker are reassigned after the session timeout. */
+    private static final String[] SHORT_SESSION = {"session.timeout.ms=6000", "heartbeat.interval.ms=2000"};
 
     /**
-     * All rounds added up.
+     * The sum of all rounds.
      *
      * @param acknowledged notifications that were answered 200
-     * @param missing those of them that are not in Kafka
-     * @param repeated records that were in Kafka before
-     * @param repeatedWithAnotherId those of them with another {@code ce_id}
+     * @param missing acknowledged notifications that are not in Kafka
+     * @param repeated records that were already in Kafka
+     * @param repeatedWithAnotherId repeated records with another {@code ce_id}
      */
     public record Outcome(int acknowledged, int missing, int repeated, int repeatedWithAnotherId) {}
 
@@ -44,19 +44,19 @@ public final class SourceKill {
         System.exit(good ? 0 : 1);
     }
 
-    /** Each round prints a line. */
+    /** Runs the rounds and prints a line for each. */
     public static Outcome run(Path folder, int rounds, int perSecond, boolean exactlyOnce, long seed) throws Exception {
         System.out.printf("exactly-once %s, %d/s, seed %d%n", exactlyOnce ? "on" : "off", perSecond, seed);
         Random random = new Random(seed);
         BitSet acknowledged = new BitSet();
         int next = 0;
         try (EmbeddedKafka kafka = EmbeddedKafka.start(folder.resolve("kafka"));
-                SourceWorker worker = new SourceWorker(folder, kafka.bootstrapServers(), exactlyOnce, SOON_MISSED)) {
+                SourceWorker worker = new SourceWorker(folder, kafka.bootstrapServers(), exactlyOnce, SHORT_SESSION)) {
             worker.start();
             worker.createSource();
             Outcome outcome = new Outcome(0, 0, 0, 0);
             for (int round = 1; round <= rounds; round++) {
-                Duration load = MIN.plusMillis(random.nextInt(SPREAD_MS));
+                Duration load = Duration.ofMillis(random.nextInt(MIN_MILLIS, MAX_MILLIS));
                 Senders senders = Senders.start(worker.port(), perSecond, next, acknowledged);
                 LockSupport.parkNanos(load.toNanos());
                 worker.kill();

@@ -14,7 +14,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 class SourceKillIT {
     @ParameterizedTest
     @ValueSource(booleans = {true, false})
-    void losesNothingThatItAnsweredWhenItsWorkerIsKilled(boolean exactlyOnce, @TempDir Path folder) throws Exception {
+    void losesNoAcknowledgedNotificationWhenItsWorkerIsKilled(boolean exactlyOnce, @TempDir Path folder)
+            throws Exception {
         SourceKill.Outcome outcome = SourceKill.run(folder, 2, 500, exactlyOnce, System.nanoTime());
 
         assertThat(outcome.acknowledged()).isPositive();

@@ -9,11 +9,11 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.FreePort;
 import io.furrow.soak.control.Until;
 
-/** Stops Kafka under load for a while; the source goes on taking notifications and catches up afterwards. */
+/** Stops Kafka under load for a while; the source must accept notifications meanwhile and catch up afterwards. */
 public final class SourceOutage {
     private static final Duration WARM_UP = Duration.ofSeconds(15);
     private static final Duration POLL_INTERVAL = Duration.ofSeconds(10);
-    /** The worker has a heap of 384 MiB; threads, classes, code and network buffers come beside it. */
+    /** The worker has a heap of 384 MiB, plus threads, classes, code and network buffers. */
     private static final long MAX_RESIDENT_MIB = 700;
 
     private SourceOutage() {}
@@ -37,8 +37,8 @@ public final class SourceOutage {
             watch(worker, outage, "Kafka is stopped");
             int sentDuring = senders.next() - sentBefore;
             kafka = EmbeddedKafka.start(folder.resolve("kafka"), port);
-            long back = System.nanoTime();
-            long drained = catchUp(worker, back, perSecond);
+            long restartedAt = System.nanoTime();
+            long drained = catchUp(worker, restartedAt, perSecond);
             senders.stop();
             worker.awaitDrained();
             good = compare(kafka.bootstrapServers(), acknowledged, senders.next());
@@ -53,8 +53,8 @@ public final class SourceOutage {
         System.exit(good ? 0 : 1);
     }
 
-    private static void watch(SourceWorker worker, Duration howLong, String what) throws Exception {
-        long end = System.nanoTime() + howLong.toNanos();
+    private static void watch(SourceWorker worker, Duration duration, String what) throws Exception {
+        long end = System.nanoTime() + duration.toNanos();
         while (System.nanoTime() < end) {
             LockSupport.parkNanos(Math.min(POLL_INTERVAL.toNanos(), end - System.nanoTime()));
             show(worker, what);
@@ -71,9 +71,9 @@ public final class SourceOutage {
                 worker.residentMib());
     }
 
-    /** Until no more is pending than a second brings, under the same load. */
+    /** Waits until fewer notifications are pending than arrive in a second, under the same load. */
     private static long catchUp(SourceWorker worker, long since, int perSecond) throws Exception {
-        Until.isTrue("what was kept is in Kafka", Duration.ofSeconds(300), () -> {
+        Until.isTrue("the journal has caught up", Duration.ofSeconds(300), () -> {
             long pending = worker.health().path("pending").asLong(Long.MAX_VALUE);
             return pending < perSecond;
         });
@@ -95,7 +95,7 @@ public final class SourceOutage {
                     missing,
                     delivered.repeated(),
                     delivered.repeatedWithAnotherId());
-            // Each of the senders drew one number more when it was told to end.
+            // each sender may have drawn one more number when it was stopped
             return missing == 0 && delivered.repeatedWithAnotherId() == 0 && unanswered <= Senders.CONNECTIONS;
         }
     }

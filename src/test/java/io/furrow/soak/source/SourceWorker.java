@@ -26,8 +26,8 @@ final class SourceWorker extends WorkerProcess {
     private final int port = FreePort.orFree(0);
 
     /**
-     * @param folder for its log and the journals
-     * @param settings of the worker, {@code name=value}, other than Connect's own
+     * @param folder for log and journals
+     * @param settings of the worker, {@code name=value}, in addition to the defaults
      */
     SourceWorker(Path folder, String bootstrapServers, boolean exactlyOnce, String... settings) {
         super(folder, bootstrapServers, Map.of(), settings(exactlyOnce, settings));
@@ -35,7 +35,7 @@ final class SourceWorker extends WorkerProcess {
         this.exactlyOnce = exactlyOnce;
     }
 
-    /** Of a worker for this kind of delivery. */
+    /** Settings of a worker for a delivery guarantee. */
     static List<String> settings(boolean exactlyOnce, String... others) {
         List<String> settings = new ArrayList<>(List.of("offset.flush.interval.ms=5000"));
         if (exactlyOnce) {
@@ -45,7 +45,7 @@ final class SourceWorker extends WorkerProcess {
         return settings;
     }
 
-    /** What every source here has in its configuration. */
+    /** The configuration that all sources here have in common. */
     static ObjectNode config(boolean exactlyOnce) {
         ObjectNode config = JsonNodeFactory.instance
                 .objectNode()
@@ -55,13 +55,13 @@ final class SourceWorker extends WorkerProcess {
                 .put("header.converter", "org.apache.kafka.connect.storage.StringConverter");
         if (exactlyOnce) {
             config.put("exactly.once.support", "required");
-            // A worker that starts waits for transactions that a killed one left open.
+            // a worker that starts waits for open transactions of a killed one
             config.put("producer.override.transaction.timeout.ms", "10000");
         }
         return config;
     }
 
-    /** Creates or changes the source as soon as the worker takes it; returns when it takes notifications. */
+    /** Creates or changes the source once the worker accepts it; returns once the source accepts notifications. */
     void createSource() {
         createConnector(
                 CONNECTOR,
@@ -78,7 +78,7 @@ final class SourceWorker extends WorkerProcess {
         Until.isTrue("the source listens", TIMEOUT, () -> health().has("received"));
     }
 
-    /** Returns when nothing that was taken waits for Kafka any more. */
+    /** Returns once no accepted notification waits for Kafka. */
     void awaitDrained() {
         Until.isTrue(
                 "the journal is drained",
@@ -86,7 +86,7 @@ final class SourceWorker extends WorkerProcess {
                 () -> health().path("pending").asLong(-1) == 0);
     }
 
-    /** What the source says of itself; empty while it does not answer. */
+    /** The health of the source; empty if it does not respond. */
     JsonNode health() {
         return Http.get(URI.create("http://127.0.0.1:" + port + "/health")).body();
     }

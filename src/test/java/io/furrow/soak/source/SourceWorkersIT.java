@@ -12,9 +12,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 @Tag("soak")
 class SourceWorkersIT {
     @Test
-    void bringsToKafkaWhatWasOnTheDiskOfARemovedWorker(@TempDir Path folder) throws Exception {
+    void writesTheJournalsOfARemovedWorkerToKafkaOnceItsDiskIsReused(@TempDir Path folder) throws Exception {
         SourceWorkers.Outcome outcome = SourceWorkers.run(folder, 0, 100, true, PlantedFault.NONE);
 
-        assertThat(SourceWorkers.wrong(outcome, true)).isEmpty();
+        assertThat(SourceWorkers.faults(outcome, true)).isEmpty();
     }
 }

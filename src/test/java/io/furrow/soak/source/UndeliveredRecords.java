@@ -11,14 +11,14 @@ import java.util.regex.Pattern;
 
 import io.furrow.files.Folders;
 
-/** What a worker that stopped in order said of its disk; its gauges end with it. */
+/** Reads from a worker's log what it left on its disk when it stopped, since its gauges end with it. */
 final class UndeliveredRecords {
     private static final Pattern LEFT = Pattern.compile("LeftRecords .*: (\\d+) records in (\\S+) are not in Kafka");
     private static final Pattern JOURNAL = Pattern.compile("\\d+-[0-9a-f]{16}");
 
     private UndeliveredRecords() {}
 
-    /** Records that its tasks left, by the last line on each journal that is still there. */
+    /** The records that its tasks left, by the last line about each journal that still exists. */
     static long records(Path log) throws IOException {
         Map<Path, Long> left = new HashMap<>();
         for (String line : Files.readAllLines(log)) {
@@ -30,7 +30,7 @@ final class UndeliveredRecords {
         return left.values().stream().mapToLong(Long::longValue).sum();
     }
 
-    /** A planted fault. */
+    /** Inserts a fault. */
     static void deleteJournals(Path disk) throws IOException {
         List<Path> journals = Folders.walk(disk.resolve("journal")).stream()
                 .filter(path -> JOURNAL.matcher(path.getFileName().toString()).matches())

@@ -9,14 +9,14 @@ import javax.management.remote.JMXConnector;
 import javax.management.remote.JMXConnectorFactory;
 import javax.management.remote.JMXServiceURL;
 
-/** What a worker shows of the source over JMX. */
+/** Reads a worker's gauges of the source over JMX. */
 record WorkerGauges(int jmxPort) {
-    /** One look; zeros where nothing of the source is shown, empty tasks where nobody answers. */
+    /** The gauges at a moment; zeros without a source, and zero tasks if the worker does not respond. */
     record Shown(
             int tasks, long pending, long adopted, long orphaned, long recovered, long leftRecords, long leftJournals) {
-        static final Shown NOTHING = new Shown(0, 0, 0, 0, 0, 0, 0);
+        static final Shown EMPTY = new Shown(0, 0, 0, 0, 0, 0, 0);
 
-        /** Records that are said to be on this disk and not in Kafka. */
+        /** The number of records on the disk that are not in Kafka. */
         long onDisk() {
             return pending + leftRecords;
         }
@@ -44,7 +44,7 @@ record WorkerGauges(int jmxPort) {
                     sum(beans, left, "left-records"),
                     sum(beans, left, "left-journals"));
         } catch (IOException | JMException e) {
-            return Shown.NOTHING;
+            return Shown.EMPTY;
         }
     }
 
@@ -57,7 +57,7 @@ record WorkerGauges(int jmxPort) {
         return sum;
     }
 
-    /** All tasks of a worker see the same folder. */
+    /** The maximum, since all tasks of a worker read the same folder. */
     private static long max(MBeanServerConnection beans, ObjectName names, String attribute)
             throws IOException, JMException {
         OptionalLong max = OptionalLong.empty();

@@ -6,7 +6,7 @@ import java.util.Map;
 
 import io.furrow.embedded.EmbeddedConnect;
 
-/** A distributed Connect worker as a process; arguments: bootstrap servers, plugin folder, REST port, name=value settings. */
+/** Runs a distributed Connect worker; arguments: bootstrap servers, plugin folder, REST port, name=value settings. */
 public final class WorkerMain {
     private WorkerMain() {}
 

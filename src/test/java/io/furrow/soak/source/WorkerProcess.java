@@ -17,7 +17,7 @@ import io.furrow.soak.control.Http;
 import io.furrow.soak.control.JavaProcess;
 import io.furrow.soak.control.Until;
 
-/** A distributed Connect worker in a process of its own; it can be killed, stopped in order and started again. */
+/** Runs a distributed Connect worker as a process; it can be killed, stopped in order and started again. */
 class WorkerProcess implements AutoCloseable {
     private static final Duration TIMEOUT = Duration.ofSeconds(120);
 
@@ -28,7 +28,7 @@ class WorkerProcess implements AutoCloseable {
 
     /**
      * @param folder for its log
-     * @param environment beside that of this process
+     * @param environment additional variables
      * @param settings of the worker, {@code name=value}
      */
     WorkerProcess(Path folder, String bootstrapServers, Map<String, String> environment, List<String> settings) {
@@ -54,7 +54,7 @@ class WorkerProcess implements AutoCloseable {
         process.start();
     }
 
-    /** The connectors of its REST API. */
+    /** A path below the connectors of its REST API. */
     URI connectors(String path) {
         return URI.create("http://127.0.0.1:" + restPort + "/connectors" + path);
     }
@@ -63,15 +63,15 @@ class WorkerProcess implements AutoCloseable {
         return folder.resolve("worker.log");
     }
 
-    /** The port of its JMX. */
+    /** The port for JMX. */
     int jmxPort() {
         return jmxPort;
     }
 
-    /** Creates or changes a connector as soon as the worker takes it. */
+    /** Creates or changes a connector once the worker accepts it. */
     void createConnector(String name, JsonNode config) {
         Until.isTrue(
-                "the worker takes the connector",
+                "the worker accepts the connector",
                 TIMEOUT,
                 () -> Http.send("PUT", connectors("/" + name + "/config"), NgsiJson.write(config))
                                         .join()
@@ -80,12 +80,12 @@ class WorkerProcess implements AutoCloseable {
                         == 2);
     }
 
-    /** Resident memory in MiB, from Linux' proc; 0 elsewhere. */
+    /** Resident memory in MiB, from Linux' proc; 0 on other systems. */
     long residentMib() throws IOException {
         return statusMib("VmRSS:");
     }
 
-    /** The most that was resident at any time, in MiB, from Linux' proc; 0 elsewhere. */
+    /** Peak resident memory in MiB, from Linux' proc; 0 on other systems. */
     long peakResidentMib() throws IOException {
         return statusMib("VmHWM:");
     }
@@ -102,12 +102,12 @@ class WorkerProcess implements AutoCloseable {
                 .orElse(0);
     }
 
-    /** Ends it as {@code kill -9} does. */
+    /** Kills the process like {@code kill -9}. */
     void kill() throws InterruptedException {
         process.kill();
     }
 
-    /** Asks it to stop, and kills it where it does not. */
+    /** Stops the process, and kills it at a timeout. */
     @Override
     public void close() {
         try {

@@ -19,7 +19,7 @@ import io.furrow.soak.source.NotificationTap.Try;
 import io.furrow.soak.source.SourceGroup.Member;
 import io.furrow.soak.source.WorkerGauges.Shown;
 
-/** Kafka, a context broker whose entities change, and the workers that are notified of it. */
+/** Kafka, a context broker whose entities change, and the workers that receive its notifications. */
 final class WorkersFarm implements AutoCloseable {
     static final int ENTITIES = 60;
 
@@ -44,17 +44,17 @@ final class WorkersFarm implements AutoCloseable {
         topic = new ChangesOnTopic(kafka.bootstrapServers());
     }
 
-    /** Without workers yet. */
+    /** Starts without workers. */
     static WorkersFarm start(Path folder, int perSecond, boolean exactlyOnce) throws IOException {
         return new WorkersFarm(folder, perSecond, exactlyOnce);
     }
 
-    /** A topic that is made on first use shows its partitions one by one. */
+    /** Creates the topic in advance: with automatic creation its partitions appear one by one. */
     private void createTopic() {
         kafka.createTopics(List.of(new NewTopic(Topics.RAW, EmbeddedKafka.PARTITIONS, (short) 1)));
     }
 
-    /** Creates the source on the workers; returns when each of its tasks has its subscription. */
+    /** Creates the source on the workers; returns once each of its tasks has its subscription. */
     void subscribe() {
         group.createSource(contextBroker.contextBroker(), tap.publicUrl());
         group.awaitTasks();
@@ -65,9 +65,9 @@ final class WorkersFarm implements AutoCloseable {
                 () -> Http.get(subscriptions).body().size() == SourceGroup.TASKS);
     }
 
-    /** For a while; then the gauges are printed. Changes go on. @return the most that was left */
+    /** Changes entities for a while, then prints the gauges; changes continue. @return the maximum of records left */
     long load(String when) {
-        changes.goOn();
+        changes.resume();
         long[] left = {0};
         long end = System.nanoTime() + LOAD.toNanos();
         while (System.nanoTime() < end) {
@@ -79,22 +79,23 @@ final class WorkersFarm implements AutoCloseable {
         return left[0];
     }
 
-    /** Nothing changes any more, and every notification has its answer or none. */
+    /** Pauses changes, and waits until no notification is pending. */
     void awaitAnswers() {
-        changes.hold();
+        changes.pause();
         Until.isTrue(
                 "every notification is answered",
                 TIMEOUT,
                 () -> contextBroker.counters().notificationsQueued() == 0 && tap.isIdle());
     }
 
-    /** Nothing changes any more, and the workers have nothing left to do. */
-    void quiet() {
+    /** Pauses changes, and waits until all records are in Kafka and repaired. */
+    void awaitQuiet() {
         awaitAnswers();
         Until.isTrue("every journal is drained", TIMEOUT, () -> {
             var shown = group.shown().values();
             return shown.stream().mapToInt(Shown::tasks).sum() == SourceGroup.TASKS
-                    && shown.stream().allMatch(one -> one.onDisk() == 0 && one.adopted() == 0 && one.orphaned() == 0);
+                    && shown.stream()
+                            .allMatch(each -> each.onDisk() == 0 && each.adopted() == 0 && each.orphaned() == 0);
         });
         List<NumberedChange> newest = changes.newest();
         Until.within(REPAIR_TIMEOUT, () -> {
@@ -103,7 +104,7 @@ final class WorkersFarm implements AutoCloseable {
         });
     }
 
-    /** Changes that a listener acknowledged and that no notification brought to Kafka. */
+    /** Acknowledged changes without a record of a notification in Kafka. */
     List<NumberedChange> missing() {
         return tap.changes().stream()
                 .filter(change -> topic.notified(change) == 0)
@@ -111,7 +112,7 @@ final class WorkersFarm implements AutoCloseable {
                 .toList();
     }
 
-    /** Whether a listener of this worker acknowledged it. */
+    /** Whether a listener of this worker acknowledged the change. */
     boolean isAt(Member member, NumberedChange change) {
         return tap.tries(change).stream().anyMatch(tried -> tried.isAcknowledged() && member.has(tried.port()));
     }

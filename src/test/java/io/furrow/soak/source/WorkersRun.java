@@ -11,9 +11,9 @@ import io.furrow.soak.source.SourceGroup.Member;
 import io.furrow.soak.source.SourceWorkers.Outcome;
 import io.furrow.soak.source.WorkerGauges.Shown;
 
-/** What happens to the workers of a source in a round, and what is compared then. */
+/** Runs the rounds of {@link SourceWorkers} and collects the differences. */
 final class WorkersRun implements AutoCloseable {
-    /** A task beside others looks for journals after 5 s, and every 10 s from then on. */
+    /** A task beside others searches for orphaned journals after 5 s, and every 10 s from then on. */
     private static final Duration ADOPTION_TIMEOUT = Duration.ofSeconds(60);
 
     private static final Duration TIMEOUT = Duration.ofSeconds(120);
@@ -34,7 +34,7 @@ final class WorkersRun implements AutoCloseable {
         this.fault = fault;
     }
 
-    /** Returns when the tasks are notified. */
+    /** Returns once the tasks receive notifications. */
     static WorkersRun start(Path folder, int perSecond, boolean exactlyOnce, PlantedFault fault) throws IOException {
         WorkersRun run = new WorkersRun(WorkersFarm.start(folder, perSecond, exactlyOnce), exactlyOnce, fault);
         try {
@@ -52,30 +52,30 @@ final class WorkersRun implements AutoCloseable {
         farm.subscribe();
         load("two workers");
         if (fault == PlantedFault.LOSE || fault == PlantedFault.REPEAT) {
-            farm.tap.plant(fault);
+            farm.tap.insertFault(fault);
         }
     }
 
-    /** All that can happen to workers, once. */
+    /** Adds, stops, kills and removes workers, once each. */
     void round(int round) throws IOException, InterruptedException {
-        Away third = joinAndStop("worker-3." + round);
+        RemovedDisk third = joinAndStop("worker-3." + round);
         killAndRestart();
-        Away removed = remove();
+        RemovedDisk removed = remove();
         Member fourth = group.join("worker-4." + round, "disk-3");
         group.awaitTasks();
         load("another worker came, with the disk of the one that was stopped");
-        comeBack(fourth, third);
-        comeBack(removed, "worker-2." + round);
-        farm.quiet();
+        checkReused(fourth, third);
+        reuseDisk(removed, "worker-2." + round);
+        farm.awaitQuiet();
         group.stop(fourth);
         group.awaitTasks();
-        unavailable(fourth, UndeliveredRecords.records(fourth.process().log()));
+        checkRemoved(fourth, UndeliveredRecords.records(fourth.process().log()));
         load("the other one was emptied and stopped");
     }
 
-    /** A worker is removed, and another one comes with its disk. */
-    void removeAndComeBack() throws IOException, InterruptedException {
-        comeBack(remove(), "worker-2.1");
+    /** Removes a worker, and starts another one with its disk. */
+    void removeAndReuseDisk() throws IOException, InterruptedException {
+        reuseDisk(remove(), "worker-2.1");
     }
 
     private void load(String when) {
@@ -83,18 +83,19 @@ final class WorkersRun implements AutoCloseable {
     }
 
     /**
-     * What is on the disk of a worker that is no more.
+     * The disk of a removed worker.
      *
-     * @param shown records that it told of last
-     * @param missing changes that it acknowledged and that are not in Kafka; records of the repair come on top
+     * @param shown records in its last gauges
+     * @param missing changes that it acknowledged and that are not in Kafka; the disk may also have records of the
+     *     repair
      */
-    private record Away(Member worker, long shown, List<NumberedChange> missing) {}
+    private record RemovedDisk(Member worker, long shown, List<NumberedChange> missing) {}
 
-    /** A task moves while its journal holds what is not in Kafka: a worker that has it no more must show that. */
-    private Away joinAndStop(String name) throws IOException {
+    /** Moves a task while its journal has records that are not in Kafka: its former worker must show them. */
+    private RemovedDisk joinAndStop(String name) throws IOException {
         group.pause();
         load("paused");
-        long held = held(List.of());
+        long undelivered = undelivered(List.of());
         Member third = group.join(name, "disk-3");
         Until.isTrue("a worker shows what the task that moved away left", TIMEOUT, () -> {
             long shown = group.shown().values().stream()
@@ -103,56 +104,56 @@ final class WorkersRun implements AutoCloseable {
             left = Math.max(left, shown);
             return shown > 0;
         });
-        compareReported("a third worker joined", held);
-        farm.changes.goOn();
+        compareReported("a third worker joined", undelivered);
+        farm.changes.resume();
         group.resume();
         group.awaitTasks();
         load("a third worker joined and took a task");
         group.stop(third);
         group.awaitTasks();
         load("the third worker stopped in order");
-        farm.quiet();
-        return unavailable(third, UndeliveredRecords.records(third.process().log()));
+        farm.awaitQuiet();
+        return checkRemoved(third, UndeliveredRecords.records(third.process().log()));
     }
 
     private void killAndRestart() throws IOException, InterruptedException {
-        farm.changes.goOn();
+        farm.changes.resume();
         group.kill(second);
         group.restart(second);
         group.awaitTasks();
         load("the second worker killed and started again");
-        farm.quiet();
+        farm.awaitQuiet();
     }
 
-    /** Kills the second worker while its journals hold what is not in Kafka. */
-    private Away remove() throws IOException, InterruptedException {
+    /** Kills the second worker while its journals have records that are not in Kafka. */
+    private RemovedDisk remove() throws IOException, InterruptedException {
         group.pause();
         load("paused, so that journals fill");
-        compareReported("before a worker is removed", held(group.departed()));
+        compareReported("before a worker is removed", undelivered(group.departed()));
         long shown = second.gauges().read().onDisk();
         group.kill(second);
-        farm.changes.goOn();
+        farm.changes.resume();
         group.resume();
         group.awaitTasks();
         load("the second worker removed");
-        farm.quiet();
-        Away removed = unavailable(second, shown);
+        farm.awaitQuiet();
+        RemovedDisk removed = checkRemoved(second, shown);
         if (fault == PlantedFault.TAKE_JOURNAL) {
             UndeliveredRecords.deleteJournals(second.disk());
         }
         return removed;
     }
 
-    private void comeBack(Away removed, String name) throws IOException {
-        farm.changes.goOn();
+    private void reuseDisk(RemovedDisk removed, String name) throws IOException {
+        farm.changes.resume();
         second = group.join(name, "disk-2");
         group.awaitTasks();
         load("another worker came, with the disk of the removed one");
-        comeBack(second, removed);
+        checkReused(second, removed);
     }
 
-    /** Acknowledged changes that are on the disks of the workers that run, and not in Kafka; nothing changes any more. */
-    private long held(List<Member> departed) {
+    /** Pauses changes, and counts acknowledged changes that are not in Kafka but on disks of running workers. */
+    private long undelivered(List<Member> departed) {
         farm.awaitAnswers();
         farm.topic.read();
         return farm.missing().stream()
@@ -160,22 +161,26 @@ final class WorkersRun implements AutoCloseable {
                 .count();
     }
 
-    /** Several looks are no single moment: they count once two in a row agree. Records of the repair are shown as well. */
-    private void compareReported(String when, long held) {
-        long[] before = {-1};
+    /**
+     * Compares the gauges with the disks, once two successive reads of all gauges agree. Gauges include records of the
+     * repair.
+     */
+    private void compareReported(String when, long undelivered) {
+        long[] previous = {-1};
         Until.isTrue("the workers show the same twice", TIMEOUT, () -> {
             long shown =
                     group.shown().values().stream().mapToLong(Shown::onDisk).sum();
-            boolean same = shown == before[0];
-            before[0] = shown;
+            boolean same = shown == previous[0];
+            previous[0] = shown;
             return same;
         });
-        unshown += Math.max(0, held - before[0]);
-        System.out.printf("  %s: %d notified records are not in Kafka, %d in all are shown%n", when, held, before[0]);
+        unshown += Math.max(0, undelivered - previous[0]);
+        System.out.printf(
+                "  %s: %d notified records are not in Kafka, %d in all are shown%n", when, undelivered, previous[0]);
     }
 
-    /** What is missing while the others are drained must be on the disk that is away, as was shown. */
-    private Away unavailable(Member departed, long shown) {
+    /** While the other journals are drained, missing changes must be on the removed disk, as shown. */
+    private RemovedDisk checkRemoved(Member departed, long shown) {
         List<NumberedChange> missing = farm.missing().stream()
                 .filter(change -> farm.isAt(departed, change))
                 .toList();
@@ -183,27 +188,27 @@ final class WorkersRun implements AutoCloseable {
         unshown += Math.max(0, missing.size() - shown);
         System.out.printf(
                 "  away with %s: %d notified records; %d in all were shown%n", departed, missing.size(), shown);
-        return new Away(departed, shown, missing);
+        return new RemovedDisk(departed, shown, missing);
     }
 
-    /** The disk is here again: the worker takes as many records from it as were shown, and all come to Kafka. */
-    private void comeBack(Member worker, Away removed) {
+    /** The worker must read as many records from the reused disk as were shown, and all must be written to Kafka. */
+    private void checkReused(Member worker, RemovedDisk removed) {
         Until.within(ADOPTION_TIMEOUT, () -> worker.gauges().read().recovered() >= removed.shown());
-        farm.quiet();
+        farm.awaitQuiet();
         long recovered = worker.gauges().read().recovered();
-        long came = removed.missing().stream()
+        long delivered = removed.missing().stream()
                 .filter(change -> farm.topic.notified(change) > 0)
                 .count();
         boolean wrong = exactlyOnce ? recovered != removed.shown() : recovered < removed.shown();
         unshown += wrong ? Math.abs(recovered - removed.shown()) : 0;
         System.out.printf(
                 "  back with %s: %d of %d notified records; %d records were on the disk, %d were shown%n",
-                worker, came, removed.missing().size(), recovered, removed.shown());
+                worker, delivered, removed.missing().size(), recovered, removed.shown());
     }
 
-    /** After the last round. */
+    /** The outcome after the last round. */
     Outcome outcome() {
-        farm.quiet();
+        farm.awaitQuiet();
         int doubled = 0;
         int acknowledged = 0;
         for (NumberedChange change : farm.tap.changes()) {

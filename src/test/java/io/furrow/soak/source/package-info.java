@@ -1,2 +1,2 @@
-/** Long checks of the NGSI source: its worker killed, its broker stopped, its workers coming and going. */
+/** Long checks of the NGSI source: its worker killed, its broker stopped, its workers added and removed. */
 package io.furrow.soak.source;

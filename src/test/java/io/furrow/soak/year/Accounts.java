@@ -17,9 +17,9 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 import io.furrow.soak.year.Tap.Report;
 
-/** Looks for each acknowledged report where it belongs. */
+/** Checks that each acknowledged report is on all topics and collections to which it belongs. */
 final class Accounts {
-    /** What jobs had written this long before a power cut may be missing on a broker without replicas. */
+    /** Records written this long before a power cut may be lost on a broker without replicas. */
     static final long UNSYNCED_MILLIS = 2_500;
 
     private final YearFarm farm;
@@ -27,7 +27,7 @@ final class Accounts {
     private final Map<Report, Integer> raw = new HashMap<>();
     private final List<Long> cuts = new ArrayList<>();
 
-    /** A mission of a day. @param begun when it ran, epoch ms @param ended when it was asked to stop, epoch ms */
+    /** A mission of a day. @param begun start, epoch ms @param ended request to stop, epoch ms */
     record DayMission(String name, Set<String> devices, long begun, long ended) {
         boolean holds(Report report) {
             return devices.contains(report.entity()) && report.time() >= begun && report.time() < ended;
@@ -35,9 +35,9 @@ final class Accounts {
     }
 
     /**
-     * Which weeks are looked at.
+     * The period of a check.
      *
-     * @param once whether nothing was killed, after which jobs that deliver at least once write some records again
+     * @param once whether nothing was killed; otherwise jobs with at-least-once delivery repeat some records
      */
     record Span(String when, long from, long until, boolean once) {}
 
@@ -45,18 +45,18 @@ final class Accounts {
         this.farm = farm;
     }
 
-    void powerWasCut(long time) {
+    void addPowerCut(long time) {
         cuts.add(time);
     }
 
-    /** Of what was acknowledged in this time; what retention removes has been read before. */
-    List<YearCheck> of(Span span, List<DayMission> missions) throws UnreadableException {
+    /** Checks the reports acknowledged in the period; records that retention deletes have been read before. */
+    List<YearCheck> check(Span span, List<DayMission> missions) throws UnreadableException {
         try (ReportLog log = new ReportLog(farm.up.kafka())) {
             List<Report> acknowledged = farm.tap.acknowledged().entrySet().stream()
                     .filter(each -> each.getValue() >= span.from() && each.getValue() < span.until())
                     .map(Map.Entry::getKey)
                     .toList();
-            log.readOn(Topics.RAW, read, raw);
+            log.readNew(Topics.RAW, read, raw);
             List<YearCheck> checks = new ArrayList<>();
             checks.add(new YearCheck(
                     "acknowledged reports on data.raw, " + span.when(),
@@ -139,13 +139,13 @@ final class Accounts {
         return isBeforeCut(time, UNSYNCED_MILLIS);
     }
 
-    /** Whether the power was cut at most so long after this time. */
+    /** Whether the power was cut within {@code millis} after this time. */
     boolean isBeforeCut(long time, long millis) {
         return cuts.stream().anyMatch(cut -> time > cut - millis && time <= cut);
     }
 
-    /** Also what was stored when the answer to it was lost. */
-    boolean isTaken(Report report) {
+    /** Whether the report was stored, also if its acknowledgment was lost. */
+    boolean isStored(Report report) {
         return farm.tap.acknowledged().containsKey(report) || raw.containsKey(report);
     }
 
@@ -153,8 +153,8 @@ final class Accounts {
         return raw.getOrDefault(report, 0) > 1;
     }
 
-    /** What was acknowledged by then is known as such. */
-    void forget(long until) {
+    /** Drops reports that were acknowledged before. */
+    void drop(long until) {
         raw.keySet().removeIf(each -> farm.tap.acknowledged().getOrDefault(each, Long.MAX_VALUE) < until);
     }
 }

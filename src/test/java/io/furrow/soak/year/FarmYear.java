@@ -23,7 +23,9 @@ import io.furrow.soak.year.Accounts.DayMission;
 import io.furrow.soak.year.Accounts.Span;
 import io.furrow.suite.page.OpeningTime;
 
-/** A farm's weeks, a day in ten seconds, each week with another end; and what the suite holds after each. */
+/**
+ * Simulates weeks of a farm with days of ten seconds; ends each week in another way, and checks all results after it.
+ */
 public final class FarmYear implements AutoCloseable {
     static final String DOMAIN = "year";
 
@@ -31,10 +33,10 @@ public final class FarmYear implements AutoCloseable {
     private static final int WEEKS_OF_A_MONTH = 4;
     private static final int RETENTION_DAYS = 7;
     private static final int DAY_OF_REPLAY = 3;
-    /** Until the jobs know a mission's devices. */
-    private static final Duration KNOWN = Duration.ofSeconds(2);
+    /** Time after which the jobs know a mission's devices. */
+    private static final Duration START_DELAY = Duration.ofSeconds(2);
 
-    private static final Duration SETTLED = Duration.ofSeconds(30);
+    private static final Duration SETTLE_TIMEOUT = Duration.ofSeconds(30);
     private static final Duration POLL_INTERVAL = Duration.ofSeconds(1);
     private static final double MAX_GROWTH = 1.2;
     private static final double MAX_START_GROWTH = 1.5;
@@ -52,13 +54,13 @@ public final class FarmYear implements AutoCloseable {
     private final SilentDevices silent;
     private final YearReplays replays;
     private final PowerCut power;
-    private final Deque<String> stored = new ArrayDeque<>();
+    private final Deque<String> storedMissions = new ArrayDeque<>();
     private final Map<Integer, Map<String, Double>> footprints = new TreeMap<>();
-    private List<DayMission> ofTheWeek = new ArrayList<>();
+    private List<DayMission> weekMissions = new ArrayList<>();
     private long from = System.currentTimeMillis();
     private double startSeconds;
 
-    /** @param furrow the words that start it @param folder for data and logs */
+    /** @param furrow command that starts Furrow @param folder for data and logs */
     FarmYear(List<String> furrow, Path folder, int weeks, Duration day) throws Exception {
         this.weeks = weeks;
         this.day = day;
@@ -72,9 +74,9 @@ public final class FarmYear implements AutoCloseable {
         power = new PowerCut(farm.data.resolve("kafka"), folder.resolve("cut"), new Random(SEED));
     }
 
-    /** Arguments: the checkout, a folder for data and logs, how many weeks, the seconds of a day. */
+    /** Arguments: the checkout, a folder for data and logs, number of weeks, seconds of a day. */
     public static void main(String... args) throws Exception {
-        JavaProcess.endAllWithThisOne();
+        JavaProcess.killChildrenAtExit();
         FarmYear year = new FarmYear(
                 List.of(Path.of(args[0]).toAbsolutePath().resolve("furrow").toString()),
                 Path.of(args[1]).toAbsolutePath(),
@@ -89,7 +91,7 @@ public final class FarmYear implements AutoCloseable {
         System.exit(year.verdicts.hold() ? 0 : 1);
     }
 
-    /** What did not hold. */
+    /** The checks that failed. */
     List<String> differences() {
         return verdicts.lines().stream()
                 .filter(line -> !line.startsWith("holds"))
@@ -104,7 +106,7 @@ public final class FarmYear implements AutoCloseable {
         plots.start();
         fleet.start();
         for (int week = 1; week <= weeks; week++) {
-            long began = System.nanoTime();
+            long startedAt = System.nanoTime();
             silent.begin(week);
             for (int number = 1; number < DAYS_OF_A_WEEK; number++) {
                 long evening = System.nanoTime() + day.toNanos();
@@ -112,8 +114,8 @@ public final class FarmYear implements AutoCloseable {
                 Thread.sleep(Math.max(0, (evening - System.nanoTime()) / 1_000_000));
             }
             endOfWeek(week);
-            farm.retain(Duration.ofNanos(System.nanoTime() - began));
-            print("week %d took %.1f s".formatted(week, (System.nanoTime() - began) / 1e9));
+            farm.retain(Duration.ofNanos(System.nanoTime() - startedAt));
+            print("week %d took %.1f s".formatted(week, (System.nanoTime() - startedAt) / 1e9));
         }
         fleet.close();
         compare();
@@ -150,9 +152,9 @@ public final class FarmYear implements AutoCloseable {
             farm.request("POST", "/api/missions/" + name + "/start", plan);
             missions.add(name);
         }
-        Thread.sleep(KNOWN.toMillis());
+        Thread.sleep(START_DELAY.toMillis());
         for (int mission = 0; mission < YearFleet.MISSIONS; mission++) {
-            ofTheWeek.add(new DayMission(
+            weekMissions.add(new DayMission(
                     missions.get(mission),
                     new HashSet<>(YearFleet.devices(mission)),
                     System.currentTimeMillis(),
@@ -162,24 +164,24 @@ public final class FarmYear implements AutoCloseable {
         return missions;
     }
 
-    /** @param until what was reported before belongs to them */
+    /** @param until earlier reports belong to the missions */
     private void end(List<String> missions, long until) {
         for (int mission = 0; mission < YearFleet.MISSIONS; mission++) {
             fleet.end(mission);
         }
-        ofTheWeek.replaceAll(each -> each.ended() == Long.MAX_VALUE
+        weekMissions.replaceAll(each -> each.ended() == Long.MAX_VALUE
                 ? new DayMission(each.name(), each.devices(), each.begun(), until)
                 : each);
         for (String name : missions) {
             farm.request("POST", "/api/missions/" + name + "/stop", null);
-            stored.add(name);
+            storedMissions.add(name);
         }
-        while (stored.size() > RETENTION_DAYS * YearFleet.MISSIONS) {
-            farm.forget(stored.remove());
+        while (storedMissions.size() > RETENTION_DAYS * YearFleet.MISSIONS) {
+            farm.delete(storedMissions.remove());
         }
     }
 
-    /** In the middle of the last day's missions; these go on afterwards. */
+    /** Ends the week during the last day's missions, which continue afterwards. */
     private void endOfWeek(int week) throws Exception {
         List<String> missions = begin(week, DAYS_OF_A_WEEK);
         Thread.sleep(day.toMillis() / 4);
@@ -188,8 +190,8 @@ public final class FarmYear implements AutoCloseable {
         if (week % WEEKS_OF_A_MONTH == 0) {
             power.copy();
             farm.up.kill();
-            accounts.powerWasCut(System.currentTimeMillis());
-            end = "power cut, %d partitions lost something".formatted(power.putBack());
+            accounts.addPowerCut(System.currentTimeMillis());
+            end = "power cut, %d partitions lost something".formatted(power.restoreCopies());
         } else if (week % 2 == 0) {
             farm.up.kill();
             end = "kill -9";
@@ -206,30 +208,30 @@ public final class FarmYear implements AutoCloseable {
         end(missions, until);
         settle(new Span(when, from, until, end.equals("restart")));
         add(silent.checkRemoved(when, week));
-        silent.forget(week);
+        silent.delete(week);
         from = until;
         footprints.put(week, Footprint.of(farm, startSeconds));
         print("week %d: %s".formatted(week, footprints.get(week)));
     }
 
-    /** Awaits what is under way. */
+    /** Repeats the checks until they succeed or the timeout passes. */
     private void settle(Span span) throws Exception {
-        long end = System.nanoTime() + SETTLED.toNanos();
+        long end = System.nanoTime() + SETTLE_TIMEOUT.toNanos();
         List<YearCheck> checks = checks(span);
         while (!checks.stream().allMatch(YearCheck::holds) && System.nanoTime() < end) {
             Thread.sleep(POLL_INTERVAL.toMillis());
             checks = checks(span);
         }
         checks.forEach(this::add);
-        accounts.forget(span.until());
-        ofTheWeek = new ArrayList<>();
+        accounts.drop(span.until());
+        weekMissions = new ArrayList<>();
     }
 
     private List<YearCheck> checks(Span span) throws Exception {
-        List<YearCheck> checks = new ArrayList<>(accounts.of(span, ofTheWeek));
+        List<YearCheck> checks = new ArrayList<>(accounts.check(span, weekMissions));
         checks.add(results.encounters(span));
         checks.add(results.averages(span));
-        checks.add(plots.shown(span.when()));
+        checks.add(plots.check(span.when()));
         return checks;
     }
 
@@ -237,7 +239,7 @@ public final class FarmYear implements AutoCloseable {
         verdicts.add(check.what(), check.figures(), check.differences());
     }
 
-    /** In the fourth week and the last, while its missions run. */
+    /** Measures the opening of the page in the fourth and the last week, while missions run. */
     private void openPage(int week) {
         if (week != WEEKS_OF_A_MONTH && week != weeks) {
             return;
@@ -255,12 +257,12 @@ public final class FarmYear implements AutoCloseable {
     }
 
     private void start(Start start) throws Exception {
-        long began = System.nanoTime();
+        long startedAt = System.nanoTime();
         start.run();
-        startSeconds = Math.round((System.nanoTime() - began) / 1e8) / 10.0;
+        startSeconds = Math.round((System.nanoTime() - startedAt) / 1e8) / 10.0;
     }
 
-    /** What retention has removed, and the end with the fourth week. */
+    /** Checks that retention deleted records, and compares the last week with the fourth. */
     private void compare() {
         if (weeks < WEEKS_OF_A_MONTH) {
             return;
@@ -275,12 +277,12 @@ public final class FarmYear implements AutoCloseable {
         if (weeks == WEEKS_OF_A_MONTH) {
             return;
         }
-        Map<String, Double> before = footprints.get(WEEKS_OF_A_MONTH);
+        Map<String, Double> reference = footprints.get(WEEKS_OF_A_MONTH);
         footprints.get(weeks).forEach((what, now) -> {
-            double max = before.get(what) * (what.equals("start s") ? MAX_START_GROWTH : MAX_GROWTH);
+            double max = reference.get(what) * (what.equals("start s") ? MAX_START_GROWTH : MAX_GROWTH);
             verdicts.add(
                     what + " at the end",
-                    String.format(Locale.ROOT, "%.1f, after the fourth week %.1f", now, before.get(what)),
+                    String.format(Locale.ROOT, "%.1f, after the fourth week %.1f", now, reference.get(what)),
                     now <= max ? List.of() : List.of(String.format(Locale.ROOT, "more than %.1f", max)));
         });
     }

@@ -18,7 +18,10 @@ import org.apache.kafka.clients.admin.TopicDescription;
 
 import io.furrow.process.TestProcess;
 
-/** What a suite holds: topics, partitions, collections, alarms, files, threads, heap after collection in MB, and how long its start took. */
+/**
+ * Measures a suite: topics, partitions, collections, alarms, files, threads, heap after a garbage collection in MB, and
+ * the duration of its start.
+ */
 final class Footprint {
     private Footprint() {}
 
@@ -55,7 +58,7 @@ final class Footprint {
         return all;
     }
 
-    /** Some are deleted meanwhile. */
+    /** Counts files; some may be deleted meanwhile. */
     private static double files(Path folder) throws IOException {
         int[] count = {0};
         Files.walkFileTree(folder, new SimpleFileVisitor<>() {
@@ -78,7 +81,7 @@ final class Footprint {
         return count[0];
     }
 
-    /** Of all live objects; counting them collects the rest. */
+    /** The size of all reachable objects; the histogram triggers a garbage collection. */
     private static double heapMegabytes(long pid) throws IOException, InterruptedException {
         List<String> lines = output("jcmd", Long.toString(pid), "GC.class_histogram");
         String[] total = lines.get(lines.size() - 1).trim().split("\\s+");

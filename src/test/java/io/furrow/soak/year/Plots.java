@@ -14,8 +14,9 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.soak.devices.ProgramEvent;
 
 /**
- * The farm's fields, changed through the REST API in the morning, before a device reports: one is where the first thermometers
- * stand, moves away for three days of a week and comes back under another name; another is there in the first three days and ends.
+ * Changes the farm's fields through the REST API in the morning, before devices report: the field of the first
+ * mission's thermometers moves away for three days of a week and returns under another name; another field exists in
+ * the first three days.
  */
 final class Plots {
     private static final String HOME = "home";
@@ -25,22 +26,22 @@ final class Plots {
     private static final int RETURNS = 5;
 
     private final YearFarm farm;
-    /** From when on which field is where the thermometers of a mission stand; an empty text for none. */
-    private final Map<Integer, ConcurrentSkipListMap<Long, String>> where = new TreeMap<>();
-    /** Latitude and name of each as they are now. */
-    private final Map<String, String> now = new TreeMap<>();
+    /** The field of each mission's thermometers by start time; empty for none. */
+    private final Map<Integer, ConcurrentSkipListMap<Long, String>> fields = new TreeMap<>();
+    /** The current latitude and name of each field. */
+    private final Map<String, String> current = new TreeMap<>();
 
     Plots(YearFarm farm) {
         this.farm = farm;
         for (int mission = 1; mission < YearFleet.MISSIONS; mission++) {
-            where.put(mission, new ConcurrentSkipListMap<>());
+            fields.put(mission, new ConcurrentSkipListMap<>());
         }
     }
 
-    /** Before the first week. */
+    /** Creates the first field before the first week. */
     void start() {
         put(HOME, "Home", YearFleet.latitude(1));
-        where.get(1).put(0L, HOME);
+        fields.get(1).put(0L, HOME);
     }
 
     void change(int week, int day) {
@@ -49,11 +50,11 @@ final class Plots {
         switch (day) {
             case 1 -> {
                 put(season, season, YearFleet.latitude(2));
-                where.get(2).put(time, season);
+                fields.get(2).put(time, season);
             }
             case MOVES -> {
                 put(HOME, "Lent", AWAY_LATITUDE);
-                where.get(1).put(time, "");
+                fields.get(1).put(time, "");
             }
             case ENDS -> {
                 farm.request(
@@ -62,12 +63,12 @@ final class Plots {
                         JsonNodeFactory.instance
                                 .objectNode()
                                 .put("validTo", Instant.ofEpochMilli(time).toString()));
-                now.remove(season);
-                where.get(2).put(time, "");
+                current.remove(season);
+                fields.get(2).put(time, "");
             }
             case RETURNS -> {
                 put(HOME, "Home " + week, YearFleet.latitude(1));
-                where.get(1).put(time, HOME);
+                fields.get(1).put(time, HOME);
             }
             default -> {}
         }
@@ -88,31 +89,34 @@ final class Plots {
                     .add(latitude - 0.001 + corner[1] * 0.002);
         }
         farm.request("POST", "/api/fields", all);
-        now.put(id, shown(name, latitude - 0.001));
+        current.put(id, describe(name, latitude - 0.001));
     }
 
-    private static String shown(String name, double south) {
+    private static String describe(String name, double south) {
         return String.format(java.util.Locale.ROOT, "%s from %.4f on", name, south);
     }
 
-    /** In which field a thermometer stood when it reported; null for none. */
+    /** The field in which a thermometer stood when it reported; null for none. */
     String fieldOf(ProgramEvent event) {
         Map.Entry<Long, String> field =
-                where.get(YearFleet.missionOf(event.device())).floorEntry(event.time());
+                fields.get(YearFleet.missionOf(event.device())).floorEntry(event.time());
         return field == null || field.getValue().isEmpty() ? null : field.getValue();
     }
 
-    /** The REST API has the fields of now. */
-    YearCheck shown(String when) {
+    /** Checks that the REST API returns the current fields. */
+    YearCheck check(String when) {
         Map<String, String> found = new TreeMap<>();
         for (JsonNode each :
                 farm.up.get("/api/fields?domain=" + FarmYear.DOMAIN).path("features")) {
             double south = south(each.at("/geometry/coordinates/0"));
             found.put(
-                    each.path("id").asText(), shown(each.at("/properties/name").asText(), south));
+                    each.path("id").asText(),
+                    describe(each.at("/properties/name").asText(), south));
         }
         return new YearCheck(
-                "fields, " + when, String.join(", ", List.copyOf(found.values())), YearCheck.differences(now, found));
+                "fields, " + when,
+                String.join(", ", List.copyOf(found.values())),
+                YearCheck.differences(current, found));
     }
 
     private static double south(JsonNode ring) {

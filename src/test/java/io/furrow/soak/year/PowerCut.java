@@ -11,14 +11,14 @@ import java.util.Random;
 import io.furrow.files.Folders;
 
 /**
- * The end of a machine that loses power: of files that were not synced it keeps what was written until some moment of the last
- * second, each of another. Before the end the logs of Kafka are copied one after the other; after it half of them are put back.
- * What is synced with each batch, {@code data.raw} and Kafka's own metadata, is as it was.
+ * Simulates the power loss of a machine: files that were not synced have the content of some moment in the last second,
+ * each of another one. Copies the logs of Kafka one after the other before the end, and restores half of them
+ * afterwards. Logs that are synced with each batch, {@code data.raw} and Kafka's metadata, are not changed.
  */
 record PowerCut(Path kafka, Path copies, Random random) {
     private static final List<String> SYNCED = List.of("data.raw-", "__cluster_metadata");
 
-    /** Within the last second before the end. */
+    /** Copies the logs, within the last second before the end. */
     void copy() throws IOException {
         for (Path partition : partitions(kafka)) {
             Path copy = Files.createDirectories(copies.resolve(partition.getFileName()));
@@ -32,19 +32,19 @@ record PowerCut(Path kafka, Path copies, Random random) {
         }
     }
 
-    /** When the process has ended. @return partitions that lost something */
-    int putBack() throws IOException {
+    /** Restores copies after the process has ended. @return the number of partitions that lost records */
+    int restoreCopies() throws IOException {
         int lost = 0;
         for (Path copy : partitions(copies)) {
             Path partition = kafka.resolve(copy.getFileName());
-            // A log that was begun meanwhile synced the one before it.
+            // when a new segment began, the previous one was synced
             boolean loses = random.nextBoolean()
                     && Files.isDirectory(partition)
                     && logs(partition).size() == logs(copy).size();
             for (Path log : logs(copy)) {
-                Path now = partition.resolve(log.getFileName());
-                if (loses && Files.exists(now) && Files.size(now) > Files.size(log)) {
-                    Files.copy(log, now, StandardCopyOption.REPLACE_EXISTING);
+                Path current = partition.resolve(log.getFileName());
+                if (loses && Files.exists(current) && Files.size(current) > Files.size(log)) {
+                    Files.copy(log, current, StandardCopyOption.REPLACE_EXISTING);
                     lost++;
                 }
                 Files.delete(log);

@@ -14,7 +14,7 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.soak.CommittedState;
 import io.furrow.soak.year.Tap.Report;
 
-/** How often each report of a device is on a topic. */
+/** Counts how often each report of a device is on a topic. */
 final class ReportLog implements AutoCloseable {
     private static final String END_OF_REPLAY = "urn:ngsi-ld:Replay:";
 
@@ -28,7 +28,7 @@ final class ReportLog implements AutoCloseable {
         return all(List.of(topic)).get(topic);
     }
 
-    /** By topic. */
+    /** The reports by topic. */
     Map<String, Map<Report, Integer>> all(List<String> topics) throws UnreadableException {
         Map<String, Map<Report, Integer>> reports = new HashMap<>();
         topics.forEach(topic -> reports.put(topic, new HashMap<>()));
@@ -36,8 +36,8 @@ final class ReportLog implements AutoCloseable {
         return reports;
     }
 
-    /** @param read how far each partition was read before, and is now */
-    void readOn(String topic, Map<TopicPartition, Long> read, Map<Report, Integer> into) throws UnreadableException {
+    /** Reads new records. @param read offsets up to which each partition was read; updated */
+    void readNew(String topic, Map<TopicPartition, Long> read, Map<Report, Integer> into) throws UnreadableException {
         read(List.of(topic), read, Map.of(topic, into));
     }
 
@@ -53,7 +53,9 @@ final class ReportLog implements AutoCloseable {
                 Report report = record.value() == null
                         ? null
                         : Report.of(Entity.parse(record.value()).json());
-                if (report != null && report.time() > 0 && !report.entity().startsWith(END_OF_REPLAY)) { // of a device
+                if (report != null
+                        && report.time() > 0
+                        && !report.entity().startsWith(END_OF_REPLAY)) { // a report of a device
                     into.get(record.topic()).merge(report, 1, Integer::sum);
                 }
             }
@@ -61,7 +63,7 @@ final class ReportLog implements AutoCloseable {
         partitions.forEach(each -> read.put(each, consumer.position(each)));
     }
 
-    /** How many records retention has removed from the beginning of a topic. */
+    /** The number of records that retention has deleted from the beginning of a topic. */
     long removed(String topic) {
         return consumer.beginningOffsets(CommittedState.partitions(consumer, List.of(topic))).values().stream()
                 .mapToLong(Long::longValue)

@@ -12,8 +12,8 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.soak.control.Until;
 
 /**
- * A mission of each week with a device that reports once and falls silent, and one that never reports. Of the first there is an
- * alarm {@code silent-device}, of the second {@code missing-devices}, as long as the mission runs.
+ * Runs a mission in each week with a device that reports once and falls silent, and one that never reports. While the
+ * mission runs, the first must have an alarm {@code silent-device}, the second {@code missing-devices}.
  */
 record SilentDevices(YearFarm farm, YearFleet fleet) {
     private static final String FALLS_SILENT = "urn:ngsi-ld:Thermometer:falls-silent";
@@ -35,7 +35,7 @@ record SilentDevices(YearFarm farm, YearFleet fleet) {
         farm.request("POST", "/api/missions/" + mission(week) + "/start", plan);
     }
 
-    /** When its mission is known. */
+    /** Reports once, after the mission is known. */
     void report() {
         fleet.reportOnce(FALLS_SILENT);
     }
@@ -44,11 +44,11 @@ record SilentDevices(YearFarm farm, YearFleet fleet) {
         farm.request("POST", "/api/missions/" + mission(week) + "/stop", null);
     }
 
-    void forget(int week) {
-        farm.forget(mission(week));
+    void delete(int week) {
+        farm.delete(mission(week));
     }
 
-    /** Both alarms are there, and they are of this mission. */
+    /** Checks that both alarms of this mission are open. */
     YearCheck checkSilent(String when, int week) {
         Until.within(TIMEOUT, () -> open(week).equals(ALARMS));
         return new YearCheck(
@@ -63,7 +63,7 @@ record SilentDevices(YearFarm farm, YearFleet fleet) {
                 "no alarm once their mission has ended, " + when, "", YearCheck.differences(Map.of(), open(week)));
     }
 
-    /** By kind, the devices of which there is an alarm. */
+    /** Devices with open alarms, by kind of alarm. */
     private Map<String, String> open(int week) {
         Map<String, String> open = new TreeMap<>();
         for (JsonNode alarm : farm.up.get("/api/alarms?limit=10000")) {

@@ -12,12 +12,12 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.soak.control.Http;
 import io.furrow.stub.StubServer;
 
-/** Stands between the context broker and the listener for notifications, and remembers which reports were answered 2xx, and when. */
+/** Forwards notifications from the context broker to the source, and stores when each report was answered 2xx. */
 final class Tap implements AutoCloseable {
     private final StubServer server;
     private final Map<Report, Long> acknowledged = new ConcurrentHashMap<>();
 
-    /** One report: an entity and the time that it bears, epoch ms. */
+    /** A report: entity and time, epoch ms. */
     record Report(String entity, long time) {
         static Report of(JsonNode entity) {
             return new Report(
@@ -25,16 +25,16 @@ final class Tap implements AutoCloseable {
         }
     }
 
-    /** @param listener port of the suite's */
+    /** @param listener port of the suite's source */
     Tap(int listener) {
-        server = new StubServer(exchange -> pass(exchange, listener));
+        server = new StubServer(exchange -> forward(exchange, listener));
     }
 
     String publicUrl() {
         return server.uri("/v2/notify").toString();
     }
 
-    private void pass(HttpExchange exchange, int listener) throws IOException {
+    private void forward(HttpExchange exchange, int listener) throws IOException {
         try (exchange) {
             byte[] body = exchange.getRequestBody().readAllBytes();
             URI to = URI.create("http://127.0.0.1:" + listener + exchange.getRequestURI());
@@ -42,12 +42,12 @@ final class Tap implements AutoCloseable {
             if (status / 100 == 2) {
                 long now = System.currentTimeMillis();
                 for (JsonNode entity : NgsiJson.mapper().readTree(body).path("data")) {
-                    if (entity.at("/Time/value").isNumber()) { // of a device, and no result of our own
+                    if (entity.at("/Time/value").isNumber()) { // a report of a device, not a result of analytics
                         acknowledged.putIfAbsent(Report.of(entity), now);
                     }
                 }
             }
-            if (status > 0) { // else it gets no answer either
+            if (status > 0) { // otherwise the context broker gets no answer either
                 exchange.sendResponseHeaders(status, -1);
             }
         }

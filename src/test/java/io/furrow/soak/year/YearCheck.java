@@ -8,17 +8,17 @@ import java.util.Set;
 import java.util.TreeSet;
 
 /**
- * What was looked at, and whether it holds.
+ * The result of a check.
  *
- * @param figures what was counted
- * @param differences empty where it holds
+ * @param figures counts
+ * @param differences empty if the check succeeded
  */
 record YearCheck(String what, String figures, List<String> differences) {
     boolean holds() {
         return differences.isEmpty();
     }
 
-    /** Each that is missing, too many, or another than expected. */
+    /** Missing, unexpected and different values. */
     static List<String> differences(Map<String, ?> expected, Map<String, ?> found) {
         List<String> differences = new ArrayList<>();
         Set<String> all = new TreeSet<>(expected.keySet());

@@ -30,14 +30,14 @@ import io.furrow.soak.control.Until;
 import io.furrow.soak.devices.StandInProcess;
 import io.furrow.soak.devices.UpProcess;
 
-/** Mosquitto, the stand-ins of context broker and IoT Agent, and {@code ./furrow up}, each a process of its own. */
+/** Starts Mosquitto, the stand-ins of context broker and IoT Agent, and {@code ./furrow up} as processes. */
 final class YearFarm implements AutoCloseable {
     private static final Duration TIMEOUT = Duration.ofMinutes(1);
     private static final int SEGMENTS = 4;
-    /** Longer than the slowest week, so that what is looked at after it is still there. */
+    /** Longer than the slowest week, so that records still exist when they are checked after it. */
     private static final double RETENTION_WEEKS = 1.75;
 
-    /** Of the suite. */
+    /** The data folder of the suite. */
     final Path data;
 
     private final MosquittoProcess mosquitto;
@@ -47,7 +47,7 @@ final class YearFarm implements AutoCloseable {
     private final Set<String> retained = new HashSet<>();
     private long retentionMillis;
 
-    /** @param furrow the words that start it, before {@code up} */
+    /** @param furrow command that starts Furrow, without {@code up} */
     YearFarm(List<String> furrow, Path folder) throws IOException, InterruptedException {
         mosquitto = new MosquittoProcess(folder.resolve("mosquitto").toAbsolutePath());
         standIn = new StandInProcess(folder, mosquitto.uri());
@@ -76,7 +76,7 @@ final class YearFarm implements AutoCloseable {
         return "mongodb://127.0.0.1:" + up.port("mongo");
     }
 
-    /** Asks until it is granted: what it asks for is allowed, but perhaps not yet. @return the answer */
+    /** Repeats a request until it is accepted, since it may not be allowed yet. @return the response */
     JsonNode request(String method, String path, ObjectNode body) {
         byte[] bytes = body == null ? null : NgsiJson.write(body);
         AtomicReference<Http.Answer> answer = new AtomicReference<>();
@@ -87,8 +87,8 @@ final class YearFarm implements AutoCloseable {
         return answer.get().body();
     }
 
-    /** Deletes a mission, and does what the control plane does a day later and a retention of missions would do. */
-    void forget(String mission) {
+    /** Deletes a mission, its topic and its collection, which the control plane would delete a day later. */
+    void delete(String mission) {
         request("DELETE", "/api/missions/" + mission, null);
         try (MongoClient client = MongoClients.create(mongo())) {
             deleteTopics(Topics.realtime(FarmYear.DOMAIN, mission));
@@ -113,9 +113,9 @@ final class YearFarm implements AutoCloseable {
     }
 
     /**
-     * Gives a retention to topics of data that have none and are no mission's, as one does with Kafka's tools.
+     * Sets a retention for data topics without one, except those of missions, as an operator does with Kafka's tools.
      *
-     * @param week how long it took; the first counts
+     * @param week duration of the week; that of the first call counts
      */
     void retain(Duration week) throws InterruptedException, ExecutionException {
         retentionMillis = retentionMillis == 0 ? (long) (RETENTION_WEEKS * week.toMillis()) : retentionMillis;

@@ -23,8 +23,9 @@ import io.furrow.soak.devices.ProgramEvent;
 import io.furrow.soak.year.Tap.Report;
 
 /**
- * The farm's devices, of which those of running missions report once a second; and at all times one whose clock is two hours
- * slow, and one that names a new mission with each report. The first two tractors meet for one of five seconds.
+ * The farm's devices: those of running missions report once a second. At all times one device has a clock two hours
+ * slow, and another names a new mission in each report. The first two tractors are close to each other for one of five
+ * seconds.
  */
 final class YearFleet implements AutoCloseable {
     static final int MISSIONS = 3;
@@ -42,7 +43,7 @@ final class YearFleet implements AutoCloseable {
 
     private final URI contextBroker;
     private final Set<String> reporting = ConcurrentHashMap.newKeySet();
-    private final Set<String> once = ConcurrentHashMap.newKeySet();
+    private final Set<String> reportOnce = ConcurrentHashMap.newKeySet();
     private final Map<Report, ProgramEvent> tractors = new ConcurrentHashMap<>();
     private final Map<Report, ProgramEvent> thermometers = new ConcurrentHashMap<>();
     private volatile int second;
@@ -100,22 +101,22 @@ final class YearFleet implements AutoCloseable {
         devices(mission).forEach(reporting::remove);
     }
 
-    /** No encounter lasts from then on until a second has passed. */
+    /** Waits until no encounter is ongoing; the next one begins a second later at the earliest. */
     void awaitParted() {
         Until.isTrue("the tractors have parted", TIMEOUT, () -> !near);
     }
 
-    /** A device far from all fields reports, and not again. */
+    /** Makes a device far from all fields report once. */
     void reportOnce(String device) {
-        once.add(device);
+        reportOnce.add(device);
     }
 
-    /** What the tractors told of their place, by report. */
+    /** Reported positions of tractors, by report. */
     Map<Report, ProgramEvent> tractors() {
         return tractors;
     }
 
-    /** What the thermometers told, by report. */
+    /** Reported values of thermometers, by report. */
     Map<Report, ProgramEvent> thermometers() {
         return thermometers;
     }
@@ -127,9 +128,9 @@ final class YearFleet implements AutoCloseable {
         for (String id : new ArrayList<>(reporting)) {
             entities.add(id.contains("Tractor") ? tractor(id, now) : thermometer(id, now));
         }
-        for (String id : new ArrayList<>(once)) {
+        for (String id : new ArrayList<>(reportOnce)) {
             entities.add(attribute(entity(id, now), "Latitude", latitude(-1)));
-            once.remove(id);
+            reportOnce.remove(id);
         }
         entities.add(entity(SLOW, now - SLOW_MILLIS));
         ObjectNode invents = entity(INVENTS, now);

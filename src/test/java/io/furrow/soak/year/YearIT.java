@@ -14,7 +14,7 @@ import io.furrow.process.TestProcess;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** A month, a day in five seconds, with nothing beside it; the long form is {@code ./furrow soak year}. */
+/** A month with days of five seconds; the long form is {@code ./furrow soak year}. Runs alone. */
 @Timeout(540)
 @Tag("full")
 @Tag("page")
@@ -25,7 +25,7 @@ class YearIT {
     Path folder;
 
     @Test
-    void isWhereItBelongsAfterEachWeekOfAMonth() throws Exception {
+    void passesAllChecksAfterEachWeekOfAMonth() throws Exception {
         try (FarmYear month = new FarmYear(furrow(), folder, WEEKS, Duration.ofSeconds(5))) {
             month.run();
 
@@ -33,7 +33,7 @@ class YearIT {
         }
     }
 
-    /** The suite of this class path: {@code ./furrow} would build its own. */
+    /** The suite on this class path, because {@code ./furrow} would build another one. */
     private List<String> furrow() {
         String options = "-Xmx1g -XX:+UseParallelGC -Dfurrow.plugins=%s -Dfurrow.home=%s"
                 .formatted(System.getProperty("furrow.plugins"), folder);

@@ -13,7 +13,7 @@ import io.furrow.model.topic.Topics;
 import io.furrow.soak.control.Http;
 import io.furrow.soak.control.Until;
 
-/** The replay of a mission of each week: it has each event of the mission once, and is deleted. */
+/** Replays a mission of each week: the replay must have each event once, and be deleted. */
 final class YearReplays {
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
 
@@ -25,7 +25,7 @@ final class YearReplays {
         this.farm = farm;
     }
 
-    /** @param mission one that is over */
+    /** @param mission one that has ended */
     void start(String mission) {
         this.mission = mission;
         replay = farm.request(
@@ -34,7 +34,7 @@ final class YearReplays {
                 JsonNodeFactory.instance.objectNode().put("mission", mission).put("speed", 10));
     }
 
-    /** Its topic is deleted as the control plane does an hour later. */
+    /** Checks the replay and deletes it; also deletes its topic, which the control plane would delete an hour later. */
     YearCheck playedAndDeleted(String when) throws UnreadableException, InterruptedException, ExecutionException {
         String path = "/api/replays/" + replay.path("replay").asText();
         String topic = replay.path("topic").asText();

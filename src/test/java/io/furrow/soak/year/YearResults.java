@@ -23,14 +23,14 @@ import io.furrow.soak.devices.ProgramEvent;
 import io.furrow.soak.year.Accounts.Span;
 import io.furrow.soak.year.Tap.Report;
 
-/** Compares encounters and averages with what their definitions make of the reports that were stored. */
+/** Compares encounters and averages with those computed from the stored reports by their definitions. */
 final class YearResults {
     static final Duration WINDOW = Duration.ofSeconds(2);
 
-    /** From a reading to the average in which it counts: its window, the out-of-orderness of the jobs, a checkpoint. */
+    /** Time from a reading until its average is written: its window, the jobs' out-of-orderness, a checkpoint. */
     private static final long UNTIL_WRITTEN_MILLIS = 5_000;
 
-    private static final Duration QUIET = Duration.ofMillis(100);
+    private static final Duration READ_TIME = Duration.ofMillis(100);
 
     private final YearFarm farm;
     private final YearFleet fleet;
@@ -65,8 +65,8 @@ final class YearResults {
     }
 
     /**
-     * A reading that was told twice may have counted before it came too late. Unless all was to be there once, a result may be there
-     * again, equal to the first.
+     * A repeated reading may have been counted although a repetition is late. Unless each result must be there once,
+     * results may be repeated unchanged.
      */
     YearCheck averages(Span span) throws UnreadableException {
         Set<Report> late = late(Topics.TEMPERATURE_LATE);
@@ -124,7 +124,7 @@ final class YearResults {
 
     private List<ProgramEvent> stored(Map<Report, ProgramEvent> reported) {
         return reported.entrySet().stream()
-                .filter(each -> accounts.isTaken(each.getKey()))
+                .filter(each -> accounts.isStored(each.getKey()))
                 .map(Map.Entry::getValue)
                 .sorted(Comparator.comparingLong(ProgramEvent::time))
                 .toList();
@@ -142,7 +142,7 @@ final class YearResults {
 
     private List<Entity> read(String topic) throws UnreadableException {
         try (TopicLog log = new TopicLog(farm.up.kafka(), topic)) {
-            return log.read(QUIET);
+            return log.read(READ_TIME);
         }
     }
 }

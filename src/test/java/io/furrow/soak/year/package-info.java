@@ -1,2 +1,5 @@
-/** A farm's year in an hour: missions that come and go, restarts, kills and power cuts, and what has grown by the end. */
+/**
+ * A farm's year in an hour: missions start and end, the suite is restarted, killed and loses power; checks results and
+ * growth.
+ */
 package io.furrow.soak.year;

@@ -13,7 +13,7 @@ import org.junit.jupiter.params.provider.MethodSource;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 
-/** Each view by axe-core's rules of WCAG 2.2, levels A and AA: nothing serious. */
+/** Checks each view by axe-core's rules of WCAG 2.2, levels A and AA: no serious violations. */
 @PageTest
 @Tag("full")
 class AccessibilityIT {
@@ -23,13 +23,13 @@ class AccessibilityIT {
 
     private static final List<String> VIEWS = List.of("map", "missions", "replays", "analyses", "topics", "platform");
 
-    static Stream<WindowStyle> looks() {
+    static Stream<WindowStyle> styles() {
         return Stream.of(WindowStyle.DESKTOP, WindowStyle.PHONE_LIGHT);
     }
 
     @ParameterizedTest
-    @MethodSource("looks")
-    void hasNoSeriousFinding(WindowStyle style, PageSuite suite) {
+    @MethodSource("styles")
+    void hasNoSeriousViolation(WindowStyle style, PageSuite suite) {
         FarmPage farm = suite.open("", style);
         farm.untilStore("store.entities.size >= 17 && store.alarms.size > 0");
         for (String view : VIEWS) {
@@ -41,16 +41,16 @@ class AccessibilityIT {
                     .isVisible();
             assertThat(farm.find("furrow-" + view + " .skeleton:visible")).hasCount(0);
 
-            List<String> findings = new AxeBuilder(farm.page())
+            List<String> violations = new AxeBuilder(farm.page())
                     .withTags(RULES).analyze().getViolations().stream()
                             .filter(rule -> SERIOUS.contains(rule.getImpact()))
-                            .map(AccessibilityIT::arguments)
+                            .map(AccessibilityIT::describe)
                             .toList();
-            Assertions.assertThat(findings).as(view).isEmpty();
+            Assertions.assertThat(violations).as(view).isEmpty();
         }
     }
 
-    private static String arguments(Rule rule) {
+    private static String describe(Rule rule) {
         return rule.getImpact() + " " + rule.getId() + ": "
                 + rule.getNodes().stream()
                         .map(node -> node.getHtml() + " " + node.getFailureSummary())

@@ -17,7 +17,7 @@ import org.junit.jupiter.api.Test;
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** From an alarm to who takes care of it. */
+/** Alarms and their commands, announcements and notifications. */
 @PageTest
 class AlarmsIT {
     private static final String ANNOUNCEMENT = "New alarm, critical: Robot ";
@@ -68,7 +68,10 @@ class AlarmsIT {
         assertThat(row.getByRole(AriaRole.ALERT)).containsText("closes when its cause is over");
     }
 
-    /** Its causes last as long as the farm runs, so this one is known to this window alone, and the answer is a stand-in's. */
+    /**
+     * Uses an alarm of this window only and a mocked response, since the causes of real alarms last as long as the farm
+     * runs.
+     */
     @Tag("full")
     @Test
     void closesAnAlarm(FarmPage farm) {
@@ -78,16 +81,16 @@ class AlarmsIT {
             requested.incrementAndGet();
             route.fulfill(new Route.FulfillOptions().setStatus(202));
         });
-        take(farm, "open");
+        applyAlarm(farm, "open");
         Locator row = rowOf(farm, "over-1");
         close(row);
         farm.until(() -> requested.get() == 1);
 
-        take(farm, "closed");
+        applyAlarm(farm, "closed");
         assertThat(row).hasCount(0);
     }
 
-    private static void take(FarmPage farm, String state) {
+    private static void applyAlarm(FarmPage farm, String state) {
         farm.run("""
                         async (state) => {
                           const { store } = await import('/core/store.js');
@@ -108,7 +111,7 @@ class AlarmsIT {
 
     @Tag("full")
     @Test
-    void reportsANewAlarmToScreenReadersAndCountsIt(PageSuite suite) throws Exception {
+    void announcesANewAlarmToScreenReadersAndCountsIt(PageSuite suite) throws Exception {
         FarmPage farm = suite.open("");
         farm.untilStore("store.primed && store.alarmsLoaded");
         int robot = meet(suite);
@@ -120,7 +123,7 @@ class AlarmsIT {
 
     @Tag("full")
     @Test
-    void findsAlarmsByWhatTheyReport(FarmPage farm) {
+    void findsAlarmsByTheirTexts(FarmPage farm) {
         Locator open = farm.find("furrow-alarms > .alarm-list > li.alarm");
         farm.untilStore("[...store.alarms.values()].some((each) => each.state === 'open')");
         Locator search = farm.page().getByRole(AriaRole.SEARCHBOX);
@@ -132,7 +135,7 @@ class AlarmsIT {
         assertThat(open.first()).containsText("Robot", TIMEOUT);
     }
 
-    /** The streams of a hidden page close, but not that of alarms. */
+    /** A hidden page closes its streams, except that of alarms. */
     @Tag("full")
     @Test
     void notifiesOfANewAlarmWhileThePageIsHidden(PageSuite suite) throws Exception {
@@ -170,7 +173,7 @@ class AlarmsIT {
         forget(suite, other);
     }
 
-    /** Lets two robots stand side by side, away from all others, and returns the number of the first. */
+    /** Places two robots side by side, away from all others. @return the number of the first */
     private static int meet(PageSuite suite) throws Exception {
         int number = NUMBERS.getAndAdd(2);
         double latitude = 40.312 + (number - 1_000) * 5e-5;

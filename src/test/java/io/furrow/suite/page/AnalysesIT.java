@@ -12,7 +12,7 @@ import org.junit.jupiter.api.Test;
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 import static io.furrow.suite.page.FarmPage.having;
 
-/** What analytics found, and the way from it to its moment. */
+/** Results of analytics, and links from them to their moments. */
 @PageTest
 @Tag("full")
 class AnalysesIT {
@@ -31,7 +31,7 @@ class AnalysesIT {
     }
 
     @Test
-    void leadsFromAnEncounterToItsMomentOnTheMap(PageSuite suite) {
+    void showsTheMomentOfAnEncounterOnTheMap(PageSuite suite) {
         FarmPage farm = suite.open("#/analyses").expectingError(ReplaysIT.NO_RESULTS_YET);
         farm.untilStore("store.recordings.has('weeding')");
         Locator row = farm.find(".analysis.encounters tbody tr")
@@ -45,7 +45,7 @@ class AnalysesIT {
     }
 
     @Test
-    void showsWhoWasInWhichField(PageSuite suite) {
+    void showsPresenceByField(PageSuite suite) {
         FarmPage farm = suite.open("#/analyses");
         farm.find(".analysis.presence").getByText("Table").click();
 
@@ -56,12 +56,12 @@ class AnalysesIT {
     }
 
     @Test
-    void beginsWithWhatThereIsAndEndsWithItsAxis(PageSuite suite) {
+    void beginsWithTheFirstResultAndFitsItsAxis(PageSuite suite) {
         FarmPage farm = suite.open("#/analyses");
         Locator averages = farm.find(".analysis.averages");
         assertThat(averages.locator("canvas").first()).isVisible();
 
-        // a suite that has just begun is not shown as an empty hour; a minute is the least
+        // a suite that has just started does not show an empty hour; the minimum is a minute
         farm.until(() -> Boolean.TRUE.equals(farm.run("""
                 () => {
                   const { chart, findings } = document.querySelector('furrow-analyses');
@@ -76,8 +76,8 @@ class AnalysesIT {
     }
 
     @Test
-    void drawsStaysWhereTheAxisHasThem(FarmPage farm) {
-        // the axis grows to the right, and in a replay an open stay on an axis that does not
+    void drawsStaysAtTheirPositionsOnTheAxis(FarmPage farm) {
+        // the live axis grows to the right; in a replay an open stay grows on a fixed axis
         Object widths = farm.run("""
                 async () => {
                   const { store } = await import('/core/store.js');
@@ -102,7 +102,7 @@ class AnalysesIT {
     }
 
     @Test
-    void hasAllOfItOnAPhone(PageSuite suite) {
+    void fitsAPhone(PageSuite suite) {
         FarmPage farm = suite.open("#/analyses", WindowStyle.PHONE);
         Locator moment = farm.find(".analysis.encounters tbody tr").first().getByText("To the moment");
         assertThat(moment).isVisible();
@@ -115,7 +115,7 @@ class AnalysesIT {
         for (String part : List.of(".encounter-frame", ".gantt-name", ".chart-legend")) {
             Assertions.assertThat(farm.find(part)
                             .evaluateAll("(all) => all.filter((each) => each.scrollWidth > each.clientWidth).length"))
-                    .as(part + " that are cut")
+                    .as(part + " truncated")
                     .isEqualTo(0);
         }
     }

@@ -11,7 +11,7 @@ import com.microsoft.playwright.Browser;
 import com.microsoft.playwright.BrowserType;
 import com.microsoft.playwright.Playwright;
 
-/** The machine's Chromium, steered by Playwright, which fetches no browser of its own. */
+/** The installed Chromium, controlled by Playwright, which downloads no browser of its own. */
 record Chromium(Playwright playwright, Browser browser) implements AutoCloseable {
     static Chromium start(String... arguments) {
         Playwright playwright = Playwright.create(

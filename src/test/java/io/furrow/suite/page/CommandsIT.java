@@ -14,7 +14,7 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 import static io.furrow.suite.page.FarmPage.EXACTLY;
 import static org.awaitility.Awaitility.await;
 
-/** What a card says of a command to a robot that reports by itself, by what the robot then reports. */
+/** Outcomes of commands to a robot that writes its entity itself, by its later reports. */
 @PageTest
 @Tag("full")
 class CommandsIT {
@@ -25,20 +25,20 @@ class CommandsIT {
     private Locator outcome;
 
     @BeforeAll
-    static void beginItsMission(PageSuite suite) throws Exception {
+    static void startMission(PageSuite suite) throws Exception {
         String mission = "{\"domain\":\"farm\",\"devices\":[\"" + ROBOT + "\"]}";
         await().until(() -> suite.rest("POST", MISSION + "/start", mission) == 200);
     }
 
     @AfterAll
-    static void endItsMission(PageSuite suite) throws Exception {
+    static void deleteMission(PageSuite suite) throws Exception {
         suite.rest("POST", MISSION + "/stop", "");
         await().until(() -> suite.rest("DELETE", MISSION, "") == 200);
     }
 
-    /** It has answered an earlier command. */
+    /** The robot has answered an earlier command. */
     @BeforeEach
-    void stopARobot(PageSuite suite) throws Exception {
+    void sendStop(PageSuite suite) throws Exception {
         report(suite, answer("OK", "Resume"));
         farm = suite.open("");
         farm.untilStore("store.devices.has('" + ROBOT + "')");
@@ -49,16 +49,16 @@ class CommandsIT {
     }
 
     @AfterEach
-    void forgetIt(PageSuite suite) throws Exception {
+    void deleteRobot(PageSuite suite) throws Exception {
         suite.running().ngsi().delete(ROBOT);
         suite.forget(ROBOT);
     }
 
     @Test
-    void takesNoEarlierAnswerForThatOfThisCommand(PageSuite suite) throws Exception {
-        long moved = report(suite, "");
+    void ignoresTheAnswerToAnEarlierCommand(PageSuite suite) throws Exception {
+        long reportedAt = report(suite, "");
 
-        farm.untilStore("store.entities.get('" + ROBOT + "').time >= " + moved);
+        farm.untilStore("store.entities.get('" + ROBOT + "').time >= " + reportedAt);
         outcome.evaluate("(element) => element.closest('li').card.draw()");
         assertThat(outcome).containsText("no answer yet");
 
@@ -67,16 +67,16 @@ class CommandsIT {
     }
 
     @Test
-    void reportsThatACommandFailedAndWhy(PageSuite suite) throws Exception {
+    void showsThatACommandFailedAndWhy(PageSuite suite) throws Exception {
         report(suite, answer("ERROR", "the brake is stuck"));
 
         assertThat(outcome).containsText("✗ Stop failed");
         assertThat(outcome).containsText("the brake is stuck");
     }
 
-    /** As some agents leave it: the status stays, and the answer is in the info. */
+    /** Some agents do not update the status and put the answer into the info. */
     @Test
-    void takesTheInfoForTheAnswerWhileTheStatusIsPending(PageSuite suite) throws Exception {
+    void acceptsTheInfoAsAnswerWhileTheStatusIsPending(PageSuite suite) throws Exception {
         report(suite, answer("PENDING", ""));
         assertThat(outcome).containsText("no answer yet");
 
@@ -85,7 +85,7 @@ class CommandsIT {
     }
 
     @Test
-    void reportsThatNoAnswerCame(PageSuite suite) throws Exception {
+    void showsThatNoAnswerCame(PageSuite suite) throws Exception {
         report(suite, answer("PENDING", ""));
         outcome.evaluate("(element) => { element.closest('li').card.sent.at -= 31_000; }");
 
@@ -98,7 +98,7 @@ class CommandsIT {
                 "cmd_info": {"type": "commandResult", "value": "%s"}""".formatted(status, info);
     }
 
-    /** @return its time */
+    /** @return the time of the report */
     private static long report(PageSuite suite, String answer) throws Exception {
         long now = Instant.now().toEpochMilli();
         String entity = """

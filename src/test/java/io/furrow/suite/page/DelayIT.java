@@ -5,7 +5,7 @@ import org.junit.jupiter.api.Test;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** How long it takes is measured by {@code ./furrow soak page --only delay}. */
+/** Events reach the map and cards. {@code ./furrow soak page --only delay} measures how long it takes. */
 @PageTest
 @Tag("full")
 class DelayIT {

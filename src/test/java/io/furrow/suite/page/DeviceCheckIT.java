@@ -8,11 +8,11 @@ import org.junit.jupiter.api.Test;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** What the page says of each device before a mission starts, from what it knows of the farm. */
+/** Findings about devices before a mission starts, from the state of the farm. */
 @PageTest
 @Tag("full")
 class DeviceCheckIT {
-    private static final String KNOWN = """
+    private static final String FARM_STATE = """
             { now: 1000000000, mission: 'new',
               fields: new Map([['f', { id: 'f', name: 'Upper field', exclusion: false, properties: {}, geometry: { type: 'Polygon',
                 coordinates: [[[0, 0], [2, 0], [2, 2], [0, 2], [0, 0]], [[0.5, 0.5], [1, 0.5], [1, 1], [0.5, 1], [0.5, 0.5]]] } }]]),
@@ -28,7 +28,7 @@ class DeviceCheckIT {
                 .map(([id, position]) => [id, { position, time: ['silent', 'off'].includes(id) ? 1 : 999999000, attributes: { battery: { value: 90 } } }])) }""";
 
     @Test
-    void reportsWhatIsMissingOfEachDevice(FarmPage farm) {
+    void findsWhatIsWrongWithEachDevice(FarmPage farm) {
         assertThat(check(farm, "['fit', 'silent', 'low', 'used', 'free', 'hole', 'far', 'never-heard-of']"))
                 .containsExactly(
                         "fit ok [seen, battery, inside]",
@@ -42,7 +42,7 @@ class DeviceCheckIT {
     }
 
     @Test
-    void findsDevicesThatTheHostSwitchesOnAndThoseYetToBeMade(FarmPage farm) {
+    void acceptsDevicesThatAreSwitchedOffOrCreatedByTheMission(FarmPage farm) {
         assertThat(check(farm, """
                 [{ id: 'off', type: 'T' }, { type: 'Thermometer', count: 3, path: [[1.5, 1.5]] }, { type: 'Robot', count: 1, path: [[5, 5]] }, \
                 { type: 'Camera', count: 1, area: 'f' }, { type: 'Camera', count: 1, area: 'gone' }]"""))
@@ -59,8 +59,8 @@ class DeviceCheckIT {
         List<Map<String, Object>> checked = (List<Map<String, Object>>)
                 farm.run(
                         "async () => { const { checkPlan } = await import('/views/missions/check.js'); return checkPlan("
-                                + groups + ", 'farm', " + KNOWN
-                                + ").map((each) => ({ said: `${each.name} ${each.worst} [${each.findings.map((finding) => finding.text).join(', ')}]` })); }");
-        return checked.stream().map(each -> (String) each.get("said")).toList();
+                                + groups + ", 'farm', " + FARM_STATE
+                                + ").map((each) => ({ text: `${each.name} ${each.worst} [${each.findings.map((finding) => finding.text).join(', ')}]` })); }");
+        return checked.stream().map(each -> (String) each.get("text")).toList();
     }
 }

@@ -12,15 +12,15 @@ import org.junit.jupiter.api.Test;
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 import static io.furrow.suite.page.FarmPage.having;
 
-/** What the page says where there is nothing yet, and before it knows what there is. */
+/** The page of an empty farm, and the page before the state of the farm is known. */
 @PageTest
 @Tag("full")
 class EmptyFarmIT {
     @Test
-    void reportsForEachPlaceThatThereIsNothingYetAndWhatMakesSome(PageSuite suite) {
-        FarmPage farm = window(suite);
+    void showsInEachViewThatItIsEmptyAndHowToFillIt(PageSuite suite) {
+        FarmPage farm = suite.window();
         farm.page().routeWebSocket("**/socket/**", socket -> socket.send("{\"primed\":true}"));
-        farm.page().route("**/api/**", EmptyFarmIT::answerWithNothing);
+        farm.page().route("**/api/**", EmptyFarmIT::answerEmpty);
         farm.open("");
 
         assertThat(farm.find("furrow-map .map-empty")).containsText("No devices yet");
@@ -43,8 +43,8 @@ class EmptyFarmIT {
         assertThat(farm.find("furrow-replays")).containsText("No missions are stored yet");
         assertThat(farm.find("furrow-replays")).containsText("No replay runs");
         farm.go("Analyses");
-        for (String nothing : new String[] {"No averages", "No encounters", "Nobody was in a field"}) {
-            assertThat(farm.find("furrow-analyses")).containsText(nothing + " in this period");
+        for (String empty : new String[] {"No averages", "No encounters", "Nobody was in a field"}) {
+            assertThat(farm.find("furrow-analyses")).containsText(empty + " in this period");
         }
         farm.go("Topics");
         assertThat(farm.find("furrow-topics")).containsText("No domain has been made yet");
@@ -52,13 +52,13 @@ class EmptyFarmIT {
     }
 
     @Test
-    void showsThatItReadsUntilItHasRead(PageSuite suite) {
-        FarmPage farm = window(suite);
+    void showsSkeletonsWhileLoading(PageSuite suite) {
+        FarmPage farm = suite.window();
         farm.page().routeWebSocket("**/socket/**", socket -> {});
         farm.page().route("**/api/**", route -> {
             if (path(route).startsWith("/api/me") || path(route).startsWith("/api/register")) {
                 route.resume();
-            } // the rest is never answered
+            } // the others are not answered
         });
         farm.open("");
 
@@ -66,17 +66,13 @@ class EmptyFarmIT {
         assertThat(farm.find(".alarm-none")).hasText("Alarms are being read …");
         assertThat(farm.find("furrow-map .map-empty")).isHidden();
         assertThat(farm.find("furrow-cards .empty")).isHidden();
-        for (String place : new String[] {"Missions", "Replays", "Analyses"}) {
-            farm.go(place);
-            Locator skeleton = farm.find("furrow-" + place.toLowerCase(java.util.Locale.ROOT) + " .skeleton");
+        for (String view : new String[] {"Missions", "Replays", "Analyses"}) {
+            farm.go(view);
+            Locator skeleton = farm.find("furrow-" + view.toLowerCase(java.util.Locale.ROOT) + " .skeleton");
             assertThat(skeleton.first()).isVisible();
             assertThat(farm.find(".view-place .empty:visible").filter(having("yet")))
                     .hasCount(0);
         }
-    }
-
-    private static FarmPage window(PageSuite suite) {
-        return suite.window();
     }
 
     private static void tab(FarmPage farm, String name) {
@@ -85,17 +81,17 @@ class EmptyFarmIT {
                 .click();
     }
 
-    static void answerWithNothing(Route route) {
+    static void answerEmpty(Route route) {
         String path = path(route);
         if (path.equals("/api/me") || path.startsWith("/api/register")) {
             route.resume();
             return;
         }
-        String nothing = path.startsWith("/api/history")
+        String empty = path.startsWith("/api/history")
                 ? "{\"since\":0,\"records\":[]}"
                 : path.startsWith("/api/density") ? "{\"from\":0,\"width\":5000,\"counts\":[]}" : "[]";
         route.fulfill(
-                new Route.FulfillOptions().setContentType("application/json").setBody(nothing));
+                new Route.FulfillOptions().setContentType("application/json").setBody(empty));
     }
 
     private static String path(Route route) {

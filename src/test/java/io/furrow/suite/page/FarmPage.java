@@ -17,12 +17,12 @@ import com.microsoft.playwright.options.AriaRole;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 
-/** The dashboard in one window of the browser: how to move about in it, and what went wrong in it. */
+/** The dashboard in one browser window: navigates in it, queries it, and collects its errors. */
 final class FarmPage implements AutoCloseable {
-    /** Of what comes of its own accord, such as the next encounter. */
+    /** Timeout for events that the test does not trigger, such as the next encounter. */
     static final Page.WaitForConditionOptions TIMEOUT = new Page.WaitForConditionOptions().setTimeout(60_000);
 
-    /** How many times as much a page may hold after five minutes as after one. */
+    /** Accepted ratio of the heap after five minutes to the heap after one minute. */
     static final double HEAP_GROWTH = 1.1;
 
     static final Locator.GetByTextOptions EXACTLY = new Locator.GetByTextOptions().setExact(true);
@@ -43,8 +43,7 @@ final class FarmPage implements AutoCloseable {
         this.page = context.newPage();
         page.onConsoleMessage(this::listen);
         page.onPageError(error -> errors.add("uncaught: " + error));
-        // What the page's policy forbids is an event besides a line on the console, which others could phrase
-        // otherwise.
+        // the console also reports violations of the policy, but their wording depends on the browser
         context.addInitScript(
                 "addEventListener('securitypolicyviolation', (event) => console.error("
                         + "`policy forbids ${event.violatedDirective} of ${event.blockedURI} at ${event.sourceFile}:${event.lineNumber}`));");
@@ -56,14 +55,14 @@ final class FarmPage implements AutoCloseable {
         }
     }
 
-    /** @param place as in {@code #/missions} */
-    FarmPage open(String place) {
-        page.navigate(dashboard.resolve("/") + place);
+    /** @param hash such as {@code #/missions} */
+    FarmPage open(String hash) {
+        page.navigate(dashboard.resolve("/") + hash);
         assertThat(page.locator("furrow-app")).isVisible();
         return this;
     }
 
-    /** By the rail, as one who clicks. */
+    /** Opens a view by a click in the navigation. */
     FarmPage go(String name) {
         page.getByRole(AriaRole.NAVIGATION, new Page.GetByRoleOptions().setName("Places"))
                 .getByRole(AriaRole.LINK, new Locator.GetByRoleOptions().setName(name))
@@ -75,7 +74,7 @@ final class FarmPage implements AutoCloseable {
         return page;
     }
 
-    /** The value of an expression or function of JavaScript. */
+    /** Evaluates an expression or function of JavaScript. */
     Object run(String script) {
         return page.evaluate(script);
     }
@@ -113,16 +112,16 @@ final class FarmPage implements AutoCloseable {
                 AriaRole.BUTTON, new Page.GetByRoleOptions().setName(name).setExact(true));
     }
 
-    /** As a tab behind another one. */
+    /** Hides the window like a tab in the background. */
     void hide() {
-        seen(false);
+        setVisible(false);
     }
 
     void show() {
-        seen(true);
+        setVisible(true);
     }
 
-    private void seen(boolean visible) {
+    private void setVisible(boolean visible) {
         page.evaluate("""
                 (visible) => {
                   Object.defineProperty(document, 'hidden', { get: () => !visible, configurable: true });
@@ -136,30 +135,31 @@ final class FarmPage implements AutoCloseable {
         return page.locator("furrow-cards li.card[data-id=\"" + entity + "\"]");
     }
 
-    /** Of the page's own store: an expression over {@code store}. */
+    /** Evaluates an expression over {@code store}, the page's store. */
     Object store(String expression) {
         return page.evaluate(
                 "async () => { const { store } = await import('/core/store.js'); return " + expression + "; }");
     }
 
     /**
-     * MiB that its scripts hold, memory of typed arrays counted in: the smallest of several garbage collections. After a single one half
-     * a MiB may be on its way, an answer that was just read or memory whose owner is freed by the next one. What is held is in all of them.
+     * The memory of the page's scripts including typed arrays, MiB: the minimum after several garbage collections.
+     * After a single one, half a MiB may be temporary, such as a response that was just read, or memory whose owner is
+     * freed by the next collection.
      */
     double heap() {
         CDPSession session = context.newCDPSession(page);
         try {
-            double smallest = Double.MAX_VALUE;
+            double min = Double.MAX_VALUE;
             for (int collection = 0; collection < HEAP_COLLECTIONS; collection++) {
                 session.send("HeapProfiler.collectGarbage");
                 JsonObject usage = session.send("Runtime.getHeapUsage");
-                smallest = Math.min(
-                        smallest,
+                min = Math.min(
+                        min,
                         usage.get("usedSize").getAsDouble()
                                 + usage.get("backingStorageSize").getAsDouble());
                 page.waitForTimeout(HEAP_COLLECTION_MILLIS);
             }
-            return smallest / (1 << 20);
+            return min / (1 << 20);
         } finally {
             session.detach();
         }
@@ -170,7 +170,7 @@ final class FarmPage implements AutoCloseable {
         page.waitForCondition(() -> Boolean.TRUE.equals(store(expression)), TIMEOUT);
     }
 
-    /** Where on the map a device is drawn, pixels of the window. */
+    /** Where a device is drawn on the map, pixels of the window. */
     double[] spot(String entity) {
         List<?> pixel = (List<?>) page.evaluate(
                 "async (id) => { const { store } = await import('/core/store.js'); const { project } = await import('/map/projection.js');"
@@ -181,7 +181,7 @@ final class FarmPage implements AutoCloseable {
         return new double[] {((Number) pixel.get(0)).doubleValue(), ((Number) pixel.get(1)).doubleValue()};
     }
 
-    /** Where it is drawn once no other device is drawn there with it. */
+    /** Where a device is drawn, once no other device is drawn at the same spot. */
     double[] ownSpot(String entity) {
         page.waitForFunction(
                 "async (id) => { const { store } = await import('/core/store.js'); const { project } = await import('/map/projection.js');"
@@ -192,7 +192,7 @@ final class FarmPage implements AutoCloseable {
         return spot(entity);
     }
 
-    /** Pixels of the map's canvases that have exactly a colour. */
+    /** The number of pixels on the map's canvases with exactly this color. */
     int mapPixels(int rgb) {
         return ((Number) page.evaluate("""
                         (rgb) => [...document.querySelectorAll('furrow-map canvas.map-canvas')].reduce((sum, canvas) => {
@@ -204,13 +204,15 @@ final class FarmPage implements AutoCloseable {
                         }, 0)""", rgb)).intValue();
     }
 
-    /** An error that a test provokes is no failure of the page. */
+    /** Expects an error that the test provokes, so that it does not fail the test. */
     FarmPage expectingError(String pattern) {
         expected.add(Pattern.compile(pattern));
         return this;
     }
 
-    /** What the console called an error, was thrown and not caught, or the page's policy forbade. */
+    /**
+     * Errors on the console, uncaught exceptions, and violations of the content security policy, except expected ones.
+     */
     List<String> errors() {
         return errors.stream()
                 .filter(error -> expected.stream()
@@ -229,7 +231,7 @@ final class FarmPage implements AutoCloseable {
     @Override
     public void close() {
         if (!page.isClosed()) {
-            page.unrouteAll(); // a request that comes while the page closes would otherwise fail the test
+            page.unrouteAll(); // a request that arrives while the page closes would fail the test
         }
         context.close();
     }

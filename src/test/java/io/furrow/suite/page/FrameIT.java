@@ -11,15 +11,15 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 @Tag("full")
 class FrameIT {
     @Test
-    void opensOnTheMapAndReportsThatWhatIsShownIsLive(FarmPage farm) {
+    void opensTheMapInLiveMode(FarmPage farm) {
         assertThat(farm.page()).hasTitle("Furrow");
         assertThat(farm.find(".mode")).hasText("Live");
         assertThat(farm.find("furrow-map canvas").first()).isVisible();
     }
 
-    /** A test of the page fails by errors of the window: they have to be heard. */
+    /** Tests of the page fail by errors in the window, so these must be detected. */
     @Test
-    void reportsWhatThePolicyForbidsAndWhatNobodyCaught(PageSuite suite) {
+    void detectsPolicyViolationsAndUncaughtExceptions(PageSuite suite) {
         FarmPage farm = suite.open("").expectingError(".");
         farm.run(
                 "() => { setTimeout(() => { throw new Error('thrown by a test'); });"

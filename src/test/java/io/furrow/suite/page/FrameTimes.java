@@ -20,13 +20,14 @@ import com.microsoft.playwright.Route;
 import com.microsoft.playwright.options.ColorScheme;
 
 /**
- * Time of the browser's main thread for each frame of the map, beside that of a bare page of OpenLayers: both play one recorded stream of devices that
- * report once a second, on maps of one size, by turns. No suite runs.
+ * Measures the time of the browser's main thread per frame of the map, and of a bare page of OpenLayers for comparison.
+ * Both play the same recorded stream of devices that report once a second, on maps of the same size, in turns. No suite
+ * runs.
  */
 final class FrameTimes implements AutoCloseable {
     static final String BARE = "bare";
     static final String MAP = "map";
-    /** The map with the cards that are in view beside it. */
+    /** The map with the visible cards beside it. */
     static final String CARDS = "cards";
 
     private static final String WEB = "web";
@@ -38,7 +39,7 @@ final class FrameTimes implements AutoCloseable {
     private static final int SECONDS_RECORDED = 60;
     private static final int WARM_UP_MILLIS = 8_000;
     private static final int MAX_START_MILLIS = 120_000;
-    /** So far apart in the window that the map draws each device by itself. */
+    /** The devices are so far apart that the map draws each one individually. */
     private static final int COLUMNS = 72;
 
     private static final double COLUMN_DEGREES = 0.0003;
@@ -56,12 +57,14 @@ final class FrameTimes implements AutoCloseable {
     }
 
     /**
+     * Measures one page.
+     *
      * @param page {@link #BARE}, {@link #MAP} or {@link #CARDS}
-     * @return milliseconds of the main thread for each frame that the map drew
-     * @throws IllegalStateException if not every device was drawn by itself
+     * @return milliseconds of the main thread per frame that the map drew
+     * @throws IllegalStateException if a device was not drawn individually
      */
     double measure(String page, int seconds) {
-        int width = page.equals(CARDS) ? WIDTH + PANEL : WIDTH; // so that the map is the same
+        int width = page.equals(CARDS) ? WIDTH + PANEL : WIDTH; // the same size of the map
         try (BrowserContext context = chromium.browser()
                 .newContext(new Browser.NewContextOptions()
                         .setViewportSize(width, 900)
@@ -94,7 +97,7 @@ final class FrameTimes implements AutoCloseable {
                 : ((Number) window.evaluate("document.querySelector('furrow-map').devices.spots.length")).intValue();
         if (single != devices) {
             throw new IllegalStateException(
-                    "%s drew %d of %d devices by themselves: its time is not that of the same points"
+                    "%s drew %d of %d devices individually: its time is not that of the same points"
                             .formatted(page, single, devices));
         }
     }
@@ -111,10 +114,10 @@ final class FrameTimes implements AutoCloseable {
                 return each.get("value").getAsDouble() * 1000;
             }
         }
-        throw new IllegalStateException("Chromium tells no TaskDuration");
+        throw new IllegalStateException("Chromium reports no TaskDuration");
     }
 
-    // --- what the pages are made of ---
+    // --- responses ---
 
     private void answer(Route route) {
         String path = URI.create(route.request().url()).getPath();
@@ -136,7 +139,7 @@ final class FrameTimes implements AutoCloseable {
             return read(HARNESS + path.substring("/frames/".length()));
         }
         if (path.startsWith("/lib/ol/")) {
-            String root = "/META-INF/resources/webjars/ol/" + versionOfOpenLayers() + "/";
+            String root = "/META-INF/resources/webjars/ol/" + openLayersVersion() + "/";
             String name = path.substring("/lib/ol/".length());
             byte[] distributed = read(root + "dist/" + name);
             return distributed == null ? read(root + name) : distributed;
@@ -152,7 +155,7 @@ final class FrameTimes implements AutoCloseable {
         }
     }
 
-    private static String versionOfOpenLayers() {
+    private static String openLayersVersion() {
         Properties properties = new Properties();
         try (InputStream stream =
                 FrameTimes.class.getResourceAsStream("/META-INF/maven/org.webjars.npm/ol/pom.properties")) {
@@ -165,7 +168,7 @@ final class FrameTimes implements AutoCloseable {
 
     // --- the recorded stream ---
 
-    /** Lines of milliseconds and a frame of records, as a socket of the dashboard sends them. */
+    /** Lines of a time in ms and a frame of records, as a dashboard's socket sends them. */
     private static String recorded(int devices) {
         StringBuilder lines = new StringBuilder();
         for (int frame = 0; frame < SECONDS_RECORDED * FRAMES_IN_A_SECOND; frame++) {

@@ -7,15 +7,18 @@ import org.junit.jupiter.api.Test;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Memory of a page that is left open. With more devices, in their own time: {@code ./furrow soak page --only heap}. */
+/**
+ * Memory of a page that stays open. {@code ./furrow soak page --only heap} checks it with more devices, in real time.
+ */
 @PageTest
 @Tag("full")
 class HeapIT {
     private static final int DEVICES = 400;
 
     @Test
-    void holdsNoMoreAfterFiveMinutesThanAfterOne(FarmPage farm) {
-        // what is read once is no growth: the past of the devices, lists, alarms, and the first results of analytics
+    void heapDoesNotGrowBetweenTheFirstAndFifthMinute(FarmPage farm) {
+        // data that is read once does not count as growth: earlier reports, lists, alarms, and the first results of
+        // analytics
         farm.untilStore(
                 "store.primed && store.pastLoaded && store.alarmsLoaded && store.recordings.size > 0 && store.averages.size > 0"
                         + " && store.images.size > 0 && store.encounters.size > 0");
@@ -28,7 +31,7 @@ class HeapIT {
         assertThat(farm.heap()).isLessThanOrEqualTo(FarmPage.HEAP_GROWTH * afterOne);
     }
 
-    /** Each device once for each second of a time that passes faster; the page draws in between. */
+    /** Reports each device once per second of simulated time, which passes faster; the page draws in between. */
     private static void report(FarmPage farm, int from, int to) {
         farm.run("""
                 async ({ devices, from, to }) => {

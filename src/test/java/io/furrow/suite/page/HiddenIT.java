@@ -9,14 +9,14 @@ import org.junit.jupiter.api.Test;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** A tab that nobody sees. What it costs is measured by {@code ./furrow soak page --only hidden}. */
+/** A hidden tab. {@code ./furrow soak page --only hidden} measures its cost. */
 @PageTest
 @Tag("full")
 class HiddenIT {
     private static final String ROBOT = "urn:ngsi-ld:Robot:1";
 
     @Test
-    void letsGoOfEverythingAndComesBack(PageSuite suite) {
+    void closesItsStreamsAndReconnects(PageSuite suite) {
         FarmPage hidden = suite.window();
         AtomicInteger sockets = new AtomicInteger();
         List<String> requests = new CopyOnWriteArrayList<>();
@@ -29,25 +29,25 @@ class HiddenIT {
         hidden.open("");
         hidden.untilStore("store.primed");
         assertThat(sockets).hasPositiveValue();
-        FarmPage seen = suite.open("");
-        seen.untilStore("store.primed");
+        FarmPage visible = suite.open("");
+        visible.untilStore("store.primed");
 
         hidden.hide();
         hidden.page().waitForCondition(() -> sockets.get() == 0, FarmPage.TIMEOUT);
-        later(seen, 1_000); // what was under way ends
-        hidden.page().evaluate("1"); // delivers the events that waited
+        awaitReport(visible, 1_000); // pending requests end
+        hidden.page().evaluate("1"); // delivers pending events
         requests.clear();
-        later(seen, 5_000);
+        awaitReport(visible, 5_000);
         hidden.page().evaluate("1");
         assertThat(requests).isEmpty();
 
         hidden.show();
-        later(hidden, 0);
+        awaitReport(hidden, 0);
         assertThat(sockets).hasPositiveValue();
     }
 
-    /** Until a device reported so many milliseconds from now. */
-    private static void later(FarmPage farm, long millis) {
+    /** Waits for a device's report that is at least this much later than now. */
+    private static void awaitReport(FarmPage farm, long millis) {
         farm.untilStore("store.entities.get('" + ROBOT + "').time > " + (System.currentTimeMillis() + millis));
     }
 }

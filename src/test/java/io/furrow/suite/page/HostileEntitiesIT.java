@@ -17,7 +17,7 @@ import static io.furrow.suite.page.FarmPage.ATTRIBUTES;
 import static io.furrow.suite.page.FarmPage.having;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** What anybody could write to Kafka: shown as text or cut, never run, and the page lives on. */
+/** Hostile records: the page shows them as text or truncates them, never runs them, and keeps working. */
 @PageTest
 @Tag("full")
 class HostileEntitiesIT {
@@ -44,12 +44,12 @@ class HostileEntitiesIT {
         farm.go("Topics");
         farm.find("[id='topic-data.raw']").check();
         farm.go("Map");
-        alive(farm);
+        assertAlive(farm);
         suite.forget(id);
     }
 
     @Test
-    void leavesOutMostOfTenThousandAttributes(PageSuite suite) throws Exception {
+    void omitsMostOfTenThousandAttributes(PageSuite suite) throws Exception {
         String id = "urn:ngsi-ld:Thermometer:wide";
         ObjectNode entity = entity(id, "Thermometer");
         for (int number = 0; number < 10_000; number++) {
@@ -61,12 +61,12 @@ class HostileEntitiesIT {
         Locator card = farm.card(id);
         card.getByRole(AriaRole.BUTTON, ATTRIBUTES).click();
         assertThat(card).containsText("more attributes are not shown");
-        alive(farm);
+        assertAlive(farm);
         suite.forget(id);
     }
 
     @Test
-    void reportsThatAValueIsTooLarge(PageSuite suite) throws Exception {
+    void showsThatAValueIsTooLarge(PageSuite suite) throws Exception {
         String id = "urn:ngsi-ld:Thermometer:long";
         ObjectNode entity = entity(id, "Thermometer");
         attribute(entity, "Note", "x".repeat(5_000_000));
@@ -74,34 +74,34 @@ class HostileEntitiesIT {
 
         FarmPage farm = suite.open("");
         assertThat(farm.card(id)).containsText("Too large to show");
-        alive(farm);
+        assertAlive(farm);
         suite.forget(id);
     }
 
     @Test
-    void drawsNothingOfPlacesFarOutside(PageSuite suite) throws Exception {
-        String[] places = {"1e308, 1e308", "9000, 91", "\"NaN\", \"<b>\"", "null, {}"};
-        for (int number = 0; number < places.length; number++) {
+    void drawsNoInvalidPositions(PageSuite suite) throws Exception {
+        String[] positions = {"1e308, 1e308", "9000, 91", "\"NaN\", \"<b>\"", "null, {}"};
+        for (int number = 0; number < positions.length; number++) {
             String id = "urn:ngsi-ld:Thermometer:outside" + number;
-            String[] place = places[number].split(", ");
+            String[] position = positions[number].split(", ");
             suite.produce("data.raw", id, """
                     {"id": "%s", "type": "Thermometer", "Time": {"type": "Integer", "value": %d}, "Temperature": {"type": "Float", "value": 1e308},
-                     "Longitude": {"type": "Float", "value": %s}, "Latitude": {"type": "Float", "value": %s}}""".formatted(id, Instant.now().toEpochMilli(), place[0], place[1])
+                     "Longitude": {"type": "Float", "value": %s}, "Latitude": {"type": "Float", "value": %s}}""".formatted(id, Instant.now().toEpochMilli(), position[0], position[1])
                     .getBytes(UTF_8));
         }
 
         FarmPage farm = suite.open("");
-        for (int number = 0; number < places.length; number++) {
+        for (int number = 0; number < positions.length; number++) {
             assertThat(farm.card("urn:ngsi-ld:Thermometer:outside" + number)).containsText("no position");
         }
-        alive(farm);
-        for (int number = 0; number < places.length; number++) {
+        assertAlive(farm);
+        for (int number = 0; number < positions.length; number++) {
             suite.forget("urn:ngsi-ld:Thermometer:outside" + number);
         }
     }
 
     @Test
-    void livesOnAfterWhatIsNoEntity(PageSuite suite) throws Exception {
+    void worksAfterRecordsThatAreNoEntities(PageSuite suite) throws Exception {
         for (String value : new String[] {
             "no JSON", "[]", "5",
             "\"text\"", "{}", "{\"id\": 5}",
@@ -114,13 +114,13 @@ class HostileEntitiesIT {
         for (String value : new String[] {"no JSON", "[]", "5", "{}"}) {
             suite.produce("data.raw", "odd", value.getBytes(UTF_8));
         }
-        alive(farm);
+        assertAlive(farm);
         suite.forget("odd");
         suite.forget("__proto__");
     }
 
-    /** Later records of others are shown, and nothing of what was written has run. */
-    private static void alive(FarmPage farm) {
+    /** Asserts that later records of others are shown, and that no script of a record has run. */
+    private static void assertAlive(FarmPage farm) {
         long now = System.currentTimeMillis();
         farm.untilStore("store.entities.get('urn:ngsi-ld:Robot:1')?.time > " + now);
         assertThat(farm.card("urn:ngsi-ld:Robot:1")).containsText("m/s");

@@ -21,14 +21,14 @@ import io.furrow.model.ngsi.NgsiJson;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 
-/** The dashboard is gone, and comes back. */
+/** The dashboard stops, and starts again. */
 @PageTest
 @Tag("full")
 class LostConnectionIT {
     private static final String COLLISIONS = "store.topics.get('data.collision')";
 
     @Test
-    void retainsWhatItShowedAndGoesOn(PageSuite suite) throws Exception {
+    void retainsItsStateAndReconnects(PageSuite suite) throws Exception {
         Dashboard dashboard = suite.ownDashboard(0);
         int port = dashboard.uri().getPort();
         FarmPage farm = suite.open(dashboard.uri(), "", WindowStyle.DESKTOP)
@@ -39,8 +39,8 @@ class LostConnectionIT {
         assertThat(farm.find(".notice")).containsText("trying again. What is shown is from");
         assertThat(farm.card("urn:ngsi-ld:Robot:1")).isVisible();
 
-        try (Dashboard again = suite.ownDashboard(port)) {
-            Assertions.assertThat(again.uri()).hasPort(port);
+        try (Dashboard restarted = suite.ownDashboard(port)) {
+            Assertions.assertThat(restarted.uri()).hasPort(port);
             assertThat(farm.find(".notice"))
                     .hasText(Pattern.compile("^The connection was away from [\\d:]{8} to [\\d:]{8}\\."));
             assertThat(farm.find(".notice")).isHidden();
@@ -49,9 +49,9 @@ class LostConnectionIT {
         }
     }
 
-    /** The server goes on counting, as another page reads the topic all the time. */
+    /** The server continues its sequence, since another page reads the topic all the time. */
     @Test
-    void countsWhatItMissed(PageSuite suite) {
+    void countsMissedRecords(PageSuite suite) {
         FarmPage other = suite.open("");
         FarmPage farm = suite.window().expectingError("ERR_FAILED|Failed to load resource");
         farm.page().addInitScript("""
@@ -75,18 +75,18 @@ class LostConnectionIT {
         farm.untilStore(COLLISIONS + ".gap > 2");
     }
 
-    /** What was known before a stream has no deletions, and of entities it is behind their reports. */
+    /** The initial state contains no deletions, and lags behind the reports of entities. */
     @Test
-    void letsGoOfWhatWasDeletedMeanwhile(PageSuite suite) {
-        Map<String, List<String>> previous = new HashMap<>();
-        previous.put("data.raw", entities("stays", "gone"));
-        previous.put("service.fields", fields("stays", "gone"));
-        previous.put("service.alarms", alarms("stays", "gone"));
-        previous.put("service.replays", replays("stays", "gone"));
-        previous.put("service.replays.status", replays("stays", "gone"));
+    void removesWhatWasDeletedMeanwhile(PageSuite suite) {
+        Map<String, List<String>> state = new HashMap<>();
+        state.put("data.raw", entities("stays", "gone"));
+        state.put("service.fields", fields("stays", "gone"));
+        state.put("service.alarms", alarms("stays", "gone"));
+        state.put("service.replays", replays("stays", "gone"));
+        state.put("service.replays.status", replays("stays", "gone"));
         List<WebSocketRoute> open = new ArrayList<>();
-        FarmPage farm = onStandIns(suite, previous, open);
-        farm.page().route("**/api/history/**", EmptyFarmIT::answerWithNothing);
+        FarmPage farm = withMockedServer(suite, state, open);
+        farm.page().route("**/api/history/**", EmptyFarmIT::answerEmpty);
         farm.open("");
         String shown =
                 "[store.entities, store.fields, store.alarms, store.replays].map((each) => [...each.keys()].sort())";
@@ -94,11 +94,11 @@ class LostConnectionIT {
         send(open, "data.raw", List.of(record("event", "new", 2_000, "{\"id\":\"new\",\"type\":\"Robot\"}")));
         farm.untilStore("store.entities.has('new')");
 
-        previous.put("data.raw", entities("stays"));
-        previous.put("service.fields", fields("stays"));
-        previous.put("service.alarms", alarms("stays"));
-        previous.put("service.replays", replays("stays"));
-        previous.put("service.replays.status", replays("stays"));
+        state.put("data.raw", entities("stays"));
+        state.put("service.fields", fields("stays"));
+        state.put("service.alarms", alarms("stays"));
+        state.put("service.replays", replays("stays"));
+        state.put("service.replays.status", replays("stays"));
         List.copyOf(open).forEach(WebSocketRoute::close);
 
         farm.untilStore(
@@ -106,10 +106,10 @@ class LostConnectionIT {
     }
 
     @Test
-    void readsWhatAnalyticsFoundMeanwhile(PageSuite suite) throws Exception {
+    void readsResultsOfAnalyticsFromMeanwhile(PageSuite suite) throws Exception {
         Map<String, String> found = new HashMap<>();
         List<WebSocketRoute> open = new ArrayList<>();
-        FarmPage farm = onStandIns(suite, Map.of(), open);
+        FarmPage farm = withMockedServer(suite, Map.of(), open);
         farm.page().route("**/api/history/**", route -> {
             String topic = URI.create(route.request().url()).getPath().substring("/api/history/".length());
             route.fulfill(new Route.FulfillOptions()
@@ -139,10 +139,11 @@ class LostConnectionIT {
         }
     }
 
-    /** A window whose streams and answers are a stand-in's: each stream begins with what is known of its topic by then. */
-    private static FarmPage onStandIns(PageSuite suite, Map<String, List<String>> previous, List<WebSocketRoute> open) {
+    /** A window with mocked streams and responses: each stream begins with the current state of its topic. */
+    private static FarmPage withMockedServer(
+            PageSuite suite, Map<String, List<String>> state, List<WebSocketRoute> open) {
         FarmPage farm = suite.window();
-        farm.page().route("**/api/**", EmptyFarmIT::answerWithNothing);
+        farm.page().route("**/api/**", EmptyFarmIT::answerEmpty);
         farm.page()
                 .route(
                         "**/api/register/**",
@@ -152,7 +153,7 @@ class LostConnectionIT {
                                         + topicOf(route.request().url()) + "\"}")));
         farm.page().routeWebSocket("**/socket/**", socket -> {
             open.add(socket);
-            send(List.of(socket), topicOf(socket.url()), previous.getOrDefault(topicOf(socket.url()), List.of()));
+            send(List.of(socket), topicOf(socket.url()), state.getOrDefault(topicOf(socket.url()), List.of()));
             socket.send("{\"primed\":true}");
         });
         return farm;

@@ -14,7 +14,7 @@ import org.junit.jupiter.api.Test;
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 import static io.furrow.suite.page.FarmPage.having;
 
-/** From the map to a device and back. */
+/** The map: fields, devices, encounters, labels and controls. */
 @PageTest
 class MapIT {
     private static final String ROBOT = "urn:ngsi-ld:Robot:1";
@@ -33,18 +33,18 @@ class MapIT {
         assertThat(farm.find("furrow-map .empty")).isHidden();
     }
 
-    /** Red is on the map only while two devices are close to each other. */
+    /** Red occurs on the map only while two devices are close to each other. */
     @Test
-    void drawsAnEncounterWhileItLastsAndItsDistance(FarmPage farm) {
-        String lasting = "[...store.encounters.values()].some((each) => ['started', 'ongoing'].includes(each.phase))";
+    void drawsAnEncounterWhileItIsOngoing(FarmPage farm) {
+        String ongoing = "[...store.encounters.values()].some((each) => ['started', 'ongoing'].includes(each.phase))";
 
         farm.untilStore("store.encounters.size > 0");
-        farm.until(() -> Boolean.TRUE.equals(farm.store(lasting)) && farm.mapPixels(CRITICAL) > 200, FarmPage.TIMEOUT);
-        farm.until(() -> Boolean.FALSE.equals(farm.store(lasting)) && farm.mapPixels(CRITICAL) == 0, FarmPage.TIMEOUT);
+        farm.until(() -> Boolean.TRUE.equals(farm.store(ongoing)) && farm.mapPixels(CRITICAL) > 200, FarmPage.TIMEOUT);
+        farm.until(() -> Boolean.FALSE.equals(farm.store(ongoing)) && farm.mapPixels(CRITICAL) == 0, FarmPage.TIMEOUT);
     }
 
     @Test
-    void selectsTheCardOfADeviceThatIsClicked(FarmPage farm) {
+    void selectsTheCardOfAClickedDevice(FarmPage farm) {
         farm.untilStore("store.entities.has('" + THERMOMETER + "') && store.primed && store.fields.size > 0");
         assertThat(farm.card(THERMOMETER)).not().hasClass(Pattern.compile("selected"));
 
@@ -57,7 +57,7 @@ class MapIT {
 
     @Tag("full")
     @Test
-    void bringsTheDeviceOfACardIntoTheMiddle(FarmPage farm) {
+    void centersTheDeviceOfAClickedCard(FarmPage farm) {
         farm.card(THERMOMETER).getByRole(AriaRole.BUTTON).first().click();
 
         farm.untilStore("store.selection === '" + THERMOMETER + "'");
@@ -70,7 +70,7 @@ class MapIT {
 
     @Tag("full")
     @Test
-    void hasATableOfTheSameBesideTheMap(FarmPage farm) {
+    void showsTheContentOfTheMapAsTables(FarmPage farm) {
         farm.button("The map as a table").click();
         Locator rows = farm.find(".map-table table[aria-label=Devices] tbody tr");
 
@@ -92,14 +92,14 @@ class MapIT {
 
     @Tag("full")
     @Test
-    void gathersManyRobotsAndOpensWhatNoZoomDistinguishes(FarmPage farm) {
+    void clustersManyRobotsAndListsThoseThatNoZoomDistinguishes(FarmPage farm) {
         farm.untilStore("store.primed && store.entities.size >= 17");
         report(farm, 200, 40.312998, -3.483058);
         farm.run("document.querySelector('furrow-map').fit(0)");
         farm.until(() -> (int)
                         farm.number(
                                 "Math.max(0, ...document.querySelector('furrow-map').devices.clusters.map((each) => each.count))")
-                == 200); // more while the map is still on its way there
+                == 200); // more while the view is still moving
         double[] spot = farm.spot("urn:ngsi-ld:Tractor:7");
         farm.page().mouse().click(spot[0], spot[1]);
 
@@ -113,7 +113,7 @@ class MapIT {
 
     @Tag("full")
     @Test
-    void opensOnTheFarmThoughOneDeviceIsFarAway(FarmPage farm) {
+    void fitsTheFarmThoughOneDeviceIsFarAway(FarmPage farm) {
         farm.untilStore("store.primed && store.entities.size >= 17");
         farm.run(
                 "async () => { const { store } = await import('/core/store.js'); store.fields.clear(); store.notify('fields'); }");
@@ -147,7 +147,7 @@ class MapIT {
 
     @Tag("full")
     @Test
-    void drawsAnEncounterThatIsPredictedUntilItStarts(FarmPage farm) {
+    void drawsAPredictedEncounterUntilItStarts(FarmPage farm) {
         farm.untilStore("store.primed && store.fields.size === 4");
         report(farm, 2, 40.3125, -3.4822);
         farm.until(() -> farm.mapPixels(WARNING) > 200, FarmPage.TIMEOUT); // the suspect thermometer
@@ -191,10 +191,10 @@ class MapIT {
         farm.until(() -> farm.mapPixels(BORDER_OF_ZONES) < with - 20);
     }
 
-    /** The suspects of a field may be known before the field is: they come on two topics. */
+    /** The suspects of a field may arrive before the field, since they come from different topics. */
     @Tag("full")
     @Test
-    void marksASuspectThoughItsFieldIsKnownLater(FarmPage farm) {
+    void marksASuspectThoughItsFieldArrivesLater(FarmPage farm) {
         farm.untilStore("store.primed && store.fields.size === 4");
         report(farm, 1, 40.3125, -3.4822);
         farm.run("""
@@ -219,7 +219,7 @@ class MapIT {
         return (int) farm.number("window.drawn");
     }
 
-    /** Reports that come to this window only. */
+    /** Applies reports in this window only. */
     private static void report(FarmPage farm, int count, double latitude, double longitude) {
         farm.run("""
                         async ([count, latitude, longitude]) => {
@@ -234,7 +234,7 @@ class MapIT {
 
     @Tag("full")
     @Test
-    void movesToTheFieldThatIsSearchedFor(FarmPage farm) {
+    void movesToTheSearchedField(FarmPage farm) {
         farm.untilStore("store.fields.size === 4 && store.primed");
         double whole = zoom(farm);
 
@@ -265,16 +265,16 @@ class MapIT {
         return farm.number("document.querySelector('furrow-map').view.getZoom()");
     }
 
-    /** On the map of a phone too, where only some fields have room for it inside their outline. */
+    /** The map of a phone has room for text inside the outline of some fields only. */
     @Tag("full")
     @Test
-    void reportsTheAverageOfEachFieldAndCoversNoSymbolWithIt(PageSuite suite) {
+    void showsTheAverageOfEachFieldWithoutCoveringSymbols(PageSuite suite) {
         FarmPage farm = suite.open("", WindowStyle.PHONE);
         farm.untilStore("store.primed && store.entities.size >= 17"
                 + " && ['field-1', 'field-2', 'field-3'].every((id) => store.averages.has(id))");
         farm.until(() -> labels(farm, "each.line.includes('°C') && isFree") == 3);
 
-        // a robot drives onto each of them
+        // a robot drives onto each label
         farm.run("""
                         async () => {
                           const { store } = await import('/core/store.js');
@@ -293,7 +293,7 @@ class MapIT {
         farm.until(() -> labels(farm, "isFree") >= 3 && labels(farm, "!isFree") == 0);
     }
 
-    /** How many texts of fields are drawn of which an expression over {@code each} and {@code isFree} is true. */
+    /** The number of labels of fields for which an expression over {@code each} and {@code isFree} is true. */
     private static int labels(FarmPage farm, String expression) {
         return ((Number) farm.run("""
                         () => {

@@ -15,14 +15,17 @@ import io.furrow.dashboard.page.PageSettings;
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Map tiles out of a PMTiles file. */
+/** Map tiles from a PMTiles file. */
 @PageTest
 @Tag("full")
 class MapTilesIT {
     private static final int NOWHERE = 0x2040FF;
     private static final int FARM = 0xC01080;
     private static final int SEA = 0x10C0C0;
-    /** The tile of zoom 2 that has the farm near Madrid, column 1 and row 1: 5 before its zoom, the third on the curve. */
+    /**
+     * The tile of zoom 2 with the farm near Madrid, column 1 and row 1: 5 tiles precede its zoom, and it is the third
+     * on the curve.
+     */
     private static final long FARM_ID = 7;
 
     @TempDir
@@ -51,7 +54,7 @@ class MapTilesIT {
     void drawsThemBelowTheFieldsAndNamesTheirSource(PageSuite suite) throws Exception {
         try (Dashboard dashboard = dashboard(suite, file())) {
             FarmPage farm = suite.open(dashboard.uri(), "", WindowStyle.DESKTOP)
-                    .expectingError("404.*/api/images/"); // has no folder of them
+                    .expectingError("404.*/api/images/"); // has no folder of images
 
             farm.untilStore("store.fields.size === 4");
             farm.until(() -> share(farm, FARM) > 0.95, FarmPage.TIMEOUT);
@@ -65,7 +68,7 @@ class MapTilesIT {
         }
     }
 
-    /** The share of the map that has a colour, before the style sheet mutes it. */
+    /** The share of the map with this color, before the style sheet mutes it. */
     private static double share(FarmPage farm, int rgb) {
         Object share = farm.run("""
                         (rgb) => {
@@ -82,10 +85,10 @@ class MapTilesIT {
     }
 
     @Test
-    void findsEachTileByItsPlaceAndNoneWhereThereIsNone(PageSuite suite) throws Exception {
+    void findsTilesByTheirIdAndReportsMissingOnes(PageSuite suite) throws Exception {
         try (Dashboard dashboard = dashboard(suite, file())) {
             FarmPage farm = suite.open(dashboard.uri(), "", WindowStyle.DESKTOP)
-                    .expectingError("404.*/api/images/"); // has no folder of them
+                    .expectingError("404.*/api/images/"); // has no folder of images
 
             assertThat(tile(farm, 0, 0, 0)).isEqualTo(TileArchive.picture(NOWHERE).length);
             for (int x = 0; x < 2; x++) {
@@ -93,13 +96,13 @@ class MapTilesIT {
                     assertThat(tile(farm, 1, x, y)).isEqualTo(TileArchive.picture(SEA).length);
                 }
             }
-            assertThat(colour(farm, 2, 0, 0)).isEqualTo(NOWHERE);
-            assertThat(colour(farm, 2, 1, 1)).isEqualTo(FARM);
-            assertThat(colour(farm, 1, 1, 0)).isEqualTo(SEA);
+            assertThat(color(farm, 2, 0, 0)).isEqualTo(NOWHERE);
+            assertThat(color(farm, 2, 1, 1)).isEqualTo(FARM);
+            assertThat(color(farm, 1, 1, 0)).isEqualTo(SEA);
             assertThat(tile(farm, 2, 1, 0)).isZero();
             assertThat(tile(farm, 2, 3, 3)).isZero();
             assertThat(tile(farm, 3, 0, 0)).isZero();
-            // of the specification and its reference implementation
+            // from the specification and its reference implementation
             Map<List<Integer>, Long> ids = Map.of(
                     List.of(0, 0, 0), 0L,
                     List.of(1, 0, 0), 1L,
@@ -108,33 +111,34 @@ class MapTilesIT {
                     List.of(1, 1, 0), 4L,
                     List.of(2, 0, 0), 5L,
                     List.of(12, 3423, 1763), 19_078_479L);
-            ids.forEach((place, id) -> assertThat(((Number) evaluate(farm, "tileId(...given)", place)).longValue())
-                    .as("%s", place)
-                    .isEqualTo(id));
+            ids.forEach(
+                    (position, id) -> assertThat(((Number) evaluate(farm, "tileId(...argument)", position)).longValue())
+                            .as("%s", position)
+                            .isEqualTo(id));
             farm.close();
         }
     }
 
-    private static Object evaluate(FarmPage farm, String expression, Object given) {
+    private static Object evaluate(FarmPage farm, String expression, Object argument) {
         return farm.run(
-                "async (given) => { const { PmtilesFile, tileId } = await import('/map/pmtiles.js'); return "
+                "async (argument) => { const { PmtilesFile, tileId } = await import('/map/pmtiles.js'); return "
                         + expression + "; }",
-                given);
+                argument);
     }
 
-    /** Bytes; 0 where there is none. */
+    /** Bytes of a tile; 0 if there is none. */
     private static int tile(FarmPage farm, int z, int x, int y) {
         return ((Number) evaluate(
                         farm,
-                        "(await new PmtilesFile('/tiles/base.pmtiles').tile(...given))?.size ?? 0",
+                        "(await new PmtilesFile('/tiles/base.pmtiles').tile(...argument))?.size ?? 0",
                         List.of(z, x, y)))
                 .intValue();
     }
 
-    private static int colour(FarmPage farm, int z, int x, int y) {
+    private static int color(FarmPage farm, int z, int x, int y) {
         return ((Number) evaluate(farm, """
                         await (async () => {
-                          const image = await createImageBitmap(await new PmtilesFile('/tiles/base.pmtiles').tile(...given));
+                          const image = await createImageBitmap(await new PmtilesFile('/tiles/base.pmtiles').tile(...argument));
                           const context = new OffscreenCanvas(1, 1).getContext('2d');
                           context.drawImage(image, 0, 0);
                           const [red, green, blue] = context.getImageData(0, 0, 1, 1).data;

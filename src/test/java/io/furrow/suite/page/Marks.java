@@ -13,14 +13,14 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
- * How long an event takes from Kafka's client to the pixel: a device jumps between two places, one event after the other, and the page looks in every frame
- * at the two pixels of the map's canvas, and at the number on the device's card.
+ * Measures the time from Kafka's client to the pixel: a device moves between two positions, one event after the other.
+ * In each frame the page reads the two pixels of the map's canvas and the number on the device's card.
  */
 final class Marks {
     private static final String ID = "urn:ngsi-ld:Thermometer:mark";
     private static final List<List<Double>> PLACES =
             List.of(List.of(-3.483058, 40.312998), List.of(-3.483058, 40.31307));
-    /** In every frame, after it was drawn. */
+    /** Runs after each frame. */
     private static final String WATCH = """
             async ([id, places]) => {
               const { project } = await import('/map/projection.js');
@@ -48,7 +48,7 @@ final class Marks {
 
     private Marks() {}
 
-    /** Delays in milliseconds, sorted; one that never came to the page is missing. */
+    /** Delays in milliseconds, sorted; without events that never reached the page. */
     record Delays(List<Long> canvas, List<Long> card) {
         static long percentile(List<Long> sorted, double share) {
             return sorted.get((int) Math.min(sorted.size() - 1, Math.ceil(share * sorted.size()) - 1));
@@ -79,21 +79,21 @@ final class Marks {
         return delays;
     }
 
-    /** Of the canvas the places in turn, of the card the numbers. */
-    private static List<Long> delays(FarmPage farm, String where, List<Long> sent) {
+    /** Pairs events with observed positions (canvas) or numbers (card). */
+    private static List<Long> delays(FarmPage farm, String target, List<Long> sent) {
         List<Long> delays = new ArrayList<>();
-        List<?> seen = (List<?>) farm.run("window.marks." + where);
+        List<?> observed = (List<?>) farm.run("window.marks." + target);
         for (int number = 1; number <= sent.size(); number++) {
             long since = sent.get(number - 1);
             long before = number < sent.size() ? sent.get(number) : Long.MAX_VALUE;
-            int desired = where.equals("canvas") ? number % 2 : number;
-            for (Object each : seen) {
+            int expected = target.equals("canvas") ? number % 2 : number;
+            for (Object each : observed) {
                 List<?> mark = (List<?>) each;
                 if (mark.get(0) instanceof Number what
                         && mark.get(1) instanceof Number when
-                        && what.intValue() == desired
+                        && what.intValue() == expected
                         && when.longValue() >= since
-                        && (where.equals("card") || when.longValue() < before)) {
+                        && (target.equals("card") || when.longValue() < before)) {
                     delays.add(when.longValue() - since);
                     break;
                 }

@@ -21,7 +21,7 @@ import static io.furrow.suite.page.FarmPage.EXACTLY;
 import static io.furrow.suite.page.FarmPage.having;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** The life of a mission, and who commanded it. */
+/** The life cycle of missions, and the audit. */
 @PageTest
 class MissionsIT {
     private static final String MEADOW = """
@@ -29,15 +29,15 @@ class MissionsIT {
             "geometry":{"type":"Polygon","coordinates":[[[9.0,50.0],[9.001,50.0],[9.001,50.001],[9.0,50.001],[9.0,50.0]]]}}]}""";
 
     @Test
-    void makesChecksStartsAndStopsAMission(PageSuite suite) {
-        // Of a mission that has just begun nothing is stored yet.
+    void createsChecksStartsAndStopsAMission(PageSuite suite) {
+        // A mission that has just started has no stored events.
         FarmPage farm = suite.open("#/missions").expectingError("status of 400.*recordings/again/timeline");
         farm.button("New mission").click();
         Locator dialog = farm.find("dialog[open]");
         dialog.getByLabel("Name").fill("again");
         dialog.getByLabel("Domain").selectOption("farm");
         dialog.getByLabel("Template").selectOption("demo-scouting@1");
-        // Its devices are at work in another mission.
+        // Its devices are used by another mission.
         assertThat(dialog).containsText("are in the way");
         assertThat(dialog).containsText("runs in mission scouting");
         dialog.getByLabel("Template").selectOption("thesis-demo@1");
@@ -60,7 +60,7 @@ class MissionsIT {
 
     @Tag("full")
     @Test
-    void makesAMissionOfRealDevicesThatWaitsForTheirFirstReport(PageSuite suite) {
+    void createsAMissionOfRealDevicesThatWaitsForTheirFirstReport(PageSuite suite) {
         FarmPage farm = suite.open("#/missions").expectingError("status of 400.*recordings/own/timeline");
         farm.button("New mission").click();
         Locator dialog = farm.find("dialog[open]");
@@ -73,7 +73,7 @@ class MissionsIT {
         Locator detail = farm.find("furrow-missions .mission-detail");
         assertThat(detail.locator(".pill").first()).hasText("starting");
         assertThat(detail.locator(".device-table tbody")).containsText("Thermometer own-2");
-        // Three of its periods are no silence, however long they are.
+        // A device is silent only after three of its periods, however long they are.
         String states = "import('/core/entity.js').then(({ stateOf }) => [2_700_000, 2_700_001].map((age) => "
                 + "stateOf({ word: '', period: null, time: 0 }, age, 'PT15M')).join())";
         Assertions.assertThat(farm.run(states)).isEqualTo("ok,stale");
@@ -109,7 +109,7 @@ class MissionsIT {
 
     @Tag("full")
     @Test
-    void makesAndDeletesADomain(PageSuite suite) {
+    void createsAndDeletesADomain(PageSuite suite) {
         FarmPage farm = suite.open("#/missions?tab=domains");
         farm.button("New domain").click();
         Locator dialog = farm.find("dialog[open]");
@@ -126,10 +126,10 @@ class MissionsIT {
         assertThat(orchard).hasCount(0);
     }
 
-    /** The fields that there are already: other tests count them. */
+    /** Imports the existing fields, since other tests count them. */
     @Tag("full")
     @Test
-    void importsTheFieldsOfAFileAndReportsWhatIsWrongWithOne(PageSuite suite) throws Exception {
+    void importsFieldsAndReportsAnInvalidFile(PageSuite suite) throws Exception {
         FarmPage farm = suite.open("#/missions?tab=domains");
         farm.button("Import fields").click();
         Locator dialog = farm.find("dialog[open]");
@@ -149,7 +149,7 @@ class MissionsIT {
         assertThat(dialog).hasCount(0);
     }
 
-    /** A field of its own, of which nothing is left: other tests count them. */
+    /** Uses a field of its own and deletes it, since other tests count fields. */
     @Tag("full")
     @Test
     void renamesEndsAndDeletesAField(PageSuite suite) throws Exception {
@@ -179,7 +179,7 @@ class MissionsIT {
 
     @Tag("full")
     @Test
-    void importsAFileThatIsDropped(PageSuite suite) {
+    void importsADroppedFile(PageSuite suite) {
         FarmPage farm = suite.open("#/missions?tab=domains");
         assertThat(farm.find("#missions-panel")).containsText("River field");
         farm.run("""
@@ -200,7 +200,7 @@ class MissionsIT {
 
     @Tag("full")
     @Test
-    void showsOlderCommandsOnRequestAndNewOnesAboveThem(PageSuite suite) throws Exception {
+    void showsOlderCommandsOnRequestAndNewerOnesAboveThem(PageSuite suite) throws Exception {
         produceAudit(suite, 0, 450);
         FarmPage farm = suite.open("#/missions?tab=audit&mission=long-ago");
         Locator rows = farm.find("furrow-missions .audit-table tbody tr");

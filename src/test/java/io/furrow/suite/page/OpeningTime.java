@@ -6,9 +6,9 @@ import java.util.List;
 import com.microsoft.playwright.Browser;
 import com.microsoft.playwright.Page;
 
-/** How long the page of a running farm takes to open. */
+/** Measures how long the page of a running farm takes to open. */
 public final class OpeningTime {
-    private static final String IS_THERE = """
+    private static final String IS_SHOWN = """
             async (ids) => {
               const { store } = await import('/core/store.js');
               const frame = document.querySelector('furrow-map canvas.map-canvas');
@@ -18,7 +18,7 @@ public final class OpeningTime {
 
     private OpeningTime() {}
 
-    /** @param devices that must be on the map and among the cards @return ms from the navigation of a new window on */
+    /** @param devices that must be on the map and among the cards @return ms from the navigation of a new window */
     public static long millis(URI dashboard, List<String> devices) {
         try (Chromium chromium = Chromium.start();
                 FarmPage farm = new FarmPage(
@@ -26,12 +26,12 @@ public final class OpeningTime {
                         chromium.browser()
                                 .newContext(new Browser.NewContextOptions()
                                         .setViewportSize(WindowStyle.DESKTOP.width(), WindowStyle.DESKTOP.height())))) {
-            long began = System.nanoTime();
+            long startedAt = System.nanoTime();
             farm.open("");
             farm.until(
-                    () -> Boolean.TRUE.equals(farm.run(IS_THERE, devices)),
+                    () -> Boolean.TRUE.equals(farm.run(IS_SHOWN, devices)),
                     new Page.WaitForConditionOptions().setTimeout(20_000));
-            return (System.nanoTime() - began) / 1_000_000;
+            return (System.nanoTime() - startedAt) / 1_000_000;
         }
     }
 }

@@ -11,9 +11,9 @@ import org.junit.jupiter.api.extension.ParameterResolver;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /**
- * Gives tests the one {@link PageSuite}, started for the first of them and stopped after the last, or a new {@link FarmPage} on it. A test fails if a window of its
- * had an error on the console, an exception that nobody caught, or a violation of the content security policy. What a window of a failed test showed is
- * in {@code target/page}.
+ * Provides tests with the one {@link PageSuite}, started for the first and stopped after the last, or with a new {@link
+ * FarmPage}. A test fails if one of its windows had an error on the console, an uncaught exception, or a violation of
+ * the content security policy. Screenshots of the windows of failed tests are in {@code target/page}.
  */
 final class PageExtension implements ParameterResolver, AfterTestExecutionCallback {
     private static final Namespace NAMESPACE = Namespace.create(PageExtension.class);
@@ -38,16 +38,16 @@ final class PageExtension implements ParameterResolver, AfterTestExecutionCallba
                         "suite",
                         key -> {
                             try {
-                                return new Kept(PageSuite.start());
+                                return new SharedSuite(PageSuite.start());
                             } catch (Exception e) {
                                 throw new IllegalStateException("The suite for the tests of the page did not start", e);
                             }
                         },
-                        Kept.class)
+                        SharedSuite.class)
                 .suite();
     }
 
-    private record Kept(PageSuite suite) implements AutoCloseable {
+    private record SharedSuite(PageSuite suite) implements AutoCloseable {
         @Override
         public void close() {
             suite.close();

@@ -18,17 +18,17 @@ import io.furrow.dashboard.Dashboard;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** What the page makes of records, in a browser without a suite: held to the tables of cases that hold for the jobs. */
+/** Runs modules of the page in a browser without a suite, on the tables of cases that also apply to the jobs. */
 class PageRulesIT {
     private static final Path TABLES = Path.of("../kit/model/src/test/resources/io/furrow/model");
     private static final String FARM = "http://page.test/";
 
-    /** Reports of one entity, in one tenant. */
-    private static final String TAKE = """
+    /** Applies reports of one entity in one tenant. */
+    private static final String REPORT = """
             const { store } = await import('/core/store.js');
             const { parse } = await import('/core/json.js');
             let time = 1e12;
-            const take = (id, type, tenant, attributes) => store.applyEntity({
+            const report = (id, type, tenant, attributes) => store.applyEntity({
               key: id, kind: 'event', time: time += 1000, headers: { 'fiware-service': tenant, 'fiware-servicepath': '/' },
               value: attributes && { id, type, ...attributes } });
             """;
@@ -74,21 +74,21 @@ class PageRulesIT {
 
     @Test
     void readsBatteriesAsTheControlPlaneDoes() throws IOException {
-        assertThat(differences("ngsi/batteries.csv", TAKE + """
+        assertThat(differences("ngsi/batteries.csv", REPORT + """
                 const { chargeOf } = await import('/core/readings.js');
                 return rows.filter(([reports, expected], index) => {
-                  parse(reports).forEach((each) => take(`battery ${index}`, 'Battery', '', each));
+                  parse(reports).forEach((each) => report(`battery ${index}`, 'Battery', '', each));
                   const read = chargeOf(store.entities.get(`battery ${index}`).attributes);
                   return expected === 'none' ? read !== null : !(Math.abs(read - expected) < 1e-9);
                 });""")).isEmpty();
     }
 
     @Test
-    void showsNumbersWholeAndInTheirUnits() {
-        assertThat(run(TAKE + """
+    void showsNumbersUnchangedAndWithTheirUnits() {
+        assertThat(run(REPORT + """
                 const { allAttributes, keyAttributes } = await import('/cards/attributes.js');
                 const { quantityOf } = await import('/core/readings.js');
-                take('a', 'Device', '', parse(`{"code": {"value": 840380235174088834}, "least": {"value": -9007199254740993}, "far": {"value": 1E400},
+                report('a', 'Device', '', parse(`{"code": {"value": 840380235174088834}, "least": {"value": -9007199254740993}, "far": {"value": 1E400},
                   "zeros": {"value": "0042"}, "battery": {"value": 1, "metadata": {"unitCode": {"value": "P1"}}}, "batteryLevel": {"value": 0.07},
                   "speed": {"value": "36", "metadata": {"unitCode": {"value": "KMH"}}}, "serial": {"value": 12345678901}}`));
                 const entity = store.entities.get('a');
@@ -107,13 +107,13 @@ class PageRulesIT {
                         "10 m/s");
     }
 
-    /** An attribute may have the name of what every object of JavaScript has. */
+    /** Attributes may have names that every JavaScript object has. */
     @Test
-    void takesNamesOfJavaScriptForNames() {
-        assertThat(run(TAKE + """
+    void treatsNamesOfJavaScriptAsAttributeNames() {
+        assertThat(run(REPORT + """
                 const { allAttributes, keyAttributes } = await import('/cards/attributes.js');
                 const { t } = await import('/texts.js');
-                take('b', 'Device', '', parse(`{"constructor": {"value": 5}, "__proto__": {"value": 7},
+                report('b', 'Device', '', parse(`{"constructor": {"value": 5}, "__proto__": {"value": 7},
                   "toString": {"value": 8, "metadata": {"unitCode": {"value": "valueOf"}}}}`));
                 const entity = store.entities.get('b');
                 return [...allAttributes(entity).map(({ name, value }) => `${name}=${value}`),
@@ -122,50 +122,50 @@ class PageRulesIT {
                         "__proto__=7", "constructor=5", "toString=8", "5", "7", "8 valueOf", "states.constructor");
     }
 
-    /** Neither tenant nor type is part of the id. */
+    /** Tenant and type are not part of the id. */
     @Test
-    void distinguishesEntitiesOfOneId() {
-        assertThat(run(TAKE + """
+    void distinguishesEntitiesWithTheSameId() {
+        assertThat(run(REPORT + """
                 const at = (longitude) => ({ Latitude: { value: 10 }, Longitude: { value: longitude } });
                 for (let i = 0; i < 4; i++) {
-                  take('pb-14', 'Robot', 'pbfarm', at(10.002));
-                  take('pb-14', 'Robot', 'pbother', at(10.004));
+                  report('pb-14', 'Robot', 'pbfarm', at(10.002));
+                  report('pb-14', 'Robot', 'pbother', at(10.004));
                 }
-                take('pb-13', 'Valve', 'pbfarm', at(10));
-                take('pb-13', 'Pump', 'pbfarm', at(11));
-                const told = () => [...store.entities.values()].filter(({ identity }) => identity.id.startsWith('pb-'))
+                report('pb-13', 'Valve', 'pbfarm', at(10));
+                report('pb-13', 'Pump', 'pbfarm', at(11));
+                const summary = () => [...store.entities.values()].filter(({ identity }) => ['pb-13', 'pb-14'].includes(identity.id))
                   .map(({ name, position, trail }) => `${name} at ${position[0]}, ${trail.length} places`);
-                const both = told();
+                const both = summary();
                 store.applyEncounter({ time, headers: { 'fiware-service': 'pbother' }, value: { type: 'Analytics:Collision',
                   Device1_ID: { value: 'pb-14' }, Device2_ID: { value: 'x' }, phase: { value: 'started' } } });
                 const [encounter] = store.encounters.values();
                 const close = store.entities.get(encounter.a).name;
-                take('pb-14', 'Robot', 'pbother', null);
-                return [...both, `close: ${close}`, ...told().slice(0, 1)];"""))
+                report('pb-14', 'Robot', 'pbother', null);
+                return [...both, `close: ${close}`, ...summary().slice(0, 1)];"""))
                 .containsExactly(
                         "pb-14 (pbfarm) at 10.002, 0 places", "pb-14 (pbother) at 10.004, 0 places",
                         "pb-13 (Valve) at 10, 0 places", "pb-13 (Pump) at 11, 0 places",
                         "close: pb-14 (pbother)", "pb-14 at 10.002, 0 places");
     }
 
-    /** Pictures and findings may come before the entity that they are of, while another one of its id is shown. */
+    /** Images and results may arrive before their entity, while another entity with the same id is shown. */
     @Test
-    void givesPicturesAndFindingsToTheEntityThatTheyAreOf() {
-        assertThat(run(TAKE + """
+    void assignsImagesAndResultsToTheirEntity() {
+        assertThat(run(REPORT + """
                 const { fullKey } = await import('/core/identities.js');
                 const headers = (tenant) => ({ 'fiware-service': tenant });
                 const picture = (tenant, type, sha256) => store.applyImage({ time, headers: headers(tenant), value: { entity: 'pb-15', type, sha256 } });
                 const shown = () => [...store.entities.values()].filter(({ identity }) => identity.id === 'pb-15')
                   .map((entity) => `${entity.name}: ${store.imageOf(entity)?.sha256 ?? 'none'}${entity.suspect ? ', suspect' : ''}`);
-                take('pb-15', 'Camera', 'one', {});
+                report('pb-15', 'Camera', 'one', {});
                 picture('other', 'Camera', 'b');
                 picture('one', 'Station', 'c');
                 store.applyTemperature({ time, headers: headers('one'), value: { type: 'Analytics:FieldTemperature', field: { value: 'f' },
                   suspects: { value: ['pb-15'] }, suspectTypes: { value: ['Station'] } } });
                 const first = shown();
                 picture('one', 'Camera', 'a');
-                take('pb-15', 'Camera', 'other', {});
-                take('pb-15', 'Station', 'one', {});
+                report('pb-15', 'Camera', 'other', {});
+                report('pb-15', 'Station', 'one', {});
                 const last = shown();
                 picture('one', undefined, 'old');
                 return [...first, ...last, fullKey({ service: '', servicePath: '/' }, 'T', 'x')];"""))
@@ -177,13 +177,13 @@ class PageRulesIT {
                         "|/|T|x");
     }
 
-    /** Its type need not be known. */
+    /** The type need not be known. */
     @Test
-    void leadsFromAnAlarmToNoDeviceOfAnotherTenant() {
-        assertThat(run(TAKE + """
+    void showsForAnAlarmNoDeviceOfAnotherTenant() {
+        assertThat(run(REPORT + """
                 await import('/alarms/alarms.js');
                 const alarms = document.body.appendChild(document.createElement('furrow-alarms'));
-                take('pb-16', 'Robot', 'pbfarm', {});
+                report('pb-16', 'Robot', 'pbfarm', {});
                 const shown = (service) => {
                   store.select(null);
                   store.applyAlarm({ key: service, value: { alarm: service, kind: 'suspect-sensor', severity: 'warning', state: 'open', text: 'odd',
@@ -198,7 +198,7 @@ class PageRulesIT {
     }
 
     @Test
-    void showsAFieldFromTheTimeOnFromWhichItIsOne() {
+    void showsAFieldFromItsValidityOn() {
         assertThat(run("""
                 const { store } = await import('/core/store.js');
                 const begin = Date.parse('2026-03-01T08:00:00Z');
@@ -214,7 +214,7 @@ class PageRulesIT {
                 return shown;""")).containsExactly("false", "false", "true");
     }
 
-    /** At the end of summer time the hour from two to three comes twice. */
+    /** At the end of summer time the hour from two to three occurs twice. */
     @Test
     void writesTimesOnTheAxisAcrossTheEndOfSummerTime() {
         assertThat(run("""
@@ -231,7 +231,7 @@ class PageRulesIT {
                 .containsExactly("00:00 01:00 02:00 02:00 03:00 04:00 05:00 06:00", "18:00 00:00 06:00 12:00 18:00");
     }
 
-    /** Rows of a table for which a function answers otherwise than the table. */
+    /** Rows of a table for which a function returns other results than the table. */
     private static List<?> differences(String table, String body) throws IOException {
         List<List<String>> rows = Files.readAllLines(TABLES.resolve(table)).stream()
                 .filter(line -> !line.startsWith("#"))

@@ -18,19 +18,22 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** The long checks of the page, and its pictures: {@code ./furrow soak page}. */
+/** Long checks of the page, and its screenshots: {@code ./furrow soak page}. */
 public final class PageSoak {
     private static final long HALF_A_SECOND = 500;
     private static final double SHARE_OF_A_CORE = 0.02;
     private static final int HIDDEN_TURNS = 10;
-    /** A hidden page lets go after ten seconds, and then the server of what nobody reads. */
-    private static final int LETS_GO_MILLIS = 15_000;
+    /** Time after which a hidden page has closed its streams and the server its consumers: ten seconds and a margin. */
+    private static final int CLOSE_MILLIS = 15_000;
 
-    private static final double TIMES_BARE = 2;
+    private static final double MAX_RATIO = 2;
 
     private PageSoak() {}
 
-    /** {@code pictures FOLDER}, {@code delay EVENTS}, {@code heap DEVICES MINUTES}, {@code hidden SECONDS}, or {@code frames DEVICES TURNS SECONDS} without a suite. */
+    /**
+     * {@code pictures FOLDER}, {@code delay EVENTS}, {@code heap DEVICES MINUTES}, {@code hidden SECONDS}, or {@code
+     * frames DEVICES TURNS SECONDS} without a suite.
+     */
     public static void main(String[] arguments) throws Exception {
         boolean passed;
         if (arguments[0].equals("frames")) {
@@ -52,7 +55,7 @@ public final class PageSoak {
         return Integer.parseInt(argument);
     }
 
-    /** The bare page, the map, and the map with cards beside it by turns, each of them first in its turn. */
+    /** Measures the bare page, the map, and the map with cards in turns; each is first equally often. */
     private static boolean frames(int devices, int rounds, int seconds) {
         List<String> pages = new ArrayList<>(List.of(FrameTimes.BARE, FrameTimes.MAP, FrameTimes.CARDS));
         Map<String, List<Double>> millis = new TreeMap<>();
@@ -72,7 +75,7 @@ public final class PageSoak {
         print(
                 "main thread for a frame of %d devices, median of %d turns: bare page %.1f ms, map %.1f ms, %.2f times, with cards %.1f ms, %.2f times",
                 devices, rounds, bare, map, map / bare, cards, cards / bare);
-        return Math.max(map, cards) <= TIMES_BARE * bare;
+        return Math.max(map, cards) <= MAX_RATIO * bare;
     }
 
     private static double median(List<Double> values) {
@@ -84,31 +87,31 @@ public final class PageSoak {
         Marks.Delays delays = Marks.measure(suite, events, 700);
         boolean passed = true;
         for (boolean canvas : new boolean[] {true, false}) {
-            List<Long> of = canvas ? delays.canvas() : delays.card();
-            long high = Marks.Delays.percentile(of, 0.95);
+            List<Long> millis = canvas ? delays.canvas() : delays.card();
+            long high = Marks.Delays.percentile(millis, 0.95);
             print(
-                    "from Kafka to the %s: %d of %d events, median %d ms, p95 %d ms, most %d ms",
+                    "from Kafka to the %s: %d of %d events, median %d ms, p95 %d ms, max %d ms",
                     canvas ? "pixel of the map" : "number on the card",
-                    of.size(),
+                    millis.size(),
                     events,
-                    Marks.Delays.percentile(of, 0.5),
+                    Marks.Delays.percentile(millis, 0.5),
                     high,
-                    of.get(of.size() - 1));
-            passed &= high <= HALF_A_SECOND && (!canvas || of.size() > events * 9 / 10);
+                    millis.get(millis.size() - 1));
+            passed &= high <= HALF_A_SECOND && (!canvas || millis.size() > events * 9 / 10);
         }
         return passed;
     }
 
-    /** Devices that move, each once a second, on {@code data.raw}. */
-    private static Thread fleet(PageSuite suite, int devices, AtomicBoolean ends) {
+    /** Starts a thread that reports moving devices, each once a second, on {@code data.raw}. */
+    private static Thread fleet(PageSuite suite, int devices, AtomicBoolean stopped) {
         Properties properties = suite.running().suite().kafka().clientProperties();
         Thread thread = new Thread(
                 () -> {
                     try (KafkaProducer<byte[], byte[]> producer =
                             new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
-                        for (long second = 0; !ends.get(); second++) {
+                        for (long second = 0; !stopped.get(); second++) {
                             long due = System.currentTimeMillis() + 1000;
-                            for (int number = 0; number < devices && !ends.get(); number++) {
+                            for (int number = 0; number < devices && !stopped.get(); number++) {
                                 producer.send(report(number, second));
                                 if (number % 50 == 49) {
                                     Thread.sleep(Math.max(
@@ -144,8 +147,8 @@ public final class PageSoak {
     }
 
     private static boolean heap(PageSuite suite, int devices, int minutes) throws Exception {
-        AtomicBoolean ends = new AtomicBoolean();
-        Thread fleet = fleet(suite, devices, ends);
+        AtomicBoolean stopped = new AtomicBoolean();
+        Thread fleet = fleet(suite, devices, stopped);
         FarmPage farm = suite.open("");
         farm.untilStore("store.entities.size >= " + devices);
         List<Double> used = new ArrayList<>();
@@ -156,37 +159,40 @@ public final class PageSoak {
                     "minute %d: heap of the page after collection %.1f MiB, %s devices",
                     minute, used.get(minute - 1), farm.store("store.entities.size"));
         }
-        ends.set(true);
+        stopped.set(true);
         fleet.join();
         double growth = used.get(minutes - 1) / used.get(0);
         print("last minute by first: %.3f", growth);
         return growth <= FarmPage.HEAP_GROWTH;
     }
 
-    /** Processor time of the whole suite with a hidden page and without, by turns, each first as often as the other: what else the suite does goes up and down. */
+    /**
+     * Compares the processor time of the whole suite with and without a hidden page, in turns that alternate which is
+     * first, because the suite's other load varies.
+     */
     private static boolean hidden(PageSuite suite, int seconds) throws Exception {
         FarmPage farm = suite.open("");
         farm.untilStore("store.primed");
-        List<Double> more = new ArrayList<>();
+        List<Double> differences = new ArrayList<>();
         for (int round = 0; round < HIDDEN_TURNS; round++) {
             double without = round % 2 == 0 ? shareWithout(farm, seconds) : 0;
             farm.open("");
             farm.untilStore("store.primed");
             farm.hide();
-            farm.page().waitForTimeout(LETS_GO_MILLIS);
+            farm.page().waitForTimeout(CLOSE_MILLIS);
             double with = share(farm, seconds);
             without = round % 2 == 0 ? without : shareWithout(farm, seconds);
-            more.add(with - without);
+            differences.add(with - without);
             print("suite with a hidden page %.1f %%, without %.1f %% of a core", 100 * with, 100 * without);
         }
-        double median = median(more);
-        print("a hidden page costs the suite %.1f %% of a core (median of %d turns)", 100 * median, more.size());
+        double median = median(differences);
+        print("a hidden page costs the suite %.1f %% of a core (median of %d turns)", 100 * median, differences.size());
         return median <= SHARE_OF_A_CORE;
     }
 
     private static double shareWithout(FarmPage farm, int seconds) {
         farm.page().navigate("about:blank");
-        farm.page().waitForTimeout(LETS_GO_MILLIS);
+        farm.page().waitForTimeout(CLOSE_MILLIS);
         return share(farm, seconds);
     }
 

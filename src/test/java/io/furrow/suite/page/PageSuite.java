@@ -22,7 +22,7 @@ import io.furrow.suite.RunningSuite;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** A suite with the demonstration farm, its dashboard and a browser, for all tests of the page. */
+/** A suite with the demonstration farm, its dashboard and a browser, shared by all tests of the page. */
 final class PageSuite implements AutoCloseable {
     static final double TIMEOUT_MILLIS = 30_000;
 
@@ -46,7 +46,7 @@ final class PageSuite implements AutoCloseable {
         return running;
     }
 
-    /** Beside that of the suite, which all tests share. */
+    /** Starts another dashboard beside the suite's, which all tests share. */
     Dashboard ownDashboard(int port) throws IOException {
         return Dashboard.start(DashboardSettings.of(
                 port,
@@ -54,7 +54,7 @@ final class PageSuite implements AutoCloseable {
                 running.suite().control()));
     }
 
-    /** Writes a record as anybody could who may write to Kafka. */
+    /** Writes a record as any client with write access to Kafka could. */
     void produce(String topic, String key, byte[] value) throws Exception {
         produce(topic, key, value, Instant.now());
     }
@@ -68,7 +68,10 @@ final class PageSuite implements AutoCloseable {
         }
     }
 
-    /** Deletes an entity that no context broker has: its record alone is not a report that it was deleted there. */
+    /**
+     * Deletes an entity that no context broker has, on both topics: on {@code data.raw} alone a tombstone does not
+     * report a deletion.
+     */
     void forget(String entity) throws Exception {
         produce("data.raw", entity, null);
         produce("data.latest", entity, null);
@@ -78,25 +81,25 @@ final class PageSuite implements AutoCloseable {
         return running.get(path);
     }
 
-    /** The status of an answer of the control plane's REST API. */
+    /** The status of a response of the control plane's REST API. */
     int rest(String method, String path, String body) throws Exception {
         return running.request(method, path, body).statusCode();
     }
 
-    /** A new window with nothing remembered. */
-    FarmPage open(String place) {
-        return open(place, WindowStyle.DESKTOP);
+    /** Opens the page in a new window without stored data. */
+    FarmPage open(String hash) {
+        return open(hash, WindowStyle.DESKTOP);
     }
 
-    FarmPage open(String place, WindowStyle style) {
-        return open(running.suite().dashboard(), place, style);
+    FarmPage open(String hash, WindowStyle style) {
+        return open(running.suite().dashboard(), hash, style);
     }
 
-    FarmPage open(URI dashboard, String place, WindowStyle style) {
-        return window(dashboard, style).open(place);
+    FarmPage open(URI dashboard, String hash, WindowStyle style) {
+        return window(dashboard, style).open(hash);
     }
 
-    /** With nothing in it yet. */
+    /** A new window without a page. */
     FarmPage window() {
         return window(running.suite().dashboard(), WindowStyle.DESKTOP);
     }

@@ -8,7 +8,7 @@ import java.lang.annotation.Target;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.extension.ExtendWith;
 
-/** Tests of the page in a browser, on one suite for all of them; the build runs them one class after the other. */
+/** Tests of the page in a browser, with a shared suite; the build runs them one class after the other. */
 @Target(ElementType.TYPE)
 @Retention(RetentionPolicy.RUNTIME)
 @Tag("page")

@@ -4,7 +4,7 @@ import java.nio.file.Path;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 
-/** Pictures of the main views, as the documentation shows them. */
+/** Takes screenshots of the main views for the documentation. */
 final class Pictures {
     private static final String ENCOUNTER =
             "[...store.encounters.values()].some((each) => ['started', 'ongoing'].includes(each.phase) && each.distance < 4.8)";
@@ -14,7 +14,7 @@ final class Pictures {
     private Pictures() {}
 
     static boolean take(PageSuite suite, Path folder) {
-        replay(suite, folder); // waits until something is recorded, so that the others have some minutes to show
+        replay(suite, folder); // waits for a recording, so that the other views have some minutes to show
         live(suite, folder, "live-dark", WindowStyle.DESKTOP);
         live(suite, folder, "live-tablet", WindowStyle.TABLET);
         live(suite, folder, "live-phone", WindowStyle.PHONE);
@@ -38,7 +38,9 @@ final class Pictures {
 
     private static void replay(PageSuite suite, Path folder) {
         FarmPage farm = suite.open("#/replays", WindowStyle.DESKTOP_LIGHT);
-        for (int millis = 30_000; millis <= 90_000; millis += 30_000) { // what is listed grows every half minute
+        for (int millis = 30_000;
+                millis <= 90_000;
+                millis += 30_000) { // the list of recordings is updated every half minute
             farm.untilStore(
                     "store.recordings.get('weeding')?.last - store.recordings.get('weeding')?.first > " + millis);
         }

@@ -15,17 +15,17 @@ import org.junit.jupiter.api.Test;
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 import static io.furrow.suite.page.FarmPage.EXACTLY;
 
-/** From a recorded mission to its moments. */
+/** Replays of recorded missions. */
 @PageTest
 @Tag("full")
 class ReplaysIT {
-    /** Topics of a replay's results are made with the first of these. */
+    /** Topics of a replay's results are created with the first result. */
     static final String NO_RESULTS_YET = "status of 404.*\\.replay\\.\\w+";
 
     private static final String ROBOT = "urn:ngsi-ld:Robot:1";
 
     @Test
-    void playsPausesSeeksStepsAndGoesBackToWhatIsLive(PageSuite suite) {
+    void playsPausesSeeksStepsAndReturnsToLive(PageSuite suite) {
         FarmPage farm = suite.open("#/replays").expectingError(NO_RESULTS_YET);
         start(farm);
 
@@ -42,7 +42,7 @@ class ReplaysIT {
         double middle = middle(farm);
         farm.page().mouse().click(track.x + track.width / 2, track.y + track.height / 2);
         farm.untilStore("Math.abs(store.mode.position - " + middle + ") < 3000");
-        // Each card shows its state at that moment: the newest report that had come by then.
+        // Each card shows its state at that position: the newest report up to then.
         farm.untilStore("store.entities.get('" + ROBOT + "')?.time < store.mode.position + 1000 && store.entities.get('"
                 + ROBOT + "').time > store.mode.position - 30000");
         assertThat(farm.card("urn:ngsi-ld:Thermometer:4")).containsText("40.5 °C");
@@ -82,7 +82,7 @@ class ReplaysIT {
     }
 
     @Test
-    void leadsToAMomentByALink(PageSuite suite) {
+    void opensAMomentByALink(PageSuite suite) {
         FarmPage farm = suite.open("#/replays").expectingError(NO_RESULTS_YET);
         start(farm);
         farm.untilStore("store.mode.position > store.mode.from");
@@ -98,8 +98,8 @@ class ReplaysIT {
     @Test
     void playsTwoMissionsOnOneClock(PageSuite suite) {
         FarmPage farm = suite.open("#/replays").expectingError(NO_RESULTS_YET);
-        recorded(farm, "weeding");
-        recorded(farm, "scouting");
+        awaitRecorded(farm, "weeding");
+        awaitRecorded(farm, "scouting");
         farm.page().getByLabel("Choose weeding").check();
         farm.page().getByLabel("Choose scouting").check();
         farm.button("Start replay").click();
@@ -109,7 +109,10 @@ class ReplaysIT {
         assertThat(farm.card("urn:ngsi-ld:Camera:1")).isAttached();
     }
 
-    /** The hour at the end of summer time comes twice: the last event is written 02:40, or even before the first one. */
+    /**
+     * The hour at the end of summer time occurs twice: the last event is at 02:40 local time, as early as or even
+     * before the first one.
+     */
     @Test
     void plansAWholeMissionAcrossTheEndOfSummerTime(PageSuite suite) {
         FarmPage farm = suite.window();
@@ -126,7 +129,7 @@ class ReplaysIT {
             plans.add(route.request().postData());
             route.abort();
         });
-        // no such missions were recorded
+        // these missions were not recorded
         farm.expectingError("ERR_FAILED").expectingError("/timeline\\?").open("#/replays?mission=long");
 
         assertThat(farm.find(".plan")).containsText("Length: 90 min");
@@ -146,9 +149,9 @@ class ReplaysIT {
         Assertions.assertThat(plans.get(2)).contains("\"to\":1792890300000").doesNotContain("\"from\"");
     }
 
-    /** Its status goes some time after it. */
+    /** The status is deleted some time after the replay. */
     @Test
-    void staysOverWhenItsStatusIsDeleted(PageSuite suite) {
+    void isOverUntilItsStatusIsDeleted(PageSuite suite) {
         FarmPage farm = suite.open("").expectingError(NO_RESULTS_YET);
         farm.untilStore("store.primed");
         Object states = farm.store("""
@@ -172,14 +175,14 @@ class ReplaysIT {
     }
 
     private static void start(FarmPage farm) {
-        recorded(farm, "weeding");
+        awaitRecorded(farm, "weeding");
         farm.page().getByLabel("Choose weeding").check();
         farm.page().getByLabel("Speed").first().selectOption("1");
         farm.button("Start replay").click();
         assertThat(farm.page()).hasURL(Pattern.compile("#/map"));
     }
 
-    private static void recorded(FarmPage farm, String mission) {
+    private static void awaitRecorded(FarmPage farm, String mission) {
         farm.untilStore("store.recordings.get('" + mission + "')?.last - store.recordings.get('" + mission
                 + "')?.first > 20000");
         assertThat(farm.find("table.recordings")
@@ -187,7 +190,7 @@ class ReplaysIT {
                 .isVisible();
     }
 
-    /** Of the times that the timeline shows, which grow while the mission goes on. */
+    /** The middle of the times that the timeline shows, which grows while the mission continues. */
     private static double middle(FarmPage farm) {
         Object time = farm.run(
                 "() => { const { from, to } = document.querySelector('furrow-timeline').scale; return (from + to) / 2; }");

@@ -35,7 +35,7 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.awaitility.Awaitility.await;
 
-/** Sessions that end in the middle of work, with tokens and behind a proxy that signs users in. */
+/** Sessions that end while the page is used, with tokens and behind a proxy that signs users in. */
 @PageTest
 @Tag("full")
 class SignInIT {
@@ -53,16 +53,16 @@ class SignInIT {
     private volatile boolean signedIn;
 
     @BeforeEach
-    void startAControlPlaneThatAsksForTokens(PageSuite suite, @TempDir Path folder) throws Exception {
+    void startControlPlaneWithTokens(PageSuite suite, @TempDir Path folder) throws Exception {
         client = suite.running().suite().kafka().clientProperties();
         tokens = folder.resolve("tokens");
-        allow("vera %s viewer%ndashboard %s admin for-users%n".formatted(VERA, DASHBOARD));
+        writeTokens("vera %s viewer%ndashboard %s admin for-users%n".formatted(VERA, DASHBOARD));
         api = RestApi.start(
                 ControlSettings.of(client), RestSettings.on(0).withTokens(tokens), new Readiness(Clock.systemUTC()));
         await().until(api::isReady);
     }
 
-    private void allow(String lines) throws Exception {
+    private void writeTokens(String lines) throws Exception {
         Files.writeString(tokens, lines);
     }
 
@@ -71,7 +71,7 @@ class SignInIT {
     }
 
     @Test
-    void requestsATokenAgainWhenItIsTakenBackAndGoesOnAtTheSamePlace(PageSuite suite) throws Exception {
+    void requestsATokenAgainWhenItIsRevokedAndReturnsToTheSameView(PageSuite suite) throws Exception {
         try (Dashboard dashboard = Dashboard.start(settings())) {
             FarmPage farm = suite.window(dashboard.uri(), WindowStyle.DESKTOP)
                     .expectingError("status of 401|status of 404.*images");
@@ -79,7 +79,7 @@ class SignInIT {
             signIn(farm, VERA);
             assertThat(farm.find("furrow-missions h1")).isVisible();
 
-            allow("vera %s viewer%n".formatted(VERA_LATER));
+            writeTokens("vera %s viewer%n".formatted(VERA_LATER));
 
             assertThat(farm.page().getByRole(AriaRole.ALERT))
                     .hasText("The control plane does not know this token.", aMinute());
@@ -100,7 +100,7 @@ class SignInIT {
     }
 
     @Test
-    void leadsToTheSignInOfAProxyAndBackAndToItsSignOut(PageSuite suite) throws Exception {
+    void redirectsToTheSignInOfAProxyAndBackAndToItsSignOut(PageSuite suite) throws Exception {
         TrustedProxy proxy = new TrustedProxy(
                 List.of(AddressRange.parse("127.0.0.1")),
                 "X-Forwarded-User",
@@ -117,7 +117,7 @@ class SignInIT {
 
             signedIn = false;
             farm.run("import('/core/api.js').then(({ api }) => api.get('/api/missions')).catch(() => {})");
-            farm.until(() -> signedIn); // which lets what stands for the proxy answer
+            farm.until(() -> signedIn); // lets the mocked proxy answer
             assertThat(farm.find("furrow-missions h1")).isVisible();
             assertThat(farm.page()).hasURL(MISSIONS);
 
@@ -129,7 +129,7 @@ class SignInIT {
     }
 
     @Test
-    void doesNotGoRoundAndRoundWhereTheProxyTakesTheUserAndTheDashboardDoesNot(PageSuite suite) throws Exception {
+    void doesNotRedirectInALoopIfOnlyTheProxyAcceptsTheUser(PageSuite suite) throws Exception {
         PageSettings pages = PageSettings.DEFAULT.withSignIn("/oauth2/start?rd={page}", null);
         try (Dashboard dashboard = Dashboard.start(settings().withPage(pages))) {
             FarmPage farm = suite.window(dashboard.uri(), WindowStyle.DESKTOP)
@@ -145,14 +145,16 @@ class SignInIT {
         }
     }
 
-    /** What oauth2-proxy does: who asks for JSON is told, others are led to the pages of the proxy. */
+    /**
+     * Behaves like oauth2-proxy: answers requests for JSON with 401, and redirects others to the pages of the proxy.
+     */
     private void asTheProxy(Route route) {
         URI uri = URI.create(route.request().url());
         boolean asksForJson =
                 String.valueOf(route.request().headers().get("accept")).contains("application/json");
         if (uri.getPath().equals("/oauth2/start")) {
             signedIn = true;
-            lead(route, URLDecoder.decode(uri.getRawQuery().substring("rd=".length()), UTF_8));
+            redirect(route, URLDecoder.decode(uri.getRawQuery().substring("rd=".length()), UTF_8));
         } else if (uri.getPath().equals("/oauth2/sign_out")) {
             signedIn = false;
             route.fulfill(new Route.FulfillOptions()
@@ -164,7 +166,7 @@ class SignInIT {
                     .setContentType("application/json")
                     .setBody("{}"));
         } else if (!signedIn && !asksForJson) {
-            lead(route, "/oauth2/start?rd=" + uri.getPath());
+            redirect(route, "/oauth2/start?rd=" + uri.getPath());
         } else {
             Map<String, String> headers = new HashMap<>(route.request().headers());
             headers.put("X-Forwarded-User", "olga");
@@ -173,8 +175,8 @@ class SignInIT {
         }
     }
 
-    /** By a page: requests that follow a redirection would not come by here. */
-    private static void lead(Route route, String where) {
+    /** Redirects by a page, because Playwright does not route requests that follow an HTTP redirect. */
+    private static void redirect(Route route, String where) {
         route.fulfill(new Route.FulfillOptions()
                 .setContentType("text/html")
                 .setBody("<script>location.replace('%s')</script>".formatted(where)));

@@ -20,7 +20,7 @@ import io.furrow.files.Gzip;
 import static java.nio.charset.StandardCharsets.US_ASCII;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** Writes a PMTiles file of version 3: pictures of one colour each, directories compressed and in two levels. */
+/** Writes a PMTiles file of version 3: images of a single color each, compressed directories on two levels. */
 final class TileArchive {
     private static final int HEADER = 127;
     private static final int GZIP = 2;
@@ -28,16 +28,16 @@ final class TileArchive {
     private static final int PNG = 2;
     private static final int SIDE = 256;
 
-    /** By their id; those with the same colour one after the other are one entry. */
-    private final SortedMap<Long, Integer> colours = new TreeMap<>();
+    /** Colors by tile id; consecutive tiles with the same color become one entry. */
+    private final SortedMap<Long, Integer> colors = new TreeMap<>();
 
     private final ByteArrayOutputStream tiles = new ByteArrayOutputStream();
 
     private record Entry(long id, long run, byte[] picture, long offset) {}
 
-    /** @param id as the specification counts them: 0 is the world, 1 to 4 are the tiles of zoom 1 */
+    /** @param id as the specification counts: 0 is the world, 1 to 4 are the tiles of zoom 1 */
     TileArchive add(long id, int rgb) {
-        colours.put(id, rgb);
+        colors.put(id, rgb);
         return this;
     }
 
@@ -62,7 +62,7 @@ final class TileArchive {
             header.putLong(at).putLong(length);
             at += length;
         }
-        header.putLong(colours.size()).putLong(entries.size()).putLong(entries.size());
+        header.putLong(colors.size()).putLong(entries.size()).putLong(entries.size());
         header.put((byte) 1)
                 .put((byte) GZIP)
                 .put((byte) NONE)
@@ -81,18 +81,18 @@ final class TileArchive {
     private List<Entry> entries() throws IOException {
         List<Entry> entries = new ArrayList<>();
         long last = -2;
-        int before = -1;
-        for (var each : colours.entrySet()) {
-            if (each.getKey() == last + 1 && each.getValue() == before) {
-                Entry longer = entries.remove(entries.size() - 1);
-                entries.add(new Entry(longer.id(), longer.run() + 1, longer.picture(), longer.offset()));
+        int previousColor = -1;
+        for (var each : colors.entrySet()) {
+            if (each.getKey() == last + 1 && each.getValue() == previousColor) {
+                Entry previous = entries.remove(entries.size() - 1);
+                entries.add(new Entry(previous.id(), previous.run() + 1, previous.picture(), previous.offset()));
             } else {
                 byte[] picture = picture(each.getValue());
                 entries.add(new Entry(each.getKey(), 1, picture, tiles.size()));
                 tiles.writeBytes(picture);
             }
             last = each.getKey();
-            before = each.getValue();
+            previousColor = each.getValue();
         }
         return entries;
     }
@@ -120,8 +120,8 @@ final class TileArchive {
         entries.forEach(each -> varint(out, each[1]));
         entries.forEach(each -> varint(out, each[2]));
         for (int i = 0; i < entries.size(); i++) {
-            long[] before = i == 0 ? null : entries.get(i - 1);
-            boolean follows = before != null && before[2] + before[3] == entries.get(i)[3];
+            long[] previous = i == 0 ? null : entries.get(i - 1);
+            boolean follows = previous != null && previous[2] + previous[3] == entries.get(i)[3];
             varint(out, follows ? 0 : entries.get(i)[3] + 1);
         }
         return out.toByteArray();

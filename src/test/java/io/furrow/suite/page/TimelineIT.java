@@ -6,18 +6,21 @@ import org.junit.jupiter.api.Test;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** What came in lately, below the map. */
+/** The timeline of recent records below the map. */
 @PageTest
 @Tag("full")
 class TimelineIT {
-    private static final Page.WaitForConditionOptions AT_ONCE = new Page.WaitForConditionOptions().setTimeout(10_000);
+    private static final Page.WaitForConditionOptions SOON = new Page.WaitForConditionOptions().setTimeout(10_000);
 
-    /** Buckets in which the page shows other counts than Kafka has, of those that are over for two seconds; -1 while nothing is shown. */
-    private static final String WRONG = """
+    /**
+     * The number of buckets whose count in the page differs from Kafka's, among those that ended two seconds ago; -1
+     * while nothing is shown.
+     */
+    private static final String WRONG_BUCKETS = """
             async () => {
               const { live } = document.querySelector('furrow-timeline');
               if (!live) {
-                return -1; // the page is still being put together
+                return -1; // the page is not complete yet
               }
               const shown = [...live.counts].filter(([, count]) => count > 0);
               const [from, to] = [Math.min(...shown.map(([start]) => start)), Math.floor((Date.now() - 2000) / live.width) * live.width];
@@ -31,33 +34,33 @@ class TimelineIT {
             }""";
 
     @Test
-    void showsWhatCameBeforeThePageWasOpenedWithoutAHole(PageSuite suite) {
+    void showsRecordsFromBeforeThePageWasOpenedWithoutAGap(PageSuite suite) {
         FarmPage before = suite.open("");
-        // more than half a minute, which is how long the newest of a mission is not stored yet
+        // more than half a minute, the time for which the newest events of a mission are not stored yet
         before.untilStore("store.entities.get('urn:ngsi-ld:Robot:1')?.trail.length > 45");
         before.untilStore("store.encounters.size > 0");
         before.close();
 
         FarmPage farm = suite.open("");
-        farm.until(() -> farm.number(WRONG) == 0, AT_ONCE);
+        farm.until(() -> farm.number(WRONG_BUCKETS) == 0, SOON);
         assertThat(
                         farm.number(
                                 "() => [...document.querySelector('furrow-timeline').live.counts.values()].filter((count) => count > 0).length"))
                 .isGreaterThan(6);
-        farm.until(() -> farm.number("document.querySelector('furrow-timeline').encounters.length") > 0, AT_ONCE);
+        farm.until(() -> farm.number("document.querySelector('furrow-timeline').encounters.length") > 0, SOON);
     }
 
     @Test
-    void goesOnWithWhatComesAndCountsNothingTwice(FarmPage farm) {
-        farm.until(() -> farm.number(WRONG) == 0, AT_ONCE);
+    void continuesWithNewRecordsAndCountsNoneTwice(FarmPage farm) {
+        farm.until(() -> farm.number(WRONG_BUCKETS) == 0, SOON);
 
         double opened = System.currentTimeMillis();
         farm.untilStore("Math.min(...['1', '2'].map((id) => store.entities.get(`urn:ngsi-ld:Robot:${id}`)?.time)) > "
                 + (opened + 20_000));
-        farm.until(() -> farm.number(WRONG) == 0, AT_ONCE);
+        farm.until(() -> farm.number(WRONG_BUCKETS) == 0, SOON);
     }
 
-    /** In the first minute too: the timeline is as long as there is something to show. */
+    /** Also in the first minute: the timeline is as long as there are records. */
     @Test
     void beginsWithTheFirstRecord(FarmPage farm) {
         Object length = farm.run("""
@@ -74,7 +77,7 @@ class TimelineIT {
     }
 
     @Test
-    void findsWhatCameInTheNewestBucketBeforeThePageWasOpened(FarmPage farm) {
+    void countsRecordsOfTheNewestBucketFromBeforeThePageWasOpened(FarmPage farm) {
         Object newest = farm.run("""
                 async () => {
                   const { LiveDensity } = await import('/timeline/live.js');

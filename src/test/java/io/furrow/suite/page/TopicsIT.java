@@ -11,11 +11,11 @@ import org.junit.jupiter.api.Test;
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 import static io.furrow.suite.page.FarmPage.having;
 
-/** From domains and missions to records. */
+/** Topics of domains and missions, and their records. */
 @PageTest
 class TopicsIT {
     @Test
-    void showsDomainsWithTheirMissionsAndHowMuchFlows(PageSuite suite) {
+    void showsDomainsWithTheirMissionsAndRates(PageSuite suite) {
         FarmPage farm = suite.open("#/topics");
 
         for (String topic : """
@@ -29,7 +29,7 @@ class TopicsIT {
 
     @Tag("full")
     @Test
-    void listsCollisionsAndTheCanaryBeforeThereAreAny(PageSuite suite) {
+    void listsCollisionsAndTheCanaryBeforeTheyExist(PageSuite suite) {
         FarmPage farm = suite.window();
         farm.page()
                 .route(
@@ -69,7 +69,7 @@ class TopicsIT {
 
     @Tag("full")
     @Test
-    void reportsOnASmallScreenThatNotAllIsShown(PageSuite suite) {
+    void showsTheScopeOnASmallScreen(PageSuite suite) {
         FarmPage farm = suite.open("#/topics", WindowStyle.PHONE);
         assertThat(farm.find(".crumbs")).isHidden();
         farm.button("Show only scouting on the map").click();

@@ -26,7 +26,7 @@ import io.furrow.kafka.Readiness;
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** One who may look and not command, before a control plane that asks for tokens and comes after the dashboard. */
+/** A user with the role viewer, and a control plane with tokens that starts after the dashboard. */
 @PageTest
 @Tag("full")
 class ViewerIT {
@@ -36,8 +36,7 @@ class ViewerIT {
     private static final String ROBOT = "urn:ngsi-ld:Robot:1";
 
     @Test
-    void waitsForTheControlPlaneSignsInSeesTheFarmAndIsOfferedNoCommand(PageSuite suite, @TempDir Path folder)
-            throws Exception {
+    void waitsForTheControlPlaneSignsInAndOffersNoCommand(PageSuite suite, @TempDir Path folder) throws Exception {
         Properties client = suite.running().suite().kafka().clientProperties();
         int port = FreePort.orFree(0);
         RestSettings settings = RestSettings.on(port)
@@ -52,8 +51,8 @@ class ViewerIT {
             try (RestApi api = RestApi.start(ControlSettings.of(client), settings, new Readiness(Clock.systemUTC()))) {
                 await().until(api::isReady);
                 signIn(farm);
-                seeTheFarm(farm);
-                beRefused(farm);
+                viewFarm(farm);
+                sendCommand(farm);
                 farm.button("Settings").click();
                 farm.button("Sign out").click();
                 assertThat(farm.page().getByLabel("Access token")).isVisible();
@@ -71,31 +70,31 @@ class ViewerIT {
         farm.button("Sign in").click();
     }
 
-    private static void seeTheFarm(FarmPage farm) {
+    private static void viewFarm(FarmPage farm) {
         Locator card = farm.card(ROBOT);
         assertThat(card).containsText("m/s");
-        offersOnly(farm, "map");
+        assertNoCommands(farm, "map");
         farm.go("Missions");
         assertThat(farm.page().getByText("To command takes the role of an operator"))
                 .isVisible();
         assertThat(farm.find(".mission-detail")).containsText("Heard");
-        offersOnly(farm, "missions");
+        assertNoCommands(farm, "missions");
         farm.page()
                 .getByRole(AriaRole.TAB, new Page.GetByRoleOptions().setName("Domains and fields"))
                 .click();
         assertThat(farm.find(".domain-columns")).containsText("River field");
-        offersOnly(farm, "domains");
+        assertNoCommands(farm, "domains");
         farm.go("Replays");
         assertThat(farm.find("furrow-replays")).containsText("Viewers can watch replays that run");
-        offersOnly(farm, "replays");
+        assertNoCommands(farm, "replays");
         farm.go("Analyses");
         assertThat(farm.find(".gantt-bar").first()).isVisible();
-        offersOnly(farm, "analyses");
+        assertNoCommands(farm, "analyses");
         farm.go("Map");
     }
 
-    /** No button of what only others may do, not even one that cannot be pressed. */
-    private static void offersOnly(FarmPage farm, String place) {
+    /** Asserts that no command is offered, not even as a disabled button. */
+    private static void assertNoCommands(FarmPage farm, String place) {
         Object offered = farm.run("""
                 (forbidden) => [...document.querySelectorAll('button, a.button, input[type=checkbox]')]
                   .filter((each) => each.checkVisibility({ visibilityProperty: true }))
@@ -104,9 +103,9 @@ class ViewerIT {
         Assertions.assertThat((List<?>) offered).as(place).isEmpty();
     }
 
-    /** Who goes round the buttons is told the same. */
-    private static void beRefused(FarmPage farm) {
-        Object refusal = farm.run("""
+    /** A command that is sent without a button is rejected too. */
+    private static void sendCommand(FarmPage farm) {
+        Object response = farm.run("""
                         async ([token, robot]) => {
                           const answer = await fetch(`/api/devices/${robot}/commands`, {
                             method: 'POST', headers: { Authorization: `Bearer ${token}`, 'Content-Type': 'application/json' },
@@ -114,6 +113,6 @@ class ViewerIT {
                           });
                           return `${answer.status} ${await answer.text()}`;
                         }""", List.of(TOKEN, ROBOT));
-        Assertions.assertThat(refusal).asString().startsWith("403 ").contains("operator");
+        Assertions.assertThat(response).asString().startsWith("403 ").contains("operator");
     }
 }

@@ -2,7 +2,7 @@ package io.furrow.suite.page;
 
 import com.microsoft.playwright.options.ColorScheme;
 
-/** Size of the window, CSS pixels, and colours. */
+/** Size of a window in CSS pixels, and its color scheme. */
 record WindowStyle(int width, int height, ColorScheme scheme) {
     static final WindowStyle DESKTOP = new WindowStyle(1440, 900, ColorScheme.DARK);
     static final WindowStyle DESKTOP_LIGHT = new WindowStyle(1440, 900, ColorScheme.LIGHT);

@@ -6,12 +6,12 @@ import jakarta.servlet.http.HttpServletRequest;
 import org.eclipse.jetty.http.HttpFields;
 
 /**
- * By what a request says who sends it. A user and a role stand there only where a {@link TrustedProxy} named them; those that a
- * client sends are removed before.
+ * The credentials of a request. User and role are set only if a {@link TrustedProxy} named them; headers of clients
+ * with these names are removed before.
  *
- * @param authorization header of the request; null if it has none
- * @param user for whom the dashboard's own token speaks; null if the token is the user's own
- * @param role that the user may have at most; null without a user
+ * @param authorization header of the request; null if absent
+ * @param user for whom the dashboard's own token is used; null if the token is the user's own
+ * @param role the highest that the user may have; null without a user
  * @param address of the client, or of the proxy
  */
 public record Credentials(String authorization, String user, String role, String address) {
@@ -31,12 +31,12 @@ public record Credentials(String authorization, String user, String role, String
         return new Credentials(headers.get(AUTHORIZATION), headers.get(USER), headers.get(ROLE), address);
     }
 
-    /** Whose streams and tickets are counted together: all clients of a proxy have one address. */
+    /** Identifies the client for quotas: all users of a proxy have the same address. */
     public String client() {
         return user == null ? address : "user " + user;
     }
 
-    /** Whether a proxy signed the user in, which can end without that the control plane knows. */
+    /** Whether a proxy signed the user in; the control plane does not learn when this ends. */
     public boolean isOfProxy() {
         return user != null;
     }
@@ -50,7 +50,7 @@ public record Credentials(String authorization, String user, String role, String
         }
     }
 
-    /** The token is left out: this ends in logs. */
+    /** Leaves out the token, since this text appears in logs. */
     @Override
     public String toString() {
         return client();

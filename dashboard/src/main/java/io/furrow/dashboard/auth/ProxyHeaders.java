@@ -13,32 +13,32 @@ import org.eclipse.jetty.util.Callback;
 import io.furrow.dashboard.http.Problem;
 
 /**
- * Removes the headers by which users are named from every request. Where a {@link TrustedProxy} sent it and names a user, those that
- * the control plane takes from the dashboard stand in their place, so that all that follows reads the same headers.
+ * Replaces the headers that name users. Removes them from every request; if a {@link TrustedProxy} sent the request and
+ * names a user, adds the headers that the control plane accepts from the dashboard. All later handlers read only these.
  */
 public final class ProxyHeaders extends Handler.Wrapper {
     private final TrustedProxy proxy;
     private final UserCache users;
-    private final Consumer<Problem> refused;
+    private final Consumer<Problem> onRejection;
 
     /**
      * @param proxy null if there is none
-     * @param refused is notified of each request that is refused
+     * @param onRejection is notified of each rejected request
      */
-    public ProxyHeaders(TrustedProxy proxy, UserCache users, Consumer<Problem> refused, Handler handler) {
+    public ProxyHeaders(TrustedProxy proxy, UserCache users, Consumer<Problem> onRejection, Handler handler) {
         super(handler);
         this.proxy = proxy;
         this.users = users;
-        this.refused = refused;
+        this.onRejection = onRejection;
     }
 
     @Override
     public boolean handle(Request request, Response response, Callback callback) throws Exception {
         HttpFields headers;
         try {
-            headers = replaced(request);
+            headers = replaceHeaders(request);
         } catch (Problem problem) {
-            refused.accept(problem);
+            onRejection.accept(problem);
             problem.answer(response, callback);
             return true;
         }
@@ -53,9 +53,9 @@ public final class ProxyHeaders extends Handler.Wrapper {
                 callback);
     }
 
-    private HttpFields replaced(Request request) {
-        HttpFields given = request.getHeaders();
-        HttpFields.Mutable headers = HttpFields.build(given);
+    private HttpFields replaceHeaders(Request request) {
+        HttpFields received = request.getHeaders();
+        HttpFields.Mutable headers = HttpFields.build(received);
         headers.remove(Credentials.USER);
         headers.remove(Credentials.ROLE);
         if (proxy == null) {
@@ -63,19 +63,21 @@ public final class ProxyHeaders extends Handler.Wrapper {
         }
         headers.remove(proxy.userHeader());
         headers.remove(proxy.groupsHeader());
-        boolean isApi = Request.getPathInContext(request).startsWith("/api/"); // the page itself is everybody's
-        if (isApi && given.contains(proxy.userHeader()) && proxy.isAt(address(request))) {
-            User user = proxy.user(given.getValuesList(proxy.userHeader()), given.getValuesList(proxy.groupsHeader()));
+        boolean isApi = Request.getPathInContext(request).startsWith("/api/"); // the page itself is public
+        if (isApi && received.contains(proxy.userHeader()) && proxy.isAt(address(request))) {
+            User user = proxy.user(
+                    received.getValuesList(proxy.userHeader()), received.getValuesList(proxy.groupsHeader()));
             headers.put(Credentials.AUTHORIZATION, "Bearer " + proxy.token());
             headers.put(Credentials.USER, user.name());
             headers.put(Credentials.ROLE, user.role().code());
-            // a control plane that does not know these headers would take everybody for the dashboard, or for an admin
+            // fails if the control plane is too old to know these headers: it would treat every user as the dashboard,
+            // or as an admin
             users.find(Credentials.of(headers, Request.getRemoteAddr(request)));
         }
         return headers.asImmutable();
     }
 
-    /** The other end of the connection, whatever headers say. */
+    /** The peer of the connection; headers are not considered. */
     private static InetAddress address(Request request) {
         return request.getConnectionMetaData().getRemoteSocketAddress() instanceof InetSocketAddress socket
                 ? socket.getAddress()

@@ -12,14 +12,16 @@ import io.furrow.dashboard.http.Problem;
 import io.furrow.model.control.Role;
 
 /**
- * A proxy in front of the dashboard that signs users in, with OpenID Connect for instance, and names them in headers. The headers of
- * nobody else are believed. What the dashboard then asks of the control plane it asks with its own token, for the user.
+ * A proxy in front of the dashboard that signs users in, with OpenID Connect for instance, and names them in headers.
+ * Headers of other senders are ignored. The dashboard then sends requests to the control plane with its own token, on
+ * behalf of the user.
  *
  * @param addresses from which the proxy connects
  * @param userHeader with the name of the user
- * @param groupsHeader with the user's groups, separated by {@code ,} or {@code |}
- * @param roles that groups have; of several groups the highest counts
- * @param token of the dashboard, which the control plane's file of tokens has with {@code for-users}
+ * @param groupsHeader with the user's groups, separated by {@code ,} or {@code
+ * }
+ * @param roles of groups; of several groups the highest role counts
+ * @param token of the dashboard, which has {@code for-users} in the control plane's file of tokens
  */
 public record TrustedProxy(
         List<AddressRange> addresses, String userHeader, String groupsHeader, Map<String, Role> roles, String token) {
@@ -40,9 +42,9 @@ public record TrustedProxy(
     /**
      * The user that the proxy names.
      *
-     * @param names values of the header of the user
-     * @param groups values of the header of the groups
-     * @throws Problem 403 for a user who is not named once and in one way, or has no role
+     * @param names values of the user header
+     * @param groups values of the groups header
+     * @throws Problem 403 if the user's name is missing, repeated or invalid, or the user has no role
      */
     User user(List<String> names, List<String> groups) {
         if (names.size() != 1) {
@@ -76,7 +78,7 @@ public record TrustedProxy(
         return new User(name, role);
     }
 
-    /** The token is left out. */
+    /** Leaves out the token. */
     @Override
     public String toString() {
         return "proxy at " + addresses;

@@ -2,5 +2,5 @@ package io.furrow.dashboard.auth;
 
 import io.furrow.model.control.Role;
 
-/** @param name as on the audit topic */
+/** A user of the dashboard. @param name as on the audit topic */
 public record User(String name, Role role) {}

@@ -19,41 +19,44 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.text.Sha256;
 
-/** Asks the control plane whose token it is. An answer counts for some seconds, so a token that is taken back does not for longer. */
+/**
+ * Finds the user of a token by asking the control plane. Caches the answer for {@link #TIME_TO_LIVE}, after which a
+ * revoked token is rejected.
+ */
 public final class UserCache {
-    /** Error of a user whom a proxy names and the control plane does not take. */
-    public static final String NOT_TAKEN = "users-not-taken";
+    /** Error if the control plane does not accept users that a proxy names. */
+    public static final String USERS_NOT_ACCEPTED = "users-not-taken";
 
-    static final Duration REMEMBERED = Duration.ofSeconds(10);
-    private static final int MAX_REMEMBERED = 1_000;
+    static final Duration TIME_TO_LIVE = Duration.ofSeconds(10);
+    private static final int MAX_CACHED = 1_000;
     private static final Duration TIMEOUT = Duration.ofSeconds(5);
 
     private final HttpClient client =
             HttpClient.newBuilder().connectTimeout(TIMEOUT).build();
     private final URI controlPlane;
     private final LongSupplier nanos;
-    private final Map<String, CachedUser> cached = BoundedMap.byInsertion(MAX_REMEMBERED);
+    private final Map<String, CachedUser> cached = BoundedMap.byInsertion(MAX_CACHED);
 
     private record CachedUser(User user, long since) {}
 
-    /** @param controlPlane base of its REST API */
+    /** @param controlPlane base URL of its REST API */
     public UserCache(URI controlPlane, LongSupplier nanos) {
         this.controlPlane = controlPlane;
         this.nanos = nanos;
     }
 
     /**
-     * @throws Problem 401 where the control plane does not know the token, 503 where it does not answer, or does not take the dashboard's
-     *     word for its users
+     * @throws Problem 401 if the control plane does not know the token; 503 if it does not respond, or does not accept
+     *     users from the dashboard
      */
     public User find(Credentials credentials) {
         String key = Sha256.hex(
-                "%s\n%s\n%s" // the tokens themselves are kept nowhere
+                "%s\n%s\n%s" // tokens are not stored
                         .formatted(credentials.authorization(), credentials.user(), credentials.role()));
         synchronized (cached) {
-            CachedUser before = cached.get(key);
-            if (before != null && nanos.getAsLong() - before.since() < REMEMBERED.toNanos()) {
-                return before.user();
+            CachedUser existing = cached.get(key);
+            if (existing != null && nanos.getAsLong() - existing.since() < TIME_TO_LIVE.toNanos()) {
+                return existing.user();
             }
         }
         User user = request(credentials);
@@ -65,15 +68,15 @@ public final class UserCache {
     }
 
     private User request(Credentials credentials) {
-        URI me = URI.create(controlPlane.toString().replaceAll("/+$", "") + "/api/me");
+        URI me = URI.create(controlPlane + "/api/me");
         HttpRequest.Builder request = HttpRequest.newBuilder(me).timeout(TIMEOUT);
         credentials.addTo(request);
         try {
             HttpResponse<byte[]> answer = client.send(request.build(), HttpResponse.BodyHandlers.ofByteArray());
-            boolean refuses = answer.statusCode() == 401 || answer.statusCode() == 403;
-            if (refuses && credentials.isOfProxy()) {
-                throw notTaken(reason(answer.body()));
-            } else if (refuses) {
+            boolean isRejected = answer.statusCode() == 401 || answer.statusCode() == 403;
+            if (isRejected && credentials.isOfProxy()) {
+                throw usersNotAccepted(reason(answer.body()));
+            } else if (isRejected) {
                 throw new Problem(401, "unauthorized", reason(answer.body()));
             } else if (answer.statusCode() != 200) {
                 throw unavailable(me, "it answers " + answer.statusCode());
@@ -81,8 +84,8 @@ public final class UserCache {
             JsonNode user = NgsiJson.read(answer.body());
             String name = user.path("user").asText();
             if (credentials.isOfProxy()
-                    && !name.equals(credentials.user())) { // it asks for no tokens, or is an older one
-                throw notTaken("it says that the request is from '" + name + "'");
+                    && !name.equals(credentials.user())) { // the control plane has no tokens, or is an older version
+                throw usersNotAccepted("it says that the request is from '" + name + "'");
             }
             return new User(
                     name, Role.of(user.path("role").asText()).orElseThrow(() -> unavailable(me, "it names no role")));
@@ -94,10 +97,10 @@ public final class UserCache {
         }
     }
 
-    private static Problem notTaken(String why) {
+    private static Problem usersNotAccepted(String why) {
         return new Problem(
                 503,
-                NOT_TAKEN,
+                USERS_NOT_ACCEPTED,
                 "the control plane does not take users from the dashboard (%s); start it with --api-tokens, and let the line of the token in --proxy-token-file end with 'for-users'"
                         .formatted(why));
     }

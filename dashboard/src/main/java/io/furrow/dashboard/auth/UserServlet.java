@@ -11,17 +11,17 @@ import jakarta.servlet.http.HttpServletResponse;
 import io.furrow.dashboard.http.Problem;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** Answers GET requests of users whom the control plane knows; a {@link Problem} is the answer, too. */
+/** Answers GET requests of users whom the control plane knows; a {@link Problem} becomes the response. */
 public abstract class UserServlet extends HttpServlet {
     private static final long serialVersionUID = 1L;
 
     private final transient UserCache users;
-    private final transient Consumer<Problem> refused;
+    private final transient Consumer<Problem> onRejection;
 
-    /** @param refused is notified of each request that is refused */
-    protected UserServlet(UserCache users, Consumer<Problem> refused) {
+    /** @param onRejection is notified of each rejected request */
+    protected UserServlet(UserCache users, Consumer<Problem> onRejection) {
         this.users = users;
-        this.refused = refused;
+        this.onRejection = onRejection;
     }
 
     @Override
@@ -29,12 +29,12 @@ public abstract class UserServlet extends HttpServlet {
         try {
             answer(request, response, users.find(Credentials.of(request)));
         } catch (Problem problem) {
-            refused.accept(problem);
+            onRejection.accept(problem);
             problem.answer(response);
         }
     }
 
-    /** @throws Problem where it is refused */
+    /** @throws Problem to reject the request */
     protected abstract void answer(HttpServletRequest request, HttpServletResponse response, User user)
             throws IOException;
 

@@ -1,2 +1,2 @@
-/** Who uses the dashboard, as the control plane has it. */
+/** Users of the dashboard, as known to the control plane. */
 package io.furrow.dashboard.auth;

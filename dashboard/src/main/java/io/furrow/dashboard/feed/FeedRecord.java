@@ -16,9 +16,9 @@ import io.furrow.kafka.KafkaClients;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** A record on its way to the streams of a topic; what is made of it is made once for all of them. */
+/** A record for the streams of a topic. Encodes key, text and envelope once for all streams. */
 public final class FeedRecord {
-    /** Of a record of the known state. */
+    /** Sequence of a record of the initial state. */
     public static final long NO_SEQUENCE = -1;
 
     private static final int ENVELOPE = 200;
@@ -33,8 +33,8 @@ public final class FeedRecord {
     private String type;
 
     /**
-     * @param sequence among those of its topic, {@link #NO_SEQUENCE} for the known state
-     * @param maxValueBytes value, bytes, that an envelope holds
+     * @param sequence number within the topic; {@link #NO_SEQUENCE} for the initial state
+     * @param maxValueBytes longest value that the envelope contains
      */
     public FeedRecord(ConsumerRecord<byte[], byte[]> record, long sequence, int maxValueBytes) {
         this.record = record;
@@ -42,31 +42,38 @@ public final class FeedRecord {
         this.maxValueBytes = maxValueBytes;
     }
 
-    /** By which newer ones take the place of older ones: that of {@link #ofAllTypes}, and the type of the entity. */
+    /** A newer record replaces older ones with the same key: {@link #keyWithoutType} and the entity type. */
     public String key() {
-        return type().isEmpty() ? ofAllTypes() : ofAllTypes() + SEPARATOR + type();
+        return type().isEmpty() ? keyWithoutType() : keyWithoutType() + SEPARATOR + type();
     }
 
-    /** Tenant, service path and key; of a record without a key its own place. */
-    public String ofAllTypes() {
+    /** Tenant, service path and key; partition and offset for a record without a key. */
+    public String keyWithoutType() {
         return record.key() == null
                 ? record.partition() + "/" + record.offset()
                 : KafkaClients.scope(record.headers()).identity(recordKey());
     }
 
-    /** Whether it deletes what another one reports; a deletion that names no tenant and path, or no type, is one of all of them. */
+    /**
+     * Whether this record deletes the other. A deletion without tenant and path, or without a type, matches all of
+     * them.
+     */
     boolean deletes(FeedRecord other) {
         boolean namesScope = header(HeaderNames.SERVICE) != null || header(HeaderNames.SERVICE_PATH) != null;
-        boolean isOfIt =
-                namesScope ? ofAllTypes().equals(other.ofAllTypes()) : Objects.equals(recordKey(), other.recordKey());
-        return record.value() == null && isOfIt && (type().isEmpty() || type().equals(other.type()));
+        boolean sameKey = namesScope
+                ? keyWithoutType().equals(other.keyWithoutType())
+                : Objects.equals(recordKey(), other.recordKey());
+        return record.value() == null && sameKey && (type().isEmpty() || type().equals(other.type()));
     }
 
     private String recordKey() {
         return record.key() == null ? null : new String(record.key(), StandardCharsets.UTF_8);
     }
 
-    /** Of an entity, or of a picture of one: two of one id may differ in nothing else. Empty for any other record. */
+    /**
+     * The type of an entity, or of an image's entity, since entities with the same id may differ only in type. Empty
+     * for any other record.
+     */
     private synchronized String type() {
         if (type == null) {
             type = record.value() == null
@@ -89,7 +96,7 @@ public final class FeedRecord {
                 parser.skipChildren();
             }
         } catch (IOException e) {
-            return ""; // it is shown as a text
+            return ""; // sent as text
         }
         return hasId ? type : "";
     }
@@ -98,12 +105,12 @@ public final class FeedRecord {
         return KafkaClients.text(record.headers(), name);
     }
 
-    /** About what it takes in memory until it is sent. */
+    /** Approximate memory until the record is sent. */
     public int bytes() {
         return ENVELOPE + (record.value() == null ? 0 : record.value().length);
     }
 
-    /** The value as it is; {@code null} for a deletion. */
+    /** The value as text; {@code null} for a deletion. */
     public synchronized String text() {
         if (text == null) {
             text = record.value() == null ? "null" : new String(record.value(), StandardCharsets.UTF_8);
@@ -111,15 +118,15 @@ public final class FeedRecord {
         return text;
     }
 
-    /** The JSON object that says all of it. */
+    /** The record as a JSON object with all its members. */
     public synchronized String envelope() {
         if (envelope == null) {
-            envelope = made();
+            envelope = createEnvelope();
         }
         return envelope;
     }
 
-    private String made() {
+    private String createEnvelope() {
         ObjectNode json = NgsiJson.object()
                 .put("topic", record.topic())
                 .put("partition", record.partition())

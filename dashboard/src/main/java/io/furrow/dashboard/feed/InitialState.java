@@ -21,39 +21,39 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /**
- * What was known of the keys of a topic before a stream began. Of {@code data.raw} and the topics of domains and missions it is what
- * {@code data.latest} has of their entities, of a replay the newest of each entity in its newest epoch, of any other topic the
- * newest of each key; where the topic is not compacted, of the last hour.
+ * Reads the state of a topic's keys before a stream begins. For {@code data.raw} and the topics of domains and missions
+ * this is the state of their entities on {@code data.latest}; for a replay, the newest record of each entity in its
+ * newest epoch; for any other topic, the newest record of each key, if the topic is not compacted within the last hour.
  *
- * @param compacted whether a topic is
+ * @param compacted whether a topic is compacted
  */
 public record InitialState(Properties client, StreamLimits limits, Predicate<String> compacted) {
     private static final Pattern LIVE = Pattern.compile("data\\.[^.]+\\.realtime(\\.[^.]+)?");
     private static final Duration TIMEOUT = Duration.ofSeconds(30);
-    /** What is older is history, not state: such a topic may hold a week of records each second. */
+    /** Older records are history, not state: such a topic may hold a week of records per second. */
     private static final Duration NOT_COMPACTED = Duration.ofHours(1);
 
     private static final String EPOCH = "replay-epoch";
     private static final String KIND = "replay-kind";
 
-    /** @throws Problem where it takes too long, or is too much */
+    /** @throws Problem if reading takes too long, or there are too many keys */
     public List<FeedRecord> read(String topic) {
         boolean live = topic.equals(Topics.RAW) || LIVE.matcher(topic).matches();
-        Predicate<ConsumerRecord<byte[], byte[]>> desired = live ? record -> isOf(topic, record) : record -> true;
+        Predicate<ConsumerRecord<byte[], byte[]>> filter = live ? record -> isOf(topic, record) : record -> true;
         Map<String, FeedRecord> newest = new LinkedHashMap<>();
         long[] epoch = {-1};
         String source = live ? Topics.LATEST : topic;
-        long begun = System.nanoTime();
+        long startedAt = System.nanoTime();
         try (CommittedReader<byte[]> reader = CommittedReader.openBytes(settings(), source)) {
-            // a replay's records bear times of then
+            // records of a replay have past timestamps
             if (!live && !Topics.isOfReplay(source) && !compacted.test(source)) {
                 reader.seekToTime(System.currentTimeMillis() - NOT_COMPACTED.toMillis());
             }
             reader.readToEnd(record -> {
                 if (reader.isBeforeEnd(record) && isOfNewestEpoch(record, epoch, newest)) {
-                    put(record, newest, desired);
+                    put(record, newest, filter);
                 }
-                check(source, newest, begun);
+                check(source, newest, startedAt);
             });
         } catch (TimeoutException e) {
             throw tooSlow(source);
@@ -61,40 +61,40 @@ public record InitialState(Properties client, StreamLimits limits, Predicate<Str
         return new ArrayList<>(newest.values());
     }
 
-    /** Each epoch of a replay says again what is known, and ends with a record that reports no entity. */
+    /** Each epoch of a replay repeats the state of its entities, and ends with a record without an entity. */
     private static boolean isOfNewestEpoch(
             ConsumerRecord<byte[], byte[]> record, long[] epoch, Map<String, FeedRecord> newest) {
         String text = KafkaClients.text(record.headers(), EPOCH);
         if (text == null) {
             return true;
         }
-        long of = Long.parseLong(text);
-        if (of > epoch[0]) {
-            epoch[0] = of;
+        long recordEpoch = Long.parseLong(text);
+        if (recordEpoch > epoch[0]) {
+            epoch[0] = recordEpoch;
             newest.clear();
         }
-        return of == epoch[0] && !"end".equals(KafkaClients.text(record.headers(), KIND));
+        return recordEpoch == epoch[0] && !"end".equals(KafkaClients.text(record.headers(), KIND));
     }
 
     private void put(
             ConsumerRecord<byte[], byte[]> record,
             Map<String, FeedRecord> newest,
-            Predicate<ConsumerRecord<byte[], byte[]>> desired) {
+            Predicate<ConsumerRecord<byte[], byte[]>> filter) {
         FeedRecord next = new FeedRecord(record, FeedRecord.NO_SEQUENCE, limits.valueBytes());
         newest.remove(next.key());
         if (record.value() == null) {
             newest.values().removeIf(next::deletes);
-        } else if (desired.test(record)) {
+        } else if (filter.test(record)) {
             newest.put(next.key(), next);
         }
     }
 
-    private void check(String source, Map<String, FeedRecord> newest, long begun) {
+    private void check(String source, Map<String, FeedRecord> newest, long startedAt) {
         if (newest.size() > limits.primeRecords()) {
             throw new Problem(
                     503, "too-much", "topic '%s' has more than %d keys".formatted(source, limits.primeRecords()));
         }
-        if (System.nanoTime() - begun > TIMEOUT.toNanos()) {
+        if (System.nanoTime() - startedAt > TIMEOUT.toNanos()) {
             throw tooSlow(source);
         }
     }

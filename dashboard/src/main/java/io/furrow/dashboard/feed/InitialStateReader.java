@@ -14,8 +14,8 @@ import java.util.function.Function;
 import io.furrow.kafka.DaemonThreads;
 
 /**
- * Reads the known state of topics in threads of its own: of one topic at a time once, for all who asked before the reading
- * began. Nobody waits for another topic's history, unless as many are read as there are threads.
+ * Reads the initial states of topics on its own threads. Reads a topic once for all requests that arrived before the
+ * read began. Topics do not wait for each other, unless more are read than there are threads.
  */
 public final class InitialStateReader implements AutoCloseable {
     private static final int THREADS = 16;
@@ -23,20 +23,20 @@ public final class InitialStateReader implements AutoCloseable {
 
     private final Function<String, List<FeedRecord>> reader;
     private final ExecutorService threads = Executors.newFixedThreadPool(THREADS, DaemonThreads.named("initial-state"));
-    /** Readings that have not begun. */
+    /** Reads that have not begun. */
     private final Map<String, CompletableFuture<List<FeedRecord>>> next = new HashMap<>();
-    /** Topics that are read, or are about to be. */
+    /** Topics with a read that runs or is about to. */
     private final Set<String> busy = new HashSet<>();
 
-    /** @param reader reads the known state of a topic */
+    /** @param reader reads the initial state of a topic */
     public InitialStateReader(Function<String, List<FeedRecord>> reader) {
         this.reader = reader;
     }
 
     /**
-     * The state as of a moment after this call, so that nothing lies between it and a stream that has begun.
+     * The state as of a moment after this call, so that there is no gap between it and a stream that has begun.
      *
-     * @throws java.util.concurrent.RejectedExecutionException if it is closed
+     * @throws java.util.concurrent.RejectedExecutionException if this is closed
      */
     public synchronized CompletableFuture<List<FeedRecord>> read(String topic) {
         if (!busy.contains(topic)) {
@@ -53,7 +53,7 @@ public final class InitialStateReader implements AutoCloseable {
         }
         try {
             reading.complete(reader.apply(topic));
-        } catch (RuntimeException | Error e) { // nobody else would hear of it, and the topic stay busy
+        } catch (RuntimeException | Error e) { // otherwise the future never completes, and the topic stays busy
             reading.completeExceptionally(e);
         }
         synchronized (this) {

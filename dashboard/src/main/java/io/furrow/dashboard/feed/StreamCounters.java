@@ -6,12 +6,12 @@ import java.util.concurrent.atomic.LongAdder;
 
 import io.furrow.dashboard.http.Problem;
 
-/** What streams did since the dashboard started. Reasons are codes, of which there are few. */
+/** Counts events of streams since the dashboard started. */
 public final class StreamCounters {
     private final Map<Enum<?>, LongAdder> counts = new ConcurrentHashMap<>();
-    private final Map<String, LongAdder> refused = new ConcurrentHashMap<>();
+    private final Map<String, LongAdder> rejections = new ConcurrentHashMap<>();
 
-    /** What is counted without a reason. */
+    /** Events without a reason. */
     public enum Count {
         STREAMS_OPENED("Streams that were opened."),
         RECORDS_READ("Records of topics that were read."),
@@ -30,14 +30,14 @@ public final class StreamCounters {
         }
     }
 
-    /** Why a stream is over. */
+    /** Reasons for which streams are closed. */
     public enum Closing {
-        /** The client closed it, or is gone. */
+        /** The client closed it or disconnected. */
         CLIENT("client"),
         TOO_SLOW("too-slow"),
-        /** The token was taken back, or the proxy shall be asked again. */
+        /** The token was revoked, or the user must sign in at the proxy again. */
         USER("user"),
-        /** Its topic cannot be read. */
+        /** The topic cannot be read. */
         TOPIC("topic"),
         STOPPING("stopping");
 
@@ -52,27 +52,27 @@ public final class StreamCounters {
         }
     }
 
-    /** @param what a {@link Count} or a {@link Closing} */
-    public void add(Enum<?> what, long by) {
-        counts.computeIfAbsent(what, any -> new LongAdder()).add(by);
+    /** @param event a {@link Count} or a {@link Closing} */
+    public void add(Enum<?> event, long by) {
+        counts.computeIfAbsent(event, any -> new LongAdder()).add(by);
     }
 
-    public long sum(Enum<?> what) {
-        LongAdder count = counts.get(what);
+    public long sum(Enum<?> event) {
+        LongAdder count = counts.get(event);
         return count == null ? 0 : count.sum();
     }
 
-    /** A request or a message was refused. */
-    public void refused(Problem problem) {
-        refused(problem.error());
+    /** Counts a rejected request or message. */
+    public void rejected(Problem problem) {
+        rejected(problem.error());
     }
 
-    /** @param error a code */
-    public void refused(String error) {
-        refused.computeIfAbsent(error, any -> new LongAdder()).increment();
+    /** @param error code of the rejection */
+    public void rejected(String error) {
+        rejections.computeIfAbsent(error, any -> new LongAdder()).increment();
     }
 
-    public Map<String, LongAdder> refusals() {
-        return Map.copyOf(refused);
+    public Map<String, LongAdder> rejections() {
+        return Map.copyOf(rejections);
     }
 }

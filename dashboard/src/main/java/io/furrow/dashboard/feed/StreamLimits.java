@@ -3,18 +3,18 @@ package io.furrow.dashboard.feed;
 import java.time.Duration;
 
 /**
- * What a client may ask for.
+ * Limits of clients and streams.
  *
  * @param streams sockets and event streams of all clients
- * @param streamsOfClient of one address
- * @param tickets that one address has not used yet
- * @param ticketLife after which a ticket is worth nothing
- * @param waitingRecords that wait for one stream; one that is slower is closed
+ * @param streamsOfClient sockets and event streams of one client
+ * @param tickets unused tickets of one client
+ * @param ticketLife time after which a ticket expires
+ * @param waitingRecords that may wait for one stream; a slower stream is closed
  * @param waitingBytes likewise
- * @param valueBytes a longer value is cut where records have an envelope
- * @param messageBytes that a socket sends
- * @param messagesPerSecond that a socket sends
- * @param primeRecords of known state, at most
+ * @param valueBytes longest value in an envelope; a longer one is cut
+ * @param messageBytes longest message that a socket may send
+ * @param messagesPerSecond that a socket may send
+ * @param primeRecords records of the initial state
  */
 public record StreamLimits(
         int streams,

@@ -20,47 +20,51 @@ import org.apache.kafka.common.KafkaFuture;
 import org.apache.kafka.common.TopicPartition;
 
 /**
- * How many records a topic has in each bucket of a stretch of time. No record is read: Kafka's index of times says at which offset a bucket
- * begins, and a bucket has as many records as lie between two of them. Begins that are past are remembered, and who asks waits for who asked
- * before, so that each is asked for once.
+ * Counts the records of a topic per bucket of time without reading them: Kafka's time index has the offset at which a
+ * bucket begins, and the difference of two offsets is the number of records. Offsets of past buckets are cached, and
+ * requests run one after the other, so each offset is requested once.
  */
 public final class TopicDensity {
     public static final int MAX_BUCKETS = 400;
     private static final Duration TIMEOUT = Duration.ofSeconds(15);
-    /** Records are not strictly in the order of their timestamps, so the begin of a bucket is final only then. */
-    private static final long SETTLED_MS = 60_000;
+    /**
+     * Records are not strictly in the order of their timestamps, so the first offset of a bucket is final only after
+     * this time.
+     */
+    private static final long FINAL_AFTER_MS = 60_000;
 
-    private static final int REMEMBERED = 20_000;
+    private static final int MAX_CACHED = 20_000;
 
     private final Admin admin;
-    private final Map<Begin, Long> settled = new HashMap<>();
+    private final Map<BucketStart, Long> cached = new HashMap<>();
 
-    private record Begin(String topic, long time) {}
+    private record BucketStart(String topic, long time) {}
 
     public TopicDensity(Admin admin) {
         this.admin = admin;
     }
 
     /**
-     * @param from epoch ms, of the first bucket's begin
+     * Counts the records of each bucket.
+     *
+     * @param from start of the first bucket, epoch ms
      * @param width of a bucket, ms
-     * @return the number of records of each bucket
-     * @throws ExecutionException of Kafka
-     * @throws TimeoutException where it does not answer within 15 s
+     * @throws ExecutionException if Kafka fails
+     * @throws TimeoutException if Kafka does not respond within 15 s
      */
     public synchronized List<Long> count(String topic, long from, long width, int buckets)
             throws InterruptedException, ExecutionException, TimeoutException {
         TreeMap<Long, Long> offsets = new TreeMap<>();
-        Set<Long> unknown = new HashSet<>();
+        Set<Long> missing = new HashSet<>();
         for (long time = from, i = 0; i <= buckets; time += width, i++) {
-            Long existing = settled.get(new Begin(topic, time));
+            Long existing = cached.get(new BucketStart(topic, time));
             if (existing == null) {
-                unknown.add(time);
+                missing.add(time);
             } else {
                 offsets.put(time, existing);
             }
         }
-        request(topic, unknown, offsets);
+        request(topic, missing, offsets);
         List<Long> counts = new ArrayList<>(buckets);
         for (int i = 0; i < buckets; i++) {
             counts.add(Math.max(0, offsets.get(from + (i + 1) * width) - offsets.get(from + i * width)));
@@ -68,7 +72,7 @@ public final class TopicDensity {
         return counts;
     }
 
-    /** Sums over the partitions of a topic. */
+    /** Adds, for each time, the sum of the offsets of all partitions. */
     private void request(String topic, Set<Long> times, Map<Long, Long> offsets)
             throws InterruptedException, ExecutionException, TimeoutException {
         if (times.isEmpty()) {
@@ -82,32 +86,33 @@ public final class TopicDensity {
                 .toList();
         long now = System.currentTimeMillis();
         KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>> ends = list(partitions, OffsetSpec.latest());
-        Map<Long, KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>>> begins = new HashMap<>();
-        times.forEach(time -> begins.put(time, list(partitions, OffsetSpec.forTimestamp(time))));
-        if (settled.size() > REMEMBERED) {
-            settled.clear();
+        Map<Long, KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>>> starts = new HashMap<>();
+        times.forEach(time -> starts.put(time, list(partitions, OffsetSpec.forTimestamp(time))));
+        if (cached.size() > MAX_CACHED) {
+            cached.clear();
         }
-        for (Map.Entry<Long, KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>>> each : begins.entrySet()) {
+        for (Map.Entry<Long, KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>>> each : starts.entrySet()) {
             Map<TopicPartition, ListOffsetsResultInfo> found = answer(each.getValue(), deadline);
             long sum = 0;
             for (TopicPartition partition : partitions) {
                 long offset = found.get(partition).offset();
-                // none is as late: it begins where the topic ends
+                // without a later record, the bucket begins at the end of the partition
                 sum += offset >= 0
                         ? offset
                         : answer(ends, deadline).get(partition).offset();
             }
             offsets.put(each.getKey(), sum);
-            if (each.getKey() < now - SETTLED_MS) {
-                settled.put(new Begin(topic, each.getKey()), sum);
+            if (each.getKey() < now - FINAL_AFTER_MS) {
+                cached.put(new BucketStart(topic, each.getKey()), sum);
             }
         }
     }
 
-    private KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>> list(List<TopicPartition> of, OffsetSpec spec) {
-        Map<TopicPartition, OffsetSpec> desired = new HashMap<>();
-        of.forEach(each -> desired.put(each, spec));
-        return admin.listOffsets(desired).all();
+    private KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>> list(
+            List<TopicPartition> partitions, OffsetSpec spec) {
+        Map<TopicPartition, OffsetSpec> specs = new HashMap<>();
+        partitions.forEach(each -> specs.put(each, spec));
+        return admin.listOffsets(specs).all();
     }
 
     private static <T> T answer(KafkaFuture<T> future, long deadline)

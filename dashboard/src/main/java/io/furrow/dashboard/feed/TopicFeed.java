@@ -22,32 +22,33 @@ import io.furrow.dashboard.feed.StreamCounters.Count;
 import io.furrow.kafka.CommittedReader;
 import io.furrow.model.text.FailureText;
 
-/** The one consumer of a topic, from its end on, for all streams of it; on a thread of its own. */
+/** Consumes a topic from its end and fans the records out to all its streams, on its own thread. */
 public final class TopicFeed implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(TopicFeed.class);
     private static final Duration POLL = Duration.ofMillis(500);
-    private static final Duration CLOSE = Duration.ofSeconds(2);
-    private static final long NEW_PARTITIONS_MILLIS = 10_000;
+    private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(2);
+    private static final Duration PARTITION_INTERVAL = Duration.ofSeconds(10);
 
     private final String topic;
     private final StreamLimits limits;
     private final StreamCounters counters;
     private final KafkaConsumer<byte[], byte[]> consumer;
     private final Set<Stream> streams = new CopyOnWriteArraySet<>();
-    private final CountDownLatch atEnd = new CountDownLatch(1);
+    private final CountDownLatch started = new CountDownLatch(1);
     private final Thread thread;
     private volatile boolean closed;
     private volatile String failure;
     private long sequence;
 
-    /** Whoever is notified of the records of a topic. */
+    /** Receives the records of a topic. */
     public interface Stream {
+        /** Queues a record. */
         void offer(FeedRecord record);
 
-        /** After the records of a poll. */
+        /** Sends queued records; called after each poll. */
         void flush();
 
-        /** There will be no further record. */
+        /** Ends the stream: no record follows. */
         void end(String reason);
 
         boolean isClosed();
@@ -76,32 +77,31 @@ public final class TopicFeed implements AutoCloseable {
         }
     }
 
-    /** Whether it serves nobody any more. */
+    /** Whether it has stopped because of a failure. */
     boolean hasFailed() {
         return failure != null;
     }
 
-    /** @return whether none is left */
+    /** @return whether no stream is left */
     boolean remove(Stream stream) {
         streams.remove(stream);
         return streams.isEmpty();
     }
 
-    /** Returns when every record that is written from now on will be seen. */
-    void awaitBegun() throws InterruptedException {
-        atEnd.await();
+    /** Returns once the consumer stands at the end: every record written from now on will be read. */
+    void awaitStarted() throws InterruptedException {
+        started.await();
     }
 
     private void run() {
         try (consumer) {
             assign(true);
-            atEnd.countDown();
-            long polledAt = System.nanoTime();
+            started.countDown();
+            long assignedAt = System.nanoTime();
             while (!closed) {
                 publish(consumer.poll(POLL));
-                if (System.nanoTime() - polledAt
-                        > Duration.ofMillis(NEW_PARTITIONS_MILLIS).toNanos()) {
-                    polledAt = System.nanoTime();
+                if (System.nanoTime() - assignedAt > PARTITION_INTERVAL.toNanos()) {
+                    assignedAt = System.nanoTime();
                     assign(false);
                 }
             }
@@ -110,11 +110,11 @@ public final class TopicFeed implements AutoCloseable {
         } catch (UnknownTopicOrPartitionException e) {
             LOG.debug("topic {} is gone", topic, e);
             fail("topic '%s' is not there any more".formatted(topic));
-        } catch (RuntimeException e) { // streams that nobody serves would stay open
+        } catch (RuntimeException e) { // its streams would stay open without records
             LOG.warn("topic {} cannot be read any more", topic, e);
             fail("topic '%s' cannot be read (%s)".formatted(topic, FailureText.of(e)));
         } finally {
-            atEnd.countDown();
+            started.countDown();
         }
     }
 
@@ -123,27 +123,27 @@ public final class TopicFeed implements AutoCloseable {
         streams.forEach(stream -> stream.end(reason));
     }
 
-    /** @param atTheirEnd else partitions that came later are read from their beginning */
-    private void assign(boolean atTheirEnd) {
+    /** @param fromEnd whether to start at the ends; partitions that are added later are read from their beginning */
+    private void assign(boolean fromEnd) {
         List<TopicPartition> all = consumer.partitionsFor(topic).stream()
                 .map(each -> new TopicPartition(each.topic(), each.partition()))
                 .toList();
         if (all.isEmpty()) {
             throw new UnknownTopicOrPartitionException("it has no partitions");
         }
-        Collection<TopicPartition> before = Set.copyOf(consumer.assignment());
-        if (before.size() == all.size()) {
+        Collection<TopicPartition> assigned = Set.copyOf(consumer.assignment());
+        if (assigned.size() == all.size()) {
             return;
         }
         consumer.assign(all);
-        List<TopicPartition> further =
-                all.stream().filter(each -> !before.contains(each)).toList();
-        if (atTheirEnd) {
-            consumer.seekToEnd(further);
+        List<TopicPartition> added =
+                all.stream().filter(each -> !assigned.contains(each)).toList();
+        if (fromEnd) {
+            consumer.seekToEnd(added);
         } else {
-            consumer.seekToBeginning(further);
+            consumer.seekToBeginning(added);
         }
-        further.forEach(consumer::position); // a position is looked up only when it is asked for
+        added.forEach(consumer::position); // seeking is lazy
     }
 
     private void publish(ConsumerRecords<byte[], byte[]> records) {
@@ -164,7 +164,7 @@ public final class TopicFeed implements AutoCloseable {
         consumer.wakeup();
         if (Thread.currentThread() != thread) {
             try {
-                thread.join(CLOSE.toMillis());
+                thread.join(CLOSE_TIMEOUT.toMillis());
             } catch (InterruptedException e) {
                 Thread.currentThread().interrupt();
             }

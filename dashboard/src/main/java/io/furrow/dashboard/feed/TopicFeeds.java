@@ -23,15 +23,15 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.dashboard.http.Problem;
 
-/** The feeds of the topics that have streams; a topic without one is not read. */
+/** Manages the feeds of all topics with streams; other topics are not read. */
 public final class TopicFeeds implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(TopicFeeds.class);
-    /** Without an answer for this long, Kafka is unavailable. */
+    /** Time without an answer after which Kafka counts as unavailable. */
     static final Duration UNAVAILABLE_AFTER = Duration.ofSeconds(6);
 
     private static final long TIMEOUT_SECONDS = 5;
 
-    private static final long COUNTED_FOR_NANOS = TimeUnit.SECONDS.toNanos(1);
+    private static final long TIME_TO_LIVE_NANOS = TimeUnit.SECONDS.toNanos(1);
 
     private final Properties client;
     private final StreamLimits limits;
@@ -39,7 +39,7 @@ public final class TopicFeeds implements AutoCloseable {
     private final Admin admin;
     private final Map<String, TopicFeed> feeds = new HashMap<>();
     private Map<String, Long> counts = Map.of();
-    private long counted = System.nanoTime() - COUNTED_FOR_NANOS;
+    private long countedAt = System.nanoTime() - TIME_TO_LIVE_NANOS;
     private volatile long lastAnswer = System.nanoTime();
     private boolean closed;
 
@@ -50,7 +50,7 @@ public final class TopicFeeds implements AutoCloseable {
         this.admin = Admin.create(client);
     }
 
-    /** @throws Problem 503 where Kafka does not answer */
+    /** @throws Problem 503 if Kafka does not respond */
     public Set<String> topics() {
         if (isKafkaUnavailable()) {
             throw unavailable();
@@ -67,13 +67,13 @@ public final class TopicFeeds implements AutoCloseable {
     }
 
     /**
-     * How many records were written to topics ever, by the ends of their partitions. Asked of Kafka once a second at most, however many ask
-     * for it.
+     * The number of records ever written to each topic, by the end offsets of its partitions; cached for a second.
      *
-     * @throws Problem 503 where Kafka does not answer
+     * @throws Problem 503 if Kafka does not respond
      */
     public synchronized Map<String, Long> written(Collection<String> names) {
-        if (System.nanoTime() - counted < COUNTED_FOR_NANOS && counts.keySet().containsAll(names)) {
+        if (System.nanoTime() - countedAt < TIME_TO_LIVE_NANOS
+                && counts.keySet().containsAll(names)) {
             return counts;
         }
         try {
@@ -88,17 +88,19 @@ public final class TopicFeeds implements AutoCloseable {
                     .get(TIMEOUT_SECONDS, TimeUnit.SECONDS)
                     .forEach((partition, end) -> sums.merge(partition.topic(), end.offset(), Long::sum));
             counts = sums;
-            counted = System.nanoTime();
+            countedAt = System.nanoTime();
             return counts;
         } catch (ExecutionException | TimeoutException e) {
             throw new Problem(
-                    503, "kafka-away", "Kafka does not say how long its topics are; check --kafka and that it runs");
+                    503,
+                    "kafka-away",
+                    "Kafka does not return the offsets of its topics; check --kafka and that it runs");
         } catch (InterruptedException e) {
             throw Problem.stopping();
         }
     }
 
-    /** Whether the newest record of each key stays for good; also true where that may not be read. */
+    /** Whether the newest record of each key is retained forever; also true if the configuration cannot be read. */
     public boolean isCompacted(String topic) {
         ConfigResource resource = new ConfigResource(ConfigResource.Type.TOPIC, topic);
         try {
@@ -117,7 +119,7 @@ public final class TopicFeeds implements AutoCloseable {
         }
     }
 
-    /** Fails where Kafka does not answer in time. */
+    /** Fails if Kafka does not respond in time. */
     public void checkKafka(Duration timeout) throws ExecutionException, TimeoutException, InterruptedException {
         admin.describeCluster(new DescribeClusterOptions().timeoutMs((int) timeout.toMillis()))
                 .nodes()
@@ -125,24 +127,24 @@ public final class TopicFeeds implements AutoCloseable {
         lastAnswer = System.nanoTime();
     }
 
-    /** By the answers to {@link #checkKafka}, so that nobody has to wait to find it out. */
+    /** Whether Kafka did not answer {@link #checkKafka} lately; does not wait. */
     public boolean isKafkaUnavailable() {
         return System.nanoTime() - lastAnswer > UNAVAILABLE_AFTER.toNanos();
     }
 
     private static Problem unavailable() {
         return new Problem(
-                503, "kafka-away", "Kafka does not say which topics there are; check --kafka and that it runs");
+                503, "kafka-away", "Kafka does not return the list of its topics; check --kafka and that it runs");
     }
 
-    /** @throws Problem 404 for a topic that is not there */
+    /** @throws Problem 404 if the topic does not exist */
     public void check(String topic) {
         if (!topics().contains(topic)) {
             throw new Problem(404, "unknown-topic", "there is no topic '%s'".formatted(topic));
         }
     }
 
-    /** Returns when each record that is written from now on goes to the stream. */
+    /** Adds a stream; returns once each record that is written from now on goes to it. */
     public void add(String topic, TopicFeed.Stream stream) throws InterruptedException {
         TopicFeed feed;
         synchronized (feeds) {
@@ -156,7 +158,7 @@ public final class TopicFeeds implements AutoCloseable {
             }
             feed.add(stream);
         }
-        feed.awaitBegun();
+        feed.awaitStarted();
     }
 
     public void remove(String topic, TopicFeed.Stream stream) {
@@ -172,7 +174,7 @@ public final class TopicFeeds implements AutoCloseable {
         }
     }
 
-    /** How many topics are read. */
+    /** The number of topics that are read. */
     public int size() {
         synchronized (feeds) {
             return feeds.size();

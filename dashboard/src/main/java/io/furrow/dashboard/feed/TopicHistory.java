@@ -22,8 +22,8 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Reads what a topic holds of a stretch of time, by the timestamps of its records. Of more than it may read or answer it leaves out the
- * oldest, and says since when the answer is whole.
+ * Reads the records of a topic in a period, by their timestamps. Beyond its limits it leaves out the oldest records and
+ * reports the time since which the result is complete.
  */
 public record TopicHistory(Properties client, Limits limits, int valueBytes) {
     private static final Duration POLL = Duration.ofMillis(200);
@@ -31,29 +31,32 @@ public record TopicHistory(Properties client, Limits limits, int valueBytes) {
     private static final long DISORDER_MS = 60_000;
 
     /**
-     * Of one answer.
+     * Limits of one request.
      *
-     * @param scanned records that are read
-     * @param answered bytes of values
-     * @param time that reading may take
+     * @param scanned number of records read
+     * @param answered bytes of values returned
+     * @param time for reading
      */
     public record Limits(long scanned, long answered, Duration time) {
         public static final Limits DEFAULT = new Limits(300_000, 8L * 1024 * 1024, Duration.ofSeconds(10));
     }
 
     /**
-     * What is asked for.
+     * A request.
      *
      * @param from epoch ms
      * @param to epoch ms, exclusive
-     * @param newest an attribute, or a member that is not an attribute: of records of a tenant, service path and type with the same value of it only the last comes; null for all records
-     * @param limit how many records at most
+     * @param newest name of an attribute or other member: of records with the same tenant, service path, type and value
+     *     of it, only the last is returned; null for all records
+     * @param limit number of records returned
      */
     public record Range(String topic, long from, long to, String newest, int limit) {}
 
     /**
-     * @param records in the order in which they were written, partition by partition mixed
-     * @param since epoch ms from which on nothing was left out; {@code from} where all is there
+     * The records found.
+     *
+     * @param records in the order of their offsets within each partition; partitions are interleaved
+     * @param since epoch ms since which no record is missing; {@code from} if all are there
      */
     public record Answer(List<FeedRecord> records, long since) {}
 
@@ -64,25 +67,25 @@ public record TopicHistory(Properties client, Limits limits, int valueBytes) {
         }
     }
 
-    private record Place(long time, int partition, long offset) {
-        static Place of(ConsumerRecord<?, ?> record) {
-            return new Place(record.timestamp(), record.partition(), record.offset());
+    private record Position(long time, int partition, long offset) {
+        static Position of(ConsumerRecord<?, ?> record) {
+            return new Position(record.timestamp(), record.partition(), record.offset());
         }
     }
 
-    /** One answer in the making. */
+    /** Processes one request. */
     private final class Reading {
         private final Range range;
         private final KafkaConsumer<byte[], byte[]> consumer;
         private final LinkedHashMap<String, ConsumerRecord<byte[], byte[]>> retained = new LinkedHashMap<>();
-        /** The ids of what is kept, the oldest first: partitions are read one after the other. */
-        private final TreeMap<Place, String> byTime = new TreeMap<>(Comparator.comparingLong(Place::time)
-                .thenComparingInt(Place::partition)
-                .thenComparingLong(Place::offset));
+        /** The ids of retained records, the oldest first: partitions are read one after the other. */
+        private final TreeMap<Position, String> byTime = new TreeMap<>(Comparator.comparingLong(Position::time)
+                .thenComparingInt(Position::partition)
+                .thenComparingLong(Position::offset));
 
         private final Map<TopicPartition, Long> starts = new HashMap<>();
         private final Map<TopicPartition, Long> ends = new HashMap<>();
-        /** Partitions of whose stretch the oldest is not there, or is not read. */
+        /** Partitions whose oldest records of the period were deleted, or are not read. */
         private final Map<TopicPartition, Boolean> cutOff = new HashMap<>();
 
         private long bytes;
@@ -95,12 +98,12 @@ public record TopicHistory(Properties client, Limits limits, int valueBytes) {
         }
 
         Answer read() {
-            bound();
+            assignRanges();
             starts.forEach(consumer::seek);
             long deadline = System.nanoTime() + limits.time().toNanos();
             while (starts.keySet().stream().anyMatch(each -> consumer.position(each) < ends.get(each))) {
                 for (ConsumerRecord<byte[], byte[]> record : consumer.poll(POLL)) {
-                    take(record);
+                    add(record);
                 }
                 if (System.nanoTime() > deadline) {
                     since = range.to();
@@ -112,29 +115,29 @@ public record TopicHistory(Properties client, Limits limits, int valueBytes) {
             return new Answer(records, since);
         }
 
-        /** From where to where each partition is read. */
-        private void bound() {
+        /** Determines the range of offsets of each partition. */
+        private void assignRanges() {
             List<TopicPartition> all = consumer.partitionsFor(range.topic()).stream()
                     .map(each -> new TopicPartition(each.topic(), each.partition()))
                     .toList();
             consumer.assign(all);
-            Map<TopicPartition, Long> last = consumer.endOffsets(all);
-            Map<TopicPartition, Long> first = consumer.beginningOffsets(all);
+            Map<TopicPartition, Long> lastOffsets = consumer.endOffsets(all);
+            Map<TopicPartition, Long> firstOffsets = consumer.beginningOffsets(all);
             Map<TopicPartition, OffsetAndTimestamp> from = consumer.offsetsForTimes(times(all, range.from()));
             Map<TopicPartition, OffsetAndTimestamp> to =
                     consumer.offsetsForTimes(times(all, Math.addExact(range.to(), DISORDER_MS)));
             long share = limits.scanned() / Math.max(1, all.size());
             for (TopicPartition each : all) {
                 boolean toEnd = to.get(each) == null;
-                long end = toEnd ? last.get(each) : to.get(each).offset();
-                // of a stretch to the end no more records count than may be answered
+                long end = toEnd ? lastOffsets.get(each) : to.get(each).offset();
+                // no more than the limit can be returned of a period that lasts to the end
                 long maximum = toEnd && range.newest() == null ? Math.min(share, range.limit()) : share;
                 long start = from.get(each) == null
                         ? end
                         : Math.min(end, from.get(each).offset());
                 ends.put(each, end);
                 starts.put(each, Math.max(start, end - maximum));
-                cutOff.put(each, start < end - maximum || start < end && start == first.get(each) && start > 0);
+                cutOff.put(each, start < end - maximum || start < end && start == firstOffsets.get(each) && start > 0);
             }
         }
 
@@ -144,7 +147,7 @@ public record TopicHistory(Properties client, Limits limits, int valueBytes) {
             return times;
         }
 
-        private void take(ConsumerRecord<byte[], byte[]> record) {
+        private void add(ConsumerRecord<byte[], byte[]> record) {
             TopicPartition partition = new TopicPartition(record.topic(), record.partition());
             if (record.offset() >= ends.get(partition)) {
                 return;
@@ -161,10 +164,10 @@ public record TopicHistory(Properties client, Limits limits, int valueBytes) {
             ConsumerRecord<byte[], byte[]> older = retained.remove(id);
             if (older != null) {
                 bytes -= length(older);
-                byTime.remove(Place.of(older));
+                byTime.remove(Position.of(older));
             }
             retained.put(id, record);
-            byTime.put(Place.of(record), id);
+            byTime.put(Position.of(record), id);
             bytes += length(record);
             while (retained.size() > range.limit() || bytes > limits.answered() && retained.size() > 1) {
                 ConsumerRecord<byte[], byte[]> oldest =
@@ -174,15 +177,15 @@ public record TopicHistory(Properties client, Limits limits, int valueBytes) {
             }
         }
 
-        /** Of a deletion 0. */
+        /** The length of the value; 0 for a deletion. */
         private static int length(ConsumerRecord<byte[], byte[]> record) {
             return record.value() == null ? 0 : record.value().length;
         }
 
         private String id(ConsumerRecord<byte[], byte[]> record) {
-            String own = record.partition() + "/" + record.offset();
+            String position = record.partition() + "/" + record.offset();
             if (range.newest() == null || record.value().length > valueBytes) {
-                return own;
+                return position;
             }
             try {
                 JsonNode read = NgsiJson.read(record.value());
@@ -192,9 +195,9 @@ public record TopicHistory(Properties client, Limits limits, int valueBytes) {
                         ? "="
                                 + KafkaClients.scope(record.headers())
                                         .identity(read.path("type").asText(""), value.asText())
-                        : own;
+                        : position;
             } catch (UnreadableException e) {
-                return own;
+                return position;
             }
         }
     }

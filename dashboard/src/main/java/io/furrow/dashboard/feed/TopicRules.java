@@ -7,20 +7,22 @@ import java.util.stream.Collectors;
 import io.furrow.model.topic.Topics;
 
 /**
- * Which topics may be read and written.
+ * Decides which topics may be read and written.
  *
- * @param readable names, in which {@code *} stands for any signs
+ * @param readable names, with {@code *} as wildcard
  * @param writable likewise
  */
 public record TopicRules(List<String> readable, List<String> writable) {
     private static final Pattern LEGAL = Pattern.compile("[A-Za-z0-9._*-]{1,249}");
 
-    /** All that devices report and jobs find, and what is requested and is so; requests to the managers. Not what letters hold. */
+    /**
+     * Data and control topics are readable, except dead letters; the topics of requests to the managers are writable.
+     */
     public static final TopicRules DEFAULT = new TopicRules(
             List.of("data.*", "service.*"),
             List.of(Topics.DOMAIN_MANAGER, Topics.MISSION_MANAGER, Topics.REPLAY_MANAGER, Topics.ALARM_MANAGER));
 
-    /** @throws IllegalArgumentException for a pattern that is not a name of topics */
+    /** @throws IllegalArgumentException if a pattern cannot match a topic */
     public TopicRules {
         readable = checked(readable);
         writable = checked(writable);

@@ -1,2 +1,2 @@
-/** Topics as the dashboard reads them: one consumer per topic, the newest state, history and density. */
+/** Topics as the dashboard reads them: one consumer per topic, initial state, history and density. */
 package io.furrow.dashboard.feed;

@@ -10,7 +10,7 @@ import org.eclipse.jetty.util.Callback;
 
 import io.furrow.model.control.CommandResult;
 
-/** Why a request is refused, in the shape that the control plane's REST API uses: {@code status}, {@code error}, {@code reason}. */
+/** Rejects a request, in the format of the control plane's REST API: {@code status}, {@code error}, {@code reason}. */
 public final class Problem extends RuntimeException {
     private static final long serialVersionUID = 1L;
 
@@ -18,9 +18,9 @@ public final class Problem extends RuntimeException {
     private final String error;
 
     /**
-     * @param status of HTTP
-     * @param error a code
-     * @param reason a sentence
+     * @param status HTTP status
+     * @param error code
+     * @param reason sentence for the user
      */
     public Problem(int status, String error, String reason) {
         super(reason, null, false, false);
@@ -28,7 +28,7 @@ public final class Problem extends RuntimeException {
         this.error = error;
     }
 
-    /** A code. */
+    /** The code. */
     public String error() {
         return error;
     }
@@ -45,7 +45,7 @@ public final class Problem extends RuntimeException {
         return CommandResult.ofError(error, reason).toBytes();
     }
 
-    /** Of a request whose thread is interrupted, and stays so. */
+    /** Rejects a request whose thread was interrupted; the interrupt flag stays set. */
     public static Problem stopping() {
         Thread.currentThread().interrupt();
         return new Problem(503, "stopping", "the dashboard stops");

@@ -1,2 +1,2 @@
-/** Refusals of requests, in the form of the control plane's REST API. */
+/** Rejections of requests, in the format of the control plane's REST API. */
 package io.furrow.dashboard.http;

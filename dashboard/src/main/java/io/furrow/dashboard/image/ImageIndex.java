@@ -21,8 +21,8 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /**
- * The images that {@code data.images} names, by their SHA-256; of more than 100,000 the newest. The topic is read when the first image is
- * asked for, and followed from then on.
+ * Indexes the images that {@code data.images} names by their SHA-256; at most the newest {@value #MAX}. A thread reads
+ * the topic from the first request on.
  */
 public final class ImageIndex implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(ImageIndex.class);
@@ -44,9 +44,9 @@ public final class ImageIndex implements AutoCloseable {
     }
 
     /**
-     * Waits until the topic was read to where it ended, at most for the given time.
+     * Waits until the topic was read to its end, at most for the timeout.
      *
-     * @return empty if the topic does not name it
+     * @return empty if the topic does not name the image
      */
     Optional<ImageLocation> find(String sha256, Duration timeout) throws InterruptedException {
         if (!SHA256.matcher(sha256).matches()) {
@@ -73,7 +73,7 @@ public final class ImageIndex implements AutoCloseable {
     private void run() {
         while (!isClosed()) {
             try {
-                follow();
+                readTopic();
             } catch (WakeupException e) {
                 return; // closed
             } catch (KafkaException e) {
@@ -83,7 +83,7 @@ public final class ImageIndex implements AutoCloseable {
         }
     }
 
-    private void follow() {
+    private void readTopic() {
         try (CommittedReader<byte[]> opened = CommittedReader.openBytes(client, Topics.IMAGES)) {
             synchronized (images) {
                 if (closed) {
@@ -94,7 +94,7 @@ public final class ImageIndex implements AutoCloseable {
             while (!isClosed()) {
                 boolean exists = opened.isAssigned(Topics.IMAGES) || opened.assign(List.of(Topics.IMAGES));
                 if (exists) {
-                    opened.poll(POLL).forEach(record -> take(record.value()));
+                    opened.poll(POLL).forEach(record -> index(record.value()));
                 }
                 if (opened.isCaughtUp()) {
                     synchronized (images) {
@@ -113,8 +113,8 @@ public final class ImageIndex implements AutoCloseable {
         }
     }
 
-    /** What is no such record, or names no picture, is left out. */
-    private void take(byte[] value) {
+    /** Ignores records that are invalid or do not name an image of a supported type. */
+    private void index(byte[] value) {
         if (value == null) {
             return;
         }
@@ -124,11 +124,11 @@ public final class ImageIndex implements AutoCloseable {
             String contentType = image.path("contentType").asText();
             if (SHA256.matcher(sha256).matches()
                     && IMAGE_TYPE.matcher(contentType).matches()) {
-                ImageLocation stored =
+                ImageLocation location =
                         new ImageLocation(sha256, URI.create(image.path("url").asText()), contentType);
                 synchronized (images) {
                     images.remove(sha256);
-                    images.put(sha256, stored);
+                    images.put(sha256, location);
                     images.notifyAll();
                 }
             }

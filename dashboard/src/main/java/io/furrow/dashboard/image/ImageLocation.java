@@ -3,7 +3,7 @@ package io.furrow.dashboard.image;
 import java.net.URI;
 
 /**
- * Where an image is, as {@code data.images} says.
+ * The location of an image, as named by {@code data.images}.
  *
  * @param contentType an image type
  */

@@ -18,28 +18,28 @@ import io.furrow.dashboard.http.Problem;
 import io.furrow.model.text.Sha256;
 
 /**
- * {@code GET /api/images/<sha256>}: a stored image that {@code data.images} names. Only files below the folders that the dashboard was given
- * are read, whatever a record says, and only what has that SHA-256 is sent.
+ * {@code GET /api/images/<sha256>}: a stored image that {@code data.images} names. Reads only files below the
+ * configured folders, whatever a record says, and sends only content with that SHA-256.
  */
 public final class ImageServlet extends HttpServlet {
     private static final long serialVersionUID = 1L;
     private static final Duration TIMEOUT = Duration.ofSeconds(10);
-    private static final long LARGEST = 32L << 20;
+    private static final long MAX_BYTES = 32L << 20;
 
     private final transient UserCache users;
     private final transient ImageIndex index;
     private final transient List<Path> folders;
-    private final transient Consumer<Problem> refused;
+    private final transient Consumer<Problem> onRejection;
 
     /**
-     * @param folders of stored images; none for no images
-     * @param refused is notified of each request that is refused
+     * @param folders of stored images; empty if there are no images
+     * @param onRejection is notified of each rejected request
      */
-    public ImageServlet(UserCache users, ImageIndex index, List<Path> folders, Consumer<Problem> refused) {
+    public ImageServlet(UserCache users, ImageIndex index, List<Path> folders, Consumer<Problem> onRejection) {
         this.users = users;
         this.index = index;
         this.folders = folders;
-        this.refused = refused;
+        this.onRejection = onRejection;
     }
 
     @Override
@@ -61,7 +61,7 @@ public final class ImageServlet extends HttpServlet {
             response.setHeader("Content-Disposition", "inline");
             response.getOutputStream().write(bytes);
         } catch (Problem problem) {
-            refused.accept(problem);
+            onRejection.accept(problem);
             response.setHeader("Cache-Control", "no-store");
             problem.answer(response);
         }
@@ -80,11 +80,11 @@ public final class ImageServlet extends HttpServlet {
 
     private byte[] read(ImageLocation image) throws IOException {
         Path file = locate(image.location());
-        if (Files.size(file) > LARGEST) {
+        if (Files.size(file) > MAX_BYTES) {
             throw new Problem(
                     413,
                     "image-too-large",
-                    "the image has %d bytes; up to %d are served".formatted(Files.size(file), LARGEST));
+                    "the image has %d bytes; up to %d are served".formatted(Files.size(file), MAX_BYTES));
         }
         byte[] bytes = Files.readAllBytes(file);
         if (!Sha256.hex(bytes).equals(image.sha256())) {
@@ -93,7 +93,7 @@ public final class ImageServlet extends HttpServlet {
         return bytes;
     }
 
-    /** @throws Problem where it is not a file below one of the folders */
+    /** @throws Problem unless the location is a file below one of the folders */
     private Path locate(URI location) throws IOException {
         if (!"file".equals(location.getScheme())) {
             throw new Problem(
@@ -109,7 +109,7 @@ public final class ImageServlet extends HttpServlet {
                     return file.toRealPath();
                 }
             }
-        } catch (IllegalArgumentException e) { // InvalidPathException among them
+        } catch (IllegalArgumentException e) { // includes InvalidPathException
             throw new Problem(404, "unknown-image", "the place of the image is not a path: " + e.getMessage());
         }
         throw new Problem(

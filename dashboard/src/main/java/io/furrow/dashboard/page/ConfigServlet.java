@@ -9,7 +9,7 @@ import jakarta.servlet.http.HttpServletResponse;
 
 import io.furrow.model.ngsi.NgsiJson;
 
-/** {@code GET /config.json}: what the page is notified of this server. */
+/** {@code GET /config.json}: settings of this server for the page. */
 public final class ConfigServlet extends HttpServlet {
     private static final long serialVersionUID = 1L;
 

@@ -20,19 +20,22 @@ import org.eclipse.jetty.util.URIUtil;
 import org.eclipse.jetty.util.resource.Resource;
 import org.eclipse.jetty.util.resource.ResourceFactory;
 
-/** Serves the page at {@code /}, and each library at {@code /lib/<name>/} out of its WebJar. */
+/** Serves the page at {@code /}, and each library at {@code /lib/<name>/} from its WebJar. */
 public final class PageFiles {
-    /** Flink's web UI has a folder of this name too, and on the class path of a suite: it is reported by {@code app.js}. */
+    /**
+     * Flink's web UI also has a folder with this name on the class path of a suite; {@code app.js} identifies the right
+     * one.
+     */
     private static final String WEB = "web/";
-    /** Libraries, and of each a file that it is made for. */
-    private static final Map<String, String> DISTRIBUTED = Map.of("ol", "ol.js", "uplot", "uPlot.esm.js");
-    /** A file may be kept, but asked for whether it is still so: it has an ETag. */
-    private static final String ASK_FIRST = "no-cache";
+    /** Libraries, and for each a file in its folder {@code dist}. */
+    private static final Map<String, String> LIBRARIES = Map.of("ol", "ol.js", "uplot", "uPlot.esm.js");
+    /** Browsers may cache a file, but must revalidate it by its ETag. */
+    private static final String REVALIDATE = "no-cache";
 
     private PageFiles() {}
 
     /**
-     * @param folder with the files of the page, for those who work on them; null for those of this build
+     * @param folder with the files of the page, for development; null for those of this build
      * @throws IOException if the folder has no page
      */
     public static Handler handler(Path folder) throws IOException {
@@ -42,7 +45,7 @@ public final class PageFiles {
                             .formatted(folder));
         }
         ContextHandlerCollection contexts = new ContextHandlerCollection();
-        for (String library : DISTRIBUTED.keySet()) {
+        for (String library : LIBRARIES.keySet()) {
             contexts.addHandler(context("/lib/" + library, library(contexts, library)));
         }
         ResourceFactory resources = ResourceFactory.of(contexts);
@@ -57,18 +60,18 @@ public final class PageFiles {
         ResourceFactory resources = ResourceFactory.of(owner);
         String root = "META-INF/resources/webjars/%s/%s/".formatted(name, version(name));
         return ResourceFactory.combine(
-                classPath(resources, root + "dist/", DISTRIBUTED.get(name)),
-                classPath(resources, root, "package.json"));
+                classPath(resources, root + "dist/", LIBRARIES.get(name)), classPath(resources, root, "package.json"));
     }
 
-    /** By a file in it, since a jar need not have entries for its folders. */
+    /** Finds a folder by a file in it, since a jar need not have entries for folders. */
     private static Resource classPath(ResourceFactory resources, String folder, String file) {
         URL found = PageFiles.class.getClassLoader().getResource(folder + file);
         if (found == null) {
             throw new IllegalStateException(
                     folder + file + " is not on the class path: the dashboard was not built as a whole");
         }
-        // Of a jar, jar:file:/ for Jetty's jar:file:///: taken for an alias, whose folder would have no welcome file.
+        // The class loader returns jar:file:/, Jetty expects jar:file:///: without correction it treats the folder as
+        // an alias, without a welcome file.
         return resources.newResource(URIUtil.correctURI(
                 URI.create(found.toString().substring(0, found.toString().length() - file.length()))));
     }
@@ -93,7 +96,7 @@ public final class PageFiles {
         files.setDirAllowed(false);
         files.setEtags(true);
         files.setWelcomeFiles("index.html");
-        files.setCacheControl(ASK_FIRST);
+        files.setCacheControl(REVALIDATE);
         files.setPrecompressedFormats(new CompressedContentFormat[0]);
         ContextHandler context = new ContextHandler(files, path);
         context.setAllowNullPathInContext(true);

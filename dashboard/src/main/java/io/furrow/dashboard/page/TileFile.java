@@ -25,11 +25,11 @@ import io.furrow.dashboard.http.Problem;
 import io.furrow.model.file.FileProblem;
 
 /**
- * One file of map tiles in PMTiles, version 3, at {@value #PATH}: the page reads it in parts, with requests of ranges. The format:
- * <a href="https://github.com/protomaps/PMTiles/blob/main/spec/v3/spec.md">PMTiles specification</a>.
+ * Serves a file of map tiles in PMTiles, version 3, at {@value #PATH}: the page reads parts of it with range requests.
+ * Format: <a href="https://github.com/protomaps/PMTiles/blob/main/spec/v3/spec.md">PMTiles specification</a>.
  */
 public final class TileFile {
-    /** Where it is served. */
+    /** The path of the file. */
     public static final String PATH = "/tiles/base.pmtiles";
 
     private static final String TYPE = "application/vnd.pmtiles";
@@ -42,7 +42,7 @@ public final class TileFile {
     private static final int TYPE_AT = 99;
     private static final int NONE = 1;
     private static final int GZIP = 2;
-    /** Vector tiles, and the pictures: PNG, JPEG, WebP and AVIF. */
+    /** Vector tiles; the types above up to AVIF are images: PNG, JPEG, WebP and AVIF. */
     private static final int VECTOR = 1;
 
     private static final int AVIF = 5;
@@ -52,16 +52,16 @@ public final class TileFile {
     /**
      * Serves the file.
      *
-     * @throws IOException if it is none that the page can draw; the message says why
+     * @throws IOException if the page cannot draw the file; the message says why
      */
     public static Handler handler(Path file) throws IOException {
         check(file);
         ContextHandler context = new ContextHandler(PATH);
         context.setAllowNullPathInContext(true);
-        ResourceHandler served = new Served(ResourceFactory.of(context).newResource(file.toAbsolutePath()));
-        served.setEtags(true);
-        served.setCacheControl("no-cache");
-        context.setHandler(served);
+        ResourceHandler handler = new SingleFile(ResourceFactory.of(context).newResource(file.toAbsolutePath()));
+        handler.setEtags(true);
+        handler.setCacheControl("no-cache");
+        context.setHandler(handler);
         return context;
     }
 
@@ -98,11 +98,11 @@ public final class TileFile {
         return compression == NONE || compression == GZIP;
     }
 
-    /** The one file, whatever is asked for below its path: nothing. */
-    private static final class Served extends ResourceHandler {
+    /** Serves the file alone; paths below it do not exist. */
+    private static final class SingleFile extends ResourceHandler {
         private final Resource file;
 
-        Served(Resource file) {
+        SingleFile(Resource file) {
             this.file = file;
         }
 

@@ -1,2 +1,2 @@
-/** The files of the page and of the libraries that it uses. */
+/** Files of the page and of its libraries. */
 package io.furrow.dashboard.page;

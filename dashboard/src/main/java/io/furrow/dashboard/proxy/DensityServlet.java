@@ -17,7 +17,7 @@ import io.furrow.dashboard.http.Problem;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
-/** {@code GET /api/density/<topic>?from&to&width}: how many records a topic has, bucket by bucket, epoch ms. */
+/** {@code GET /api/density/<topic>?from&to&width}: the number of records of a topic per bucket; times in epoch ms. */
 public final class DensityServlet extends UserServlet {
     private static final long serialVersionUID = 1L;
     private static final long DAY = 86_400_000;
@@ -26,7 +26,7 @@ public final class DensityServlet extends UserServlet {
     private final transient TopicDensity density;
 
     public DensityServlet(TopicStreams streams, Admin admin) {
-        super(streams.users(), streams.counters()::refused);
+        super(streams.users(), streams.counters()::rejected);
         this.streams = streams;
         this.density = new TopicDensity(admin);
     }

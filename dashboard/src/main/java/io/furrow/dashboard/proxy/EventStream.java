@@ -15,7 +15,7 @@ import io.furrow.dashboard.auth.Credentials;
 import io.furrow.dashboard.feed.FeedRecord;
 import io.furrow.dashboard.feed.StreamCounters.Closing;
 
-/** Server-sent events of a topic; writes when the connection takes more, and never waits for it. */
+/** Sends a topic as server-sent events. Writes only when the connection is ready, and never blocks. */
 final class EventStream implements OpenStream, WriteListener, AsyncListener {
     private static final Logger LOG = LoggerFactory.getLogger(EventStream.class);
 
@@ -26,8 +26,8 @@ final class EventStream implements OpenStream, WriteListener, AsyncListener {
     private final SendQueue queue;
     private final ServletOutputStream out;
     private final long openedAt = System.nanoTime();
-    private boolean greeted;
-    private boolean pinged;
+    private boolean opened;
+    private boolean pingDue;
     private boolean closed;
 
     EventStream(TopicStreams streams, String topic, Credentials credentials, AsyncContext context, SendQueue queue)
@@ -61,7 +61,7 @@ final class EventStream implements OpenStream, WriteListener, AsyncListener {
     @Override
     public void ping() {
         synchronized (this) {
-            pinged = true;
+            pingDue = true;
         }
         onWritePossible();
     }
@@ -79,16 +79,16 @@ final class EventStream implements OpenStream, WriteListener, AsyncListener {
     @Override
     public synchronized void onWritePossible() {
         try {
-            if (!greeted && !closed && out.isReady()) {
-                greeted = true;
+            if (!opened && !closed && out.isReady()) {
+                opened = true;
                 out.print(": " + topic + "\n\n");
                 if (out.isReady()) {
                     out.flush();
                 }
             }
-            boolean wrote = comment();
+            boolean wrote = writePing();
             while (!closed && out.isReady()) {
-                String frame = queue.take();
+                String frame = queue.poll();
                 if (frame == null) {
                     if (wrote) {
                         out.flush();
@@ -103,12 +103,12 @@ final class EventStream implements OpenStream, WriteListener, AsyncListener {
         }
     }
 
-    /** One that clients skip. @return whether it is to be flushed */
-    private boolean comment() throws IOException {
-        if (!pinged || closed || !out.isReady()) {
+    /** Writes a comment, which clients skip, if a ping is due. @return whether it must be flushed */
+    private boolean writePing() throws IOException {
+        if (!pingDue || closed || !out.isReady()) {
             return false;
         }
-        pinged = false;
+        pingDue = false;
         out.print(":\n\n");
         return true;
     }
@@ -164,6 +164,6 @@ final class EventStream implements OpenStream, WriteListener, AsyncListener {
 
     @Override
     public void onStartAsync(AsyncEvent event) {
-        // of no interest
+        // nothing to do
     }
 }

@@ -20,21 +20,24 @@ import io.furrow.dashboard.feed.TopicHistory;
 import io.furrow.dashboard.http.Problem;
 import io.furrow.model.text.FailureText;
 
-/** {@code GET /api/history/<topic>}: what a topic holds of a stretch of time. At most {@value #AT_ONCE} are read at once. */
+/**
+ * {@code GET /api/history/<topic>}: the records of a topic in a period. At most {@value #MAX_CONCURRENT} requests run
+ * at once.
+ */
 public final class HistoryServlet extends UserServlet {
     private static final long serialVersionUID = 1L;
     private static final Logger LOG = LoggerFactory.getLogger(HistoryServlet.class);
-    private static final int AT_ONCE = 4;
+    private static final int MAX_CONCURRENT = 4;
     private static final int WAIT_SECONDS = 5;
-    private static final int RECORDS = 5_000;
+    private static final int MAX_RECORDS = 5_000;
     private static final Pattern NAME = Pattern.compile("[A-Za-z0-9_]{1,64}");
 
     private final transient TopicStreams streams;
     private final transient TopicHistory history;
-    private final transient Semaphore free = new Semaphore(AT_ONCE);
+    private final transient Semaphore free = new Semaphore(MAX_CONCURRENT);
 
     public HistoryServlet(TopicStreams streams, Properties client) {
-        super(streams.users(), streams.counters()::refused);
+        super(streams.users(), streams.counters()::rejected);
         this.streams = streams;
         this.history = new TopicHistory(
                 client, TopicHistory.Limits.DEFAULT, streams.limits().valueBytes());
@@ -46,7 +49,7 @@ public final class HistoryServlet extends UserServlet {
         long now = System.currentTimeMillis();
         long from = StreamRequest.number(request, "from", 0, Long.MAX_VALUE / 2, null);
         long to = StreamRequest.number(request, "to", from, Long.MAX_VALUE / 2, Math.max(from, now + 1));
-        int limit = (int) StreamRequest.number(request, "limit", 1, RECORDS, (long) RECORDS);
+        int limit = (int) StreamRequest.number(request, "limit", 1, MAX_RECORDS, (long) MAX_RECORDS);
         TopicHistory.Range range = new TopicHistory.Range(topic, from, to, newest(request), limit);
         streams.feeds().check(topic);
         write(read(range), response);
@@ -56,7 +59,9 @@ public final class HistoryServlet extends UserServlet {
         try {
             if (!free.tryAcquire(WAIT_SECONDS, TimeUnit.SECONDS)) {
                 throw new Problem(
-                        503, "overloaded", "%d histories are being read; ask again in a moment".formatted(AT_ONCE));
+                        503,
+                        "overloaded",
+                        "%d histories are being read; ask again in a moment".formatted(MAX_CONCURRENT));
             }
         } catch (InterruptedException e) {
             throw Problem.stopping();
@@ -81,21 +86,21 @@ public final class HistoryServlet extends UserServlet {
         response.setHeader("Cache-Control", "no-store");
         try (Writer out = response.getWriter()) {
             out.write("{\"since\":" + answer.since() + ",\"records\":[");
-            String between = "";
+            String separator = "";
             for (FeedRecord record : answer.records()) {
-                out.write(between);
+                out.write(separator);
                 out.write(record.envelope());
-                between = ",";
+                separator = ",";
             }
             out.write("]}");
         }
     }
 
     private static String newest(HttpServletRequest request) {
-        String given = request.getParameter("newest");
-        if (given != null && !NAME.matcher(given).matches()) {
+        String name = request.getParameter("newest");
+        if (name != null && !NAME.matcher(name).matches()) {
             throw new Problem(400, "wrong-parameter", "'newest' must be the name of an attribute");
         }
-        return given;
+        return name;
     }
 }

@@ -4,19 +4,19 @@ import io.furrow.dashboard.auth.Credentials;
 import io.furrow.dashboard.auth.User;
 import io.furrow.dashboard.feed.TopicFeed;
 
-/** A stream of a client, looked after while it is open. */
+/** An open stream of a client. */
 interface OpenStream extends TopicFeed.Stream {
     Credentials credentials();
 
     /** {@link System#nanoTime} when it was opened. */
     long openedAt();
 
-    /** Sends something, so that a client that is gone shows, and nothing on the way takes the connection for idle. */
+    /** Sends a ping, so that a disconnected client is detected, and no intermediary closes the connection as idle. */
     void ping();
 
-    /** Who the user is now, and in which role. */
+    /** Updates the user and role. */
     default void refresh(User user) {}
 
-    /** The user may not have it any more. */
+    /** Closes the stream because the user lost the permission. */
     void revoke(String reason);
 }

@@ -14,8 +14,8 @@ import io.furrow.dashboard.feed.StreamCounters.Count;
 import io.furrow.dashboard.feed.StreamLimits;
 
 /**
- * What waits to be sent on one stream, within bounds. What is offered before the known state is there waits behind it. Frames are
- * taken one after the other, by whoever sends them.
+ * Queues the records that wait to be sent on one stream, within bounds. Records that arrive before the initial state
+ * wait behind it.
  */
 final class SendQueue {
     private static final int FRAME_CHARS = 256 * 1024;
@@ -26,7 +26,7 @@ final class SendQueue {
     private final Queue<FeedRecord> initial = new ArrayDeque<>();
     private final Queue<FeedRecord> all = new ArrayDeque<>();
     private final Map<String, FeedRecord> latest = new LinkedHashMap<>();
-    private final Queue<String> notes = new ArrayDeque<>();
+    private final Queue<String> controlFrames = new ArrayDeque<>();
     private long bytes;
     private long merged;
     private boolean priming;
@@ -39,18 +39,18 @@ final class SendQueue {
         this.priming = request.prime();
     }
 
-    /** @return false if more wait than may: the stream is to be closed */
+    /** @return false if the queue is full: the stream must be closed */
     synchronized boolean offer(FeedRecord record) {
         if (request.mode() == StreamRequest.Mode.ALL) {
             all.add(record);
         } else {
             String key = record.key();
-            // what comes after a deletion stays behind it
-            FeedRecord before = latest.containsKey(record.ofAllTypes()) ? latest.remove(key) : null;
+            // the record must stay behind a deletion that precedes it
+            FeedRecord older = latest.containsKey(record.keyWithoutType()) ? latest.remove(key) : null;
             FeedRecord replaced = latest.put(key, record);
-            before = before == null ? replaced : before;
-            if (before != null) {
-                bytes -= before.bytes();
+            older = older == null ? replaced : older;
+            if (older != null) {
+                bytes -= older.bytes();
                 merged++;
                 counters.add(Count.RECORDS_MERGED, 1);
             }
@@ -60,27 +60,27 @@ final class SendQueue {
         return !overflown;
     }
 
-    /** What was known before. */
+    /** Adds the initial state. */
     synchronized void prime(List<FeedRecord> records) {
         initial.addAll(records);
         if (request.format() == StreamRequest.Format.RECORD) {
-            // sent behind them, as the known records leave one frame after the other
-            notes.add("{\"primed\":true}");
+            // sent after the initial state, whose frames are polled first
+            controlFrames.add("{\"primed\":true}");
         }
         priming = false;
     }
 
-    /** A frame of its own, of few signs. */
-    synchronized void note(String frame) {
-        notes.add(frame);
+    /** Adds a short frame without records. */
+    synchronized void addControlFrame(String frame) {
+        controlFrames.add(frame);
     }
 
-    /** The next frame; null if nothing waits. */
-    synchronized String take() {
+    /** The next frame; null if none waits. */
+    synchronized String poll() {
         if (!initial.isEmpty()) {
             return frame(initial.iterator(), false);
-        } else if (!notes.isEmpty()) {
-            return notes.remove();
+        } else if (!controlFrames.isEmpty()) {
+            return controlFrames.remove();
         } else if (priming || all.isEmpty() && latest.isEmpty()) {
             return null;
         }
@@ -90,12 +90,12 @@ final class SendQueue {
     private String frame(Iterator<FeedRecord> waiting, boolean counted) {
         if (request.format() == StreamRequest.Format.VALUE) {
             counters.add(Count.RECORDS_SENT, 1);
-            return taken(waiting, counted).text();
+            return remove(waiting, counted).text();
         }
         List<String> records = new ArrayList<>();
         int chars = 0;
         while (waiting.hasNext() && chars < FRAME_CHARS) {
-            String record = taken(waiting, counted).envelope();
+            String record = remove(waiting, counted).envelope();
             records.add(record);
             chars += record.length();
         }
@@ -105,7 +105,7 @@ final class SendQueue {
         return "{\"records\":[" + String.join(",", records) + tail;
     }
 
-    private FeedRecord taken(Iterator<FeedRecord> waiting, boolean counted) {
+    private FeedRecord remove(Iterator<FeedRecord> waiting, boolean counted) {
         FeedRecord record = waiting.next();
         waiting.remove();
         bytes -= counted ? record.bytes() : 0;

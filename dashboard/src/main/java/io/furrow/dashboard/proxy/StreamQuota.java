@@ -6,7 +6,7 @@ import java.util.Map;
 import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.dashboard.http.Problem;
 
-/** How many streams are open, of all clients and of each. */
+/** Limits the open streams of all clients and of each client. */
 final class StreamQuota {
     private final StreamLimits limits;
     private final Map<String, Integer> ofClients = new HashMap<>();
@@ -16,8 +16,8 @@ final class StreamQuota {
         this.limits = limits;
     }
 
-    /** @throws Problem 429 or 503 where there are too many */
-    synchronized void take(String client) {
+    /** @throws Problem 429 or 503 if there are too many */
+    synchronized void acquire(String client) {
         int own = ofClients.getOrDefault(client, 0);
         if (own >= limits.streamsOfClient()) {
             throw new Problem(429, "too-many-streams", "this client has %d streams open; close one".formatted(own));
@@ -28,12 +28,12 @@ final class StreamQuota {
         all++;
     }
 
-    synchronized void give(String client) {
+    synchronized void release(String client) {
         ofClients.computeIfPresent(client, (name, count) -> count == 1 ? null : count - 1);
         all--;
     }
 
-    synchronized int taken() {
+    synchronized int open() {
         return all;
     }
 }

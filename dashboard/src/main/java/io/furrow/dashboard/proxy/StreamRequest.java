@@ -9,59 +9,64 @@ import io.furrow.dashboard.feed.TopicRules;
 import io.furrow.dashboard.http.Problem;
 
 /**
- * What a client wants of a topic.
+ * A client's request for a stream.
  *
- * @param mode what becomes of records that wait
- * @param prime whether the known state comes first
+ * @param mode which records are sent to a slow client
+ * @param prime whether the initial state is sent first
  * @param format of text frames
  */
 record StreamRequest(String topic, Mode mode, boolean prime, Format format) {
     private static final Pattern TOPIC = Pattern.compile("[A-Za-z0-9._-]{1,249}");
 
     enum Mode {
-        /** Every record; a stream that is too slow for that is closed. */
+        /** Every record is sent; a stream that is too slow is closed. */
         ALL,
-        /** The newest of each key takes the place of older ones that still wait. */
+        /** A newer record replaces a waiting one with the same key. */
         LATEST
     }
 
     enum Format {
         /** A frame is the value of a record. */
         VALUE,
-        /** A frame holds records with all that belongs to them. */
+        /** A frame holds records with key, time and headers. */
         RECORD
     }
 
-    /** @throws Problem 400 for a parameter that is none, 403 for a topic that may not be read */
-    static StreamRequest read(HttpServletRequest request, TopicRules rules, Format otherwise) {
+    /** @throws Problem 400 for an invalid parameter, 403 for a topic that may not be read */
+    static StreamRequest read(HttpServletRequest request, TopicRules rules, Format defaultValue) {
         String topic = topic(request, rules);
         return new StreamRequest(
-                topic, choice(request, "mode", Mode.ALL), flag(request, "prime"), choice(request, "format", otherwise));
+                topic,
+                choice(request, "mode", Mode.ALL),
+                flag(request, "prime"),
+                choice(request, "format", defaultValue));
     }
 
     /**
-     * A parameter in its range.
+     * A numeric parameter.
      *
-     * @param otherwise null if it must be said
+     * @param defaultValue null if the parameter is required
      */
-    static long number(HttpServletRequest request, String name, long minimum, long maximum, Long otherwise) {
-        String given = request.getParameter(name);
-        if (given == null && otherwise != null) {
-            return otherwise;
+    static long number(HttpServletRequest request, String name, long minimum, long maximum, Long defaultValue) {
+        String value = request.getParameter(name);
+        if (value == null && defaultValue != null) {
+            return defaultValue;
         }
         try {
-            long number = Long.parseLong(given);
+            long number = Long.parseLong(value);
             if (number >= minimum && number <= maximum) {
                 return number;
             }
         } catch (NumberFormatException e) {
-            // as of a number that is too large
+            // rejected like a number out of range
         }
         throw new Problem(
                 400, "wrong-parameter", "'%s' must be a whole number from %d to %d".formatted(name, minimum, maximum));
     }
 
-    /** The topic that the path ends with. @throws Problem 400 for a name that is none, 403 for a topic that may not be read */
+    /**
+     * The topic at the end of the path. @throws Problem 400 for an invalid name, 403 for a topic that may not be read
+     */
     static String topic(HttpServletRequest request, TopicRules rules) {
         String path = request.getPathInfo();
         String topic = path == null ? "" : path.substring(1);
@@ -77,13 +82,13 @@ record StreamRequest(String topic, Mode mode, boolean prime, Format format) {
         return topic;
     }
 
-    private static <E extends Enum<E>> E choice(HttpServletRequest request, String name, E otherwise) {
-        String given = request.getParameter(name);
-        if (given == null) {
-            return otherwise;
+    private static <E extends Enum<E>> E choice(HttpServletRequest request, String name, E defaultValue) {
+        String value = request.getParameter(name);
+        if (value == null) {
+            return defaultValue;
         }
-        for (E each : otherwise.getDeclaringClass().getEnumConstants()) {
-            if (each.name().toLowerCase(Locale.ROOT).equals(given)) {
+        for (E each : defaultValue.getDeclaringClass().getEnumConstants()) {
+            if (each.name().toLowerCase(Locale.ROOT).equals(value)) {
                 return each;
             }
         }
@@ -95,7 +100,7 @@ record StreamRequest(String topic, Mode mode, boolean prime, Format format) {
                                 name,
                                 String.join(
                                         ", ",
-                                        java.util.stream.Stream.of(otherwise
+                                        java.util.stream.Stream.of(defaultValue
                                                         .getDeclaringClass()
                                                         .getEnumConstants())
                                                 .map(each -> each.name().toLowerCase(Locale.ROOT))
@@ -103,10 +108,10 @@ record StreamRequest(String topic, Mode mode, boolean prime, Format format) {
     }
 
     private static boolean flag(HttpServletRequest request, String name) {
-        String given = request.getParameter(name);
-        if (given == null || given.equals("false")) {
+        String value = request.getParameter(name);
+        if (value == null || value.equals("false")) {
             return false;
-        } else if (given.equals("true")) {
+        } else if (value.equals("true")) {
             return true;
         }
         throw new Problem(400, "wrong-parameter", "'" + name + "' must be true or false");

@@ -12,19 +12,20 @@ import io.furrow.dashboard.auth.User;
 import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.dashboard.http.Problem;
 
-/** Permissions to open one socket, each used once: a browser cannot send a token with a socket, and a path shows in logs. */
+/**
+ * Issues tickets, each of which opens one socket once: a browser cannot send a token with a socket, and a path appears
+ * in logs.
+ */
 final class Tickets {
     private static final int BYTES = 24;
 
     private final SecureRandom random = new SecureRandom();
-    private final Map<String, Ticket> open = new LinkedHashMap<>();
+    private final Map<String, Ticket> unused = new LinkedHashMap<>();
     private final Map<String, Integer> ofClients = new LinkedHashMap<>();
     private final StreamLimits limits;
     private final LongSupplier nanos;
 
-    /**
-     * @param credentials of the user, to ask again whether they are still good
-     */
+    /** @param credentials of the user, to check them again while the socket is unused */
     record Ticket(StreamRequest request, User user, Credentials credentials, long issued) {
         String client() {
             return credentials.client();
@@ -36,7 +37,7 @@ final class Tickets {
         this.nanos = nanos;
     }
 
-    /** @throws Problem 429 for a client that has too many unused */
+    /** @throws Problem 429 if the client has too many unused tickets */
     synchronized String issue(StreamRequest request, User user, Credentials credentials) {
         expire();
         String client = credentials.client();
@@ -50,40 +51,40 @@ final class Tickets {
         byte[] bytes = new byte[BYTES];
         random.nextBytes(bytes);
         String id = Base64.getUrlEncoder().withoutPadding().encodeToString(bytes);
-        open.put(id, new Ticket(request, user, credentials, nanos.getAsLong()));
+        unused.put(id, new Ticket(request, user, credentials, nanos.getAsLong()));
         ofClients.merge(client, 1, Integer::sum);
         return id;
     }
 
-    /** Empty for one that is unknown, used or too old. */
+    /** Empty for a ticket that is unknown, used or expired. */
     synchronized Optional<Ticket> use(String id) {
         expire();
-        Ticket ticket = open.remove(id);
+        Ticket ticket = unused.remove(id);
         if (ticket != null) {
-            less(ticket.client());
+            decrement(ticket.client());
         }
         return Optional.ofNullable(ticket);
     }
 
-    /** How many are not used yet. */
+    /** The number of unused tickets. */
     synchronized int unused() {
         expire();
-        return open.size();
+        return unused.size();
     }
 
-    /** The oldest come first. */
+    /** Removes expired tickets. */
     private void expire() {
         long now = nanos.getAsLong();
-        open.values().removeIf(ticket -> {
-            boolean old = now - ticket.issued() > limits.ticketLife().toNanos();
-            if (old) {
-                less(ticket.client());
+        unused.values().removeIf(ticket -> {
+            boolean expired = now - ticket.issued() > limits.ticketLife().toNanos();
+            if (expired) {
+                decrement(ticket.client());
             }
-            return old;
+            return expired;
         });
     }
 
-    private void less(String client) {
+    private void decrement(String client) {
         ofClients.computeIfPresent(client, (name, count) -> count == 1 ? null : count - 1);
     }
 }

@@ -18,9 +18,9 @@ import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.dashboard.http.Problem;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** One socket: the records of its topic go out, what comes in is written to it. */
+/** One WebSocket: sends the records of its topic, and writes incoming messages to it. */
 public final class TopicSocket implements Session.Listener.AutoDemanding, OpenStream {
-    /** Codes of RFC 6455 and its registry. */
+    /** Close codes of RFC 6455 and its registry. */
     static final int POLICY = 1008;
 
     static final int TRY_AGAIN_LATER = 1013;
@@ -29,8 +29,8 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
     private static final Logger LOG = LoggerFactory.getLogger(TopicSocket.class);
     private static final long SECOND_NANOS = TimeUnit.SECONDS.toNanos(1);
     private static final int MAX_REASON_LENGTH = 120;
-    /** After which a connection that never became a socket is given up. */
-    private static final long OPENED_WITHIN_NANOS = TimeUnit.SECONDS.toNanos(5);
+    /** Time after which a connection that did not become a socket is closed. */
+    private static final long OPEN_TIMEOUT_NANOS = TimeUnit.SECONDS.toNanos(5);
 
     private final TopicStreams streams;
     private final Tickets.Ticket ticket;
@@ -38,13 +38,16 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
     private final SendQueue queue;
     private final long openedAt = System.nanoTime();
     private volatile User user;
-    /** Completes when the stream has begun and the messages before are written: whoever writes at once sees what becomes of it. */
+    /**
+     * Completes when the stream has begun and earlier messages were written, so that a client that writes at once also
+     * receives the effects.
+     */
     private CompletableFuture<Void> written = new CompletableFuture<>();
 
     private Session session;
     private boolean sending;
     private boolean closed;
-    private long second;
+    private long secondStart;
     private int messages;
 
     TopicSocket(TopicStreams streams, Tickets.Ticket ticket, StreamLimits limits) {
@@ -84,8 +87,8 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
             opened.disconnect();
             return;
         }
-        CompletableFuture<Void> first = written;
-        streams.begin(ticket.request(), this, queue).thenAccept(first::complete);
+        CompletableFuture<Void> begun = written;
+        streams.begin(ticket.request(), this, queue).thenAccept(begun::complete);
     }
 
     @Override
@@ -99,7 +102,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
         }
     }
 
-    /** Sends the next frame unless one is under way; its callback sends the one after it. */
+    /** Sends the next frame unless one is being sent; the callback sends the following one. */
     @Override
     public void flush() {
         Session to;
@@ -108,14 +111,14 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
             if (closed || sending || session == null) {
                 return;
             }
-            frame = queue.take();
+            frame = queue.poll();
             if (frame == null) {
                 return;
             }
             sending = true;
             to = session;
         }
-        to.sendText(frame, Callback.from(this::sent, this::broken));
+        to.sendText(frame, Callback.from(this::sent, this::failed));
     }
 
     private void sent() {
@@ -125,7 +128,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
         flush();
     }
 
-    private void broken(Throwable failure) {
+    private void failed(Throwable failure) {
         LOG.debug("a socket of {} is gone", ticket.request().topic(), failure);
         closed(Closing.CLIENT);
     }
@@ -140,7 +143,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
         end(TRY_AGAIN_LATER, reason, Closing.TOPIC);
     }
 
-    /** A client that does not read does not see this; its connection is cut some seconds later. */
+    /** A client that does not read does not receive the close frame; it is disconnected some seconds later. */
     void end(int code, String reason, Closing why) {
         Session to;
         synchronized (this) {
@@ -149,19 +152,19 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
         closed(why);
         if (to != null && to.isOpen()) {
             to.close(code, reason.substring(0, Math.min(reason.length(), MAX_REASON_LENGTH)), Callback.NOOP);
-            streams.later(to::disconnect);
+            streams.disconnectLater(to::disconnect);
         }
     }
 
     @Override
     public void ping() {
         Session to;
-        boolean never;
+        boolean neverOpened;
         synchronized (this) {
             to = closed ? null : session;
-            never = session == null && System.nanoTime() - openedAt > OPENED_WITHIN_NANOS;
+            neverOpened = session == null && System.nanoTime() - openedAt > OPEN_TIMEOUT_NANOS;
         }
-        if (never) { // the handshake failed after its ticket was taken, which nothing else reports
+        if (neverOpened) { // the handshake failed after the ticket was used, which Jetty does not report
             closed(Closing.CLIENT);
         }
         if (to != null) {
@@ -174,10 +177,10 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
         try {
             count();
         } catch (Problem problem) {
-            refuse(problem);
+            reject(problem);
             return;
         }
-        written = written.handle((before, failure) -> {
+        written = written.handle((done, failure) -> {
             write(message);
             return null;
         });
@@ -187,7 +190,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
         try {
             streams.writer().write(ticket.request().topic(), user, message).whenComplete((at, failure) -> {
                 if (failure instanceof Problem problem) {
-                    refuse(problem);
+                    reject(problem);
                     return;
                 }
                 streams.counters().add(Count.MESSAGES_WRITTEN, 1);
@@ -201,19 +204,19 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
                 }
             });
         } catch (Problem problem) {
-            refuse(problem);
+            reject(problem);
         }
     }
 
-    private void refuse(Problem problem) {
-        streams.counters().refused(problem);
+    private void reject(Problem problem) {
+        streams.counters().rejected(problem);
         send(problem.json());
     }
 
     private synchronized void count() {
         long now = System.nanoTime();
-        if (now - second > SECOND_NANOS) {
-            second = now;
+        if (now - secondStart > SECOND_NANOS) {
+            secondStart = now;
             messages = 0;
         }
         if (++messages > limits.messagesPerSecond()) {
@@ -226,7 +229,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
     }
 
     private void send(byte[] json) {
-        queue.note(new String(json, java.nio.charset.StandardCharsets.UTF_8));
+        queue.addControlFrame(new String(json, java.nio.charset.StandardCharsets.UTF_8));
         flush();
     }
 

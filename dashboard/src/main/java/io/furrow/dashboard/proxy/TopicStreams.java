@@ -28,16 +28,19 @@ import io.furrow.dashboard.http.Problem;
 import io.furrow.kafka.DaemonThreads;
 import io.furrow.model.text.FailureText;
 
-/** All streams of a server, over sockets and as events: begins and ends them, and looks after them meanwhile. */
+/** Manages all streams, over sockets and as events: begins and ends them, pings them, and checks their users. */
 public final class TopicStreams implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(TopicStreams.class);
     private static final long PING_SECONDS = 15;
     private static final long USER_SECONDS = 30;
-    private static final long CUT_SECONDS = 3;
-    /** A proxy that signs users in is asked again then: nobody says when somebody was signed out there. */
-    private static final Duration MAX_BY_PROXY = Duration.ofHours(1);
+    private static final long DISCONNECT_SECONDS = 3;
+    /**
+     * Age at which streams of proxy users are closed, so that they sign in again: the proxy does not report that a user
+     * signed out.
+     */
+    private static final Duration MAX_AGE_BEHIND_PROXY = Duration.ofHours(1);
 
-    private static final int BEGINNERS = 4;
+    private static final int START_THREADS = 4;
     private static final String STOPS = "the dashboard stops";
     private static final int UNAUTHORIZED = 401;
 
@@ -51,13 +54,13 @@ public final class TopicStreams implements AutoCloseable {
     private final StreamLimits limits;
     private final Set<OpenStream> streams = ConcurrentHashMap.newKeySet();
     private final StreamCounters counters = new StreamCounters();
-    /** Of two threads: one may wait for the control plane while the other pings. */
-    private final ScheduledExecutorService clock =
+    /** Has two threads, so that pings continue while one waits for the control plane. */
+    private final ScheduledExecutorService scheduler =
             Executors.newScheduledThreadPool(2, DaemonThreads.named("streams-clock"));
 
-    private final ExecutorService beginners =
-            Executors.newFixedThreadPool(BEGINNERS, DaemonThreads.named("streams-begin"));
-    private final ExecutorService endings = Executors.newSingleThreadExecutor(DaemonThreads.named("streams-end"));
+    private final ExecutorService starter =
+            Executors.newFixedThreadPool(START_THREADS, DaemonThreads.named("streams-begin"));
+    private final ExecutorService remover = Executors.newSingleThreadExecutor(DaemonThreads.named("streams-end"));
 
     public TopicStreams(Properties client, TopicRules rules, StreamLimits limits, UserCache users) {
         this.feeds = new TopicFeeds(client, limits, counters);
@@ -68,9 +71,9 @@ public final class TopicStreams implements AutoCloseable {
         this.limits = limits;
         this.quota = new StreamQuota(limits);
         this.tickets = new Tickets(limits, System::nanoTime);
-        clock.scheduleWithFixedDelay(
+        scheduler.scheduleWithFixedDelay(
                 () -> streams.forEach(OpenStream::ping), PING_SECONDS, PING_SECONDS, TimeUnit.SECONDS);
-        clock.scheduleWithFixedDelay(this::reauthenticate, USER_SECONDS, USER_SECONDS, TimeUnit.SECONDS);
+        scheduler.scheduleWithFixedDelay(this::reauthenticate, USER_SECONDS, USER_SECONDS, TimeUnit.SECONDS);
     }
 
     Tickets tickets() {
@@ -89,12 +92,12 @@ public final class TopicStreams implements AutoCloseable {
         return counters;
     }
 
-    /** How many paths of sockets wait to be opened. */
+    /** The number of unused tickets. */
     public int unusedTickets() {
         return tickets.unused();
     }
 
-    /** How many of the open streams are sockets. */
+    /** The number of open sockets. */
     public int sockets() {
         return (int) streams.stream().filter(TopicSocket.class::isInstance).count();
     }
@@ -111,15 +114,15 @@ public final class TopicStreams implements AutoCloseable {
         return limits;
     }
 
-    /** How many streams are open. */
+    /** The number of open streams. */
     public int open() {
-        return quota.taken();
+        return quota.open();
     }
 
     /**
-     * The socket that a ticket is for.
+     * Opens the socket of a ticket.
      *
-     * @throws Problem for a ticket that is none, or none any more, and where there are too many streams
+     * @throws Problem if the ticket is unknown or used, or there are too many streams
      */
     public TopicSocket open(String ticketId) {
         Tickets.Ticket ticket = tickets.use(ticketId)
@@ -127,22 +130,23 @@ public final class TopicStreams implements AutoCloseable {
                         403,
                         "no-ticket",
                         "a socket is opened once and soon; ask GET /api/register/<topic> for a path"));
-        quota.take(ticket.client());
+        quota.acquire(ticket.client());
         TopicSocket socket = new TopicSocket(this, ticket, limits);
         counters.add(StreamCounters.Count.STREAMS_OPENED, 1);
         streams.add(socket);
         return socket;
     }
 
-    /** For a stream that is not a socket. @throws Problem where there are too many */
-    void take(String client) {
-        quota.take(client);
+    /** Counts a stream that is not a socket. @throws Problem if there are too many */
+    void acquire(String client) {
+        quota.acquire(client);
     }
 
     /**
-     * Adds the stream to its topic, then reads what was known before, so that nothing lies between.
+     * Adds the stream to its topic, then reads the initial state, so that there is no gap between them.
      *
-     * @return completes when each record that is written from then on goes to the stream; never where it ends before
+     * @return completes once each record that is written from then on goes to the stream; never if the stream ends
+     *     before
      */
     CompletableFuture<Void> begin(StreamRequest request, OpenStream stream, SendQueue queue) {
         CompletableFuture<Void> begun = new CompletableFuture<>();
@@ -153,10 +157,10 @@ public final class TopicStreams implements AutoCloseable {
             streams.remove(stream);
         }
         try {
-            beginners.execute(() -> {
+            starter.execute(() -> {
                 try {
                     feeds.add(request.topic(), stream);
-                    if (stream.isClosed()) { // while it was added
+                    if (stream.isClosed()) { // closed meanwhile
                         feeds.remove(request.topic(), stream);
                         return;
                     }
@@ -202,33 +206,33 @@ public final class TopicStreams implements AutoCloseable {
     void end(String topic, OpenStream stream, StreamCounters.Closing reason) {
         streams.remove(stream);
         counters.add(reason, 1);
-        quota.give(stream.credentials().client());
+        quota.release(stream.credentials().client());
         try {
-            endings.execute(() -> feeds.remove(topic, stream));
+            remover.execute(() -> feeds.remove(topic, stream));
         } catch (RejectedExecutionException e) {
             LOG.debug("closed already", e);
         }
     }
 
-    void later(Runnable task) {
+    void disconnectLater(Runnable task) {
         try {
-            clock.schedule(task, CUT_SECONDS, TimeUnit.SECONDS);
+            scheduler.schedule(task, DISCONNECT_SECONDS, TimeUnit.SECONDS);
         } catch (RejectedExecutionException e) {
             LOG.debug("closed already", e);
         }
     }
 
-    /** A token that was taken back opens no stream, and keeps none; a role that changed counts for open sockets too. */
+    /** Closes the streams of revoked tokens, and applies changed roles to open sockets. */
     private void reauthenticate() {
         for (OpenStream stream : streams) {
             try {
                 stream.refresh(users.find(stream.credentials()));
                 if (stream.credentials().isOfProxy()
-                        && System.nanoTime() - stream.openedAt() > MAX_BY_PROXY.toNanos()) {
+                        && System.nanoTime() - stream.openedAt() > MAX_AGE_BEHIND_PROXY.toNanos()) {
                     stream.revoke("the proxy is to be asked again who this is; register once more");
                 }
             } catch (Problem e) {
-                if (e.status() == UNAUTHORIZED || e.error().equals(UserCache.NOT_TAKEN)) {
+                if (e.status() == UNAUTHORIZED || e.error().equals(UserCache.USERS_NOT_ACCEPTED)) {
                     stream.revoke("the token is not valid any more");
                 }
             }
@@ -244,11 +248,11 @@ public final class TopicStreams implements AutoCloseable {
                 stream.end(STOPS);
             }
         }
-        clock.shutdownNow();
-        beginners.shutdownNow();
-        endings.shutdownNow();
+        scheduler.shutdownNow();
+        starter.shutdownNow();
+        remover.shutdownNow();
         initialStates.close();
-        DaemonThreads.await(beginners, Duration.ofSeconds(2));
+        DaemonThreads.await(starter, Duration.ofSeconds(2));
         feeds.close();
         writer.close();
     }

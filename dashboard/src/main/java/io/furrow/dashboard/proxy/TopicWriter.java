@@ -23,7 +23,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
 
-/** Writes what sockets send, in the name of their user. */
+/** Writes messages of sockets to topics, in the name of their user. */
 final class TopicWriter implements AutoCloseable {
     private static final String TIMEOUT_MILLIS = "10000";
 
@@ -42,8 +42,11 @@ final class TopicWriter implements AutoCloseable {
     }
 
     /**
-     * @return where it stands, when Kafka has it
-     * @throws Problem for a topic that may not be written, a user whose role does not allow the command, and for a message that is not a JSON object
+     * Writes a message.
+     *
+     * @return its position, once Kafka has acknowledged it
+     * @throws Problem if the topic may not be written, the user's role does not allow the command, or the message is
+     *     not a JSON object
      */
     CompletionStage<RecordMetadata> write(String topic, User user, String message) {
         if (!rules.mayWrite(topic)) {
@@ -57,7 +60,7 @@ final class TopicWriter implements AutoCloseable {
         if (AdminCommands.contains(topic, json.path("command").asText())) {
             check(user, Role.ADMIN);
         }
-        json.put("user", user.name()); // nobody speaks for another
+        json.put("user", user.name()); // a client cannot act as another user
         JsonNode id = json.path("requestId");
         byte[] key = id.isTextual() ? id.asText().getBytes(StandardCharsets.UTF_8) : null;
         CompletableFuture<RecordMetadata> written = new CompletableFuture<>();

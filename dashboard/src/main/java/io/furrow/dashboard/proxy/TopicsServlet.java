@@ -12,14 +12,17 @@ import io.furrow.dashboard.auth.User;
 import io.furrow.dashboard.auth.UserServlet;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** {@code GET /api/topics}: the topics that there are and may be read, by name, and how many records were written to each. */
+/**
+ * {@code GET /api/topics}: the existing topics that may be read, sorted by name, with the number of records written to
+ * each.
+ */
 public final class TopicsServlet extends UserServlet {
     private static final long serialVersionUID = 1L;
 
     private final transient TopicStreams streams;
 
     public TopicsServlet(TopicStreams streams) {
-        super(streams.users(), streams.counters()::refused);
+        super(streams.users(), streams.counters()::rejected);
         this.streams = streams;
     }
 

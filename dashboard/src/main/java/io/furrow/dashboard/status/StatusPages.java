@@ -16,8 +16,8 @@ import io.furrow.kafka.Readiness;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * {@code GET /health}, {@code /ready} and {@code /metrics} of the dashboard itself, without a token. It is alive while it answers, and
- * ready where Kafka and the control plane answer too: 200, else 503.
+ * {@code GET /health}, {@code /ready} and {@code /metrics} of the dashboard itself, without a token. It is alive while
+ * it answers; ready (200, else 503) if Kafka and the control plane answer too.
  */
 public final class StatusPages extends Handler.Abstract {
     public static final String HEALTH = "/health";

@@ -9,7 +9,7 @@ import io.furrow.dashboard.proxy.TopicStreams;
 import io.furrow.http.prometheus.MetricsPage;
 import io.furrow.http.prometheus.MetricsPage.Point;
 
-/** What streams are and did, in the text format of Prometheus. Neither topics nor users are labels: the page needs no token. */
+/** Metrics of streams in Prometheus' text format. Topics and users are not labels, because the page needs no token. */
 final class StreamMetrics {
     private static final String REASON = "reason";
 
@@ -38,8 +38,8 @@ final class StreamMetrics {
         page.counter(
                 "refused",
                 "Requests, sockets and messages that were refused, by the error that they were answered with.",
-                counters.refusals().entrySet().stream()
-                        .map(refused -> new Point(refused.getValue().sum(), REASON, refused.getKey())));
+                counters.rejections().entrySet().stream()
+                        .map(each -> new Point(each.getValue().sum(), REASON, each.getKey())));
         for (StreamCounters.Count each : StreamCounters.Count.values()) {
             page.counter(each.name().toLowerCase(Locale.ROOT), each.help(), counters.sum(each));
         }

@@ -1,2 +1,2 @@
-/** Whether the dashboard is alive and ready, and what it has done. */
+/** Health, readiness and metrics of the dashboard. */
 package io.furrow.dashboard.status;

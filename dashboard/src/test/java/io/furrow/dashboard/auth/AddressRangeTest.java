@@ -25,7 +25,7 @@ class AddressRangeTest {
             ::1,            ::1,         true
             ::ffff:10.0.0.7, 10.0.0.7,   true
             """)
-    void containsTheAddressesThatShareItsBits(String range, String address, boolean contained) throws Exception {
+    void containsTheAddressesWithItsPrefix(String range, String address, boolean contained) throws Exception {
         assertThat(AddressRange.parse(range).contains(InetAddress.getByName(address)))
                 .isEqualTo(contained);
     }
@@ -36,7 +36,7 @@ class AddressRangeTest {
                 "", "localhost", "proxy.example.org", "10.0.0.0/33",
                 "10.0.0.0/-1", "10.0.0.0/8/8", "1.2.3.4.5", "::1/129"
             })
-    void rejectsNamesAndWhatIsNoAddress(String text) {
+    void rejectsNamesAndInvalidAddresses(String text) {
         assertThatThrownBy(() -> AddressRange.parse(text))
                 .isInstanceOf(IllegalArgumentException.class)
                 .hasMessageContaining("neither an address");

@@ -8,7 +8,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class FeedRecordTest {
     @Test
-    void isOfTheEntityOfAnIdAndAType() {
+    void hasAKeyOfIdAndType() {
         assertThat(key("{'id':'c','type':'Camera'}"))
                 .isEqualTo(key("{'entity':'c','type':'Camera','url':'file:/a'}"))
                 .isNotEqualTo(key("{'entity':'c','type':'Station','url':'file:/a'}"))

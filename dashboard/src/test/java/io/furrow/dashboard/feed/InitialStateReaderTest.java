@@ -17,8 +17,8 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class InitialStateReaderTest {
     private final CountDownLatch begun = new CountDownLatch(1);
-    private final CountDownLatch gate = new CountDownLatch(1);
-    private final AtomicInteger readings = new AtomicInteger();
+    private final CountDownLatch finish = new CountDownLatch(1);
+    private final AtomicInteger reads = new AtomicInteger();
     private final InitialStateReader reader = new InitialStateReader(this::read);
 
     private List<FeedRecord> read(String topic) {
@@ -26,10 +26,10 @@ class InitialStateReaderTest {
             throw new Problem(503, "too-slow", "it took too long");
         }
         if (topic.equals("long")) {
-            readings.incrementAndGet();
+            reads.incrementAndGet();
             begun.countDown();
             try {
-                gate.await();
+                finish.await();
             } catch (InterruptedException e) {
                 Thread.currentThread().interrupt();
             }
@@ -39,12 +39,12 @@ class InitialStateReaderTest {
 
     @AfterEach
     void close() {
-        gate.countDown();
+        finish.countDown();
         reader.close();
     }
 
     @Test
-    void readsOnceForAllWhoRequestWhileTheTopicIsRead() throws Exception {
+    void readsOnceForAllRequestsDuringARead() throws Exception {
         CompletableFuture<List<FeedRecord>> first = reader.read("long");
         begun.await();
         List<CompletableFuture<List<FeedRecord>>> later = new ArrayList<>();
@@ -53,14 +53,14 @@ class InitialStateReaderTest {
         }
         assertThat(later).containsOnly(later.get(0)).doesNotContain(first);
 
-        gate.countDown();
+        finish.countDown();
 
         assertThat(later.get(0).get(30, TimeUnit.SECONDS)).isNotSameAs(first.get(30, TimeUnit.SECONDS));
-        assertThat(readings).hasValue(2);
+        assertThat(reads).hasValue(2);
     }
 
     @Test
-    void letsNobodyWaitForAnotherTopic() throws Exception {
+    void readsOtherTopicsDuringASlowRead() throws Exception {
         CompletableFuture<List<FeedRecord>> slow = reader.read("long");
         begun.await();
 

@@ -84,29 +84,29 @@ class TopicHistoryIT {
     }
 
     @Test
-    void answersWithWhatIsOfAStretchOfTime() throws Exception {
-        topic("data.stretch", 2);
+    void returnsTheRecordsOfAPeriod() throws Exception {
+        topic("data.period", 2);
         for (int n = 0; n < 10; n++) {
-            send("data.stretch", n % 2, n * 1_000L, "{\"n\":%d}".formatted(n));
+            send("data.period", n % 2, n * 1_000L, "{\"n\":%d}".formatted(n));
         }
-        send("data.stretch", 0, 3_500, "{\"n\":35}"); // late
-        send("data.stretch", 0, 3_600, null);
+        send("data.period", 0, 3_500, "{\"n\":35}"); // late
+        send("data.period", 0, 3_600, null);
 
         TopicHistory.Answer part = read(
-                new TopicHistory.Range("data.stretch", TIME + 3_000, TIME + 6_000, null, ALL),
+                new TopicHistory.Range("data.period", TIME + 3_000, TIME + 6_000, null, ALL),
                 TopicHistory.Limits.DEFAULT);
-        assertThat(numbers(part)).as("0 of the deletion").containsExactlyInAnyOrder(3, 4, 5, 35, 0);
+        assertThat(numbers(part)).as("0 for the deletion").containsExactlyInAnyOrder(3, 4, 5, 35, 0);
         assertThat(part.since()).isEqualTo(TIME + 3_000);
 
         TopicHistory.Answer nothing = read(
-                new TopicHistory.Range("data.stretch", TIME + 60_000, TIME + 70_000, null, ALL),
+                new TopicHistory.Range("data.period", TIME + 60_000, TIME + 70_000, null, ALL),
                 TopicHistory.Limits.DEFAULT);
         assertThat(nothing.records()).isEmpty();
         assertThat(nothing.since()).isEqualTo(TIME + 60_000);
     }
 
     @Test
-    void answersWithTheNewestRecordOfEachValueOfAnAttribute() throws Exception {
+    void returnsTheNewestRecordOfEachValueOfAnAttribute() throws Exception {
         topic("data.newest", 1);
         send("data.newest", 0, 0, encounter("a", 1));
         send("data.newest", 0, 1, encounter("b", 2));
@@ -118,10 +118,10 @@ class TopicHistoryIT {
         send("data.newest", 0, 7, "{\"n\":7,\"encounter\":\"plain\"}");
         send("data.newest", 0, 8, null);
         send("data.newest", 0, 9, "{\"n\":8,\"type\":\"Camera\",\"encounter\":\"plain\"}");
-        ProducerRecord<String, byte[]> ofAnother = new ProducerRecord<>(
+        ProducerRecord<String, byte[]> ofAnotherTenant = new ProducerRecord<>(
                 "data.newest", 0, TIME + 9, "k", encounter("a", 9).getBytes(UTF_8));
-        ofAnother.headers().add("fiware-service", "other".getBytes(UTF_8));
-        producer.send(ofAnother).get();
+        ofAnotherTenant.headers().add("fiware-service", "other".getBytes(UTF_8));
+        producer.send(ofAnotherTenant).get();
 
         TopicHistory.Answer answer = read(
                 new TopicHistory.Range("data.newest", TIME, TIME + 10, "encounter", ALL), TopicHistory.Limits.DEFAULT);
@@ -129,7 +129,7 @@ class TopicHistoryIT {
     }
 
     @Test
-    void leavesOutTheOldestOfTooManyAndReportsSinceWhenAllIsThere() throws Exception {
+    void omitsTheOldestRecordsBeyondALimitAndReportsSinceWhenItIsComplete() throws Exception {
         topic("data.many", 1);
         for (int n = 0; n < 100; n++) {
             send("data.many", 0, n, "{\"n\":%d,\"filler\":\"%s\"}".formatted(n, "x".repeat(1_000)));
@@ -145,13 +145,13 @@ class TopicHistoryIT {
         assertThat(numbers(scanned)).hasSize(20).startsWith(80);
         assertThat(scanned.since()).isEqualTo(TIME + 80);
 
-        TopicHistory.Answer weighed = read(all, new TopicHistory.Limits(1_000, 10_000, Duration.ofSeconds(10)));
-        assertThat(numbers(weighed)).hasSize(9).startsWith(91);
-        assertThat(weighed.since()).isEqualTo(TIME + 91);
+        TopicHistory.Answer limitedBytes = read(all, new TopicHistory.Limits(1_000, 10_000, Duration.ofSeconds(10)));
+        assertThat(numbers(limitedBytes)).hasSize(9).startsWith(91);
+        assertThat(limitedBytes.since()).isEqualTo(TIME + 91);
     }
 
     @Test
-    void leavesOutTheOldestOfAllPartitions() throws Exception {
+    void omitsTheOldestRecordsOfAllPartitions() throws Exception {
         topic("data.parted", 4);
         for (int n = 0; n < 400; n++) {
             send("data.parted", n % 4, n, "{\"n\":%d}".formatted(n));
@@ -167,7 +167,7 @@ class TopicHistoryIT {
     }
 
     @Test
-    void reportsSinceWhenTheTopicHoldsSomething() throws Exception {
+    void reportsTheTimeOfTheOldestRetainedRecord() throws Exception {
         topic("data.short", 1);
         for (int n = 0; n < 10; n++) {
             send("data.short", 0, n * 1_000L, "{\"n\":%d}".formatted(n));

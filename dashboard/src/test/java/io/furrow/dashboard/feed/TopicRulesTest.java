@@ -18,13 +18,13 @@ class TopicRulesTest {
         "service.missionmanager, true, true", "service.audit, true, false",
         "__consumer_offsets, false, false", "mydata.raw, false, false"
     })
-    void letsByDefaultReadWhatIsOfTheFarmAndWriteRequests(String topic, boolean read, boolean write) {
+    void allowsByDefaultToReadDataAndControlTopicsAndToWriteRequests(String topic, boolean read, boolean write) {
         assertThat(TopicRules.DEFAULT.mayRead(topic)).isEqualTo(read);
         assertThat(TopicRules.DEFAULT.mayWrite(topic)).isEqualTo(write);
     }
 
     @Test
-    void takesAStarForAnySignsAndEverythingElseForItself() {
+    void treatsAStarAsWildcardAndAllElseLiterally() {
         TopicRules rules = new TopicRules(List.of("data.*.realtime"), List.of());
 
         assertThat(rules.mayRead("data.farm.realtime")).isTrue();
@@ -34,7 +34,7 @@ class TopicRulesTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"", "a b", "a/b", "data.[a-z]"})
-    void rejectsWhatNamesNoTopics(String pattern) {
+    void rejectsPatternsThatMatchNoTopic(String pattern) {
         assertThatThrownBy(() -> new TopicRules(List.of(pattern), List.of()))
                 .isInstanceOf(IllegalArgumentException.class)
                 .hasMessageContaining("'" + pattern + "' names no topics");

@@ -30,7 +30,7 @@ class TileFileTest {
     @TempDir
     Path directory;
 
-    /** As long as one that has something, and each byte says where it is. */
+    /** Creates a file whose header is as given; every other byte depends on its position. */
     private Path file(String magic, int version, int compression, int type) throws IOException {
         byte[] bytes = new byte[LENGTH];
         for (int i = 0; i < LENGTH; i++) {
@@ -44,11 +44,11 @@ class TileFileTest {
         return Files.write(directory.resolve("tiles.pmtiles"), bytes);
     }
 
-    private interface Asked {
-        void at(URI uri) throws Exception;
+    private interface ServerTest {
+        void run(URI uri) throws Exception;
     }
 
-    private void serving(Path file, Asked test) throws Exception {
+    private void serving(Path file, ServerTest test) throws Exception {
         Server server = new Server();
         ServerConnector connector = new ServerConnector(server);
         connector.setHost("127.0.0.1");
@@ -58,7 +58,7 @@ class TileFileTest {
         server.setHandler(paths);
         server.start();
         try {
-            test.at(URI.create("http://127.0.0.1:" + connector.getLocalPort()));
+            test.run(URI.create("http://127.0.0.1:" + connector.getLocalPort()));
         } finally {
             server.stop();
         }
@@ -73,7 +73,7 @@ class TileFileTest {
     }
 
     @Test
-    void givesTheRangesThatAreRequested() throws Exception {
+    void servesRequestedRanges() throws Exception {
         Path file = file("PMTiles", 3, GZIP, PNG);
         byte[] all = Files.readAllBytes(file);
         serving(file, uri -> {
@@ -97,7 +97,7 @@ class TileFileTest {
     }
 
     @Test
-    void isReadOnlyAndTheOnlyFileThere() throws Exception {
+    void isReadOnlyAndServesNoOtherFile() throws Exception {
         Path file = file("PMTiles", 3, GZIP, PNG);
         Files.writeString(directory.resolve("secret"), "secret");
         serving(file, uri -> {
@@ -128,19 +128,19 @@ class TileFileTest {
             PMTiles | 3 | 2 | 6 | does not say that its tiles are PNG
             PMTiles | 3 | 4 | 2 | is compressed in a way
             """)
-    void rejectsWhatThePageCannotDraw(String magic, int version, int compression, int type, String why) {
+    void rejectsFilesThatThePageCannotDraw(String magic, int version, int compression, int type, String why) {
         assertThatThrownBy(() -> TileFile.handler(file(magic, version, compression, type)))
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("tiles.pmtiles " + why);
     }
 
     @Test
-    void rejectsAFileThatIsNotThereOrHasNoHeader() throws Exception {
+    void rejectsAMissingFileAndOneWithoutAHeader() throws Exception {
         assertThatThrownBy(() -> TileFile.handler(directory.resolve("missing")))
                 .isInstanceOf(IOException.class)
                 .hasMessageContainingAll("There is no file of tiles", "Check --tiles");
-        Path brief = Files.writeString(directory.resolve("brief"), "PMTiles");
-        assertThatThrownBy(() -> TileFile.handler(brief))
+        Path tooShort = Files.writeString(directory.resolve("short_"), "PMTiles");
+        assertThatThrownBy(() -> TileFile.handler(tooShort))
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("is not a PMTiles file");
     }

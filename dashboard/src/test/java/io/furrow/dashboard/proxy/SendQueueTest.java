@@ -16,7 +16,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 class SendQueueTest {
     private static final String VALVE = "{\"id\":\"pb-13\",\"type\":\"Valve\"}";
     private static final String PUMP = "{\"id\":\"pb-13\",\"type\":\"Pump\"}";
-    private static final StreamLimits FEW =
+    private static final StreamLimits LIMITS =
             new StreamLimits(1, 1, 1, Duration.ofSeconds(1), 3, 10_000, 1_000, 1_000, 1, 1_000);
 
     private static FeedRecord record(String key, String value, long sequence) {
@@ -28,7 +28,7 @@ class SendQueueTest {
     }
 
     private static SendQueue queue(StreamRequest.Mode mode, boolean prime, StreamRequest.Format format) {
-        return new SendQueue(new StreamRequest("data.raw", mode, prime, format), FEW, new StreamCounters());
+        return new SendQueue(new StreamRequest("data.raw", mode, prime, format), LIMITS, new StreamCounters());
     }
 
     @Test
@@ -37,13 +37,13 @@ class SendQueueTest {
         queue.offer(record("a", "1", 0));
         queue.offer(record("a", "2", 1));
 
-        assertThat(queue.take()).isEqualTo("1");
-        assertThat(queue.take()).isEqualTo("2");
-        assertThat(queue.take()).isNull();
+        assertThat(queue.poll()).isEqualTo("1");
+        assertThat(queue.poll()).isEqualTo("2");
+        assertThat(queue.poll()).isNull();
     }
 
     @Test
-    void isOverWhereMoreWaitThanMay() {
+    void isFullBeyondTheLimitOfRecordsOrBytes() {
         SendQueue queue = queue(StreamRequest.Mode.ALL, false, StreamRequest.Format.VALUE);
         for (int i = 0; i < 3; i++) {
             assertThat(queue.offer(record("a", "1", i))).isTrue();
@@ -55,71 +55,71 @@ class SendQueueTest {
     }
 
     @Test
-    void countsWhatIsTakenAsWaitingNoMore() {
+    void doesNotCountSentRecords() {
         SendQueue queue = queue(StreamRequest.Mode.ALL, false, StreamRequest.Format.VALUE);
         for (int i = 0; i < 100; i++) {
             assertThat(queue.offer(record("a", "x".repeat(5_000), i))).isTrue();
-            queue.take();
+            queue.poll();
         }
     }
 
     @Test
-    void letsTheNewestOfAKeyTakeThePlaceOfOlderOnes() {
+    void replacesWaitingRecordsByNewerOnesOfTheSameKey() {
         SendQueue queue = queue(StreamRequest.Mode.LATEST, false, StreamRequest.Format.RECORD);
         for (int i = 0; i < 50; i++) {
             assertThat(queue.offer(record("k" + i % 2, Integer.toString(i), i))).isTrue();
         }
 
-        assertThat(queue.take())
+        assertThat(queue.poll())
                 .contains("\"value\":48", "\"value\":49", "\"merged\":48")
                 .doesNotContain("\"value\":47");
-        assertThat(queue.take()).isNull();
+        assertThat(queue.poll()).isNull();
     }
 
     @Test
-    void takesRecordsWithoutAKeyForDifferentOnes() {
+    void sendsAllRecordsWithoutAKey() {
         SendQueue queue = queue(StreamRequest.Mode.LATEST, false, StreamRequest.Format.RECORD);
         queue.offer(record(null, "1", 0));
         queue.offer(record(null, "2", 1));
 
-        assertThat(queue.take()).contains("\"value\":1", "\"value\":2").doesNotContain("merged");
+        assertThat(queue.poll()).contains("\"value\":1", "\"value\":2").doesNotContain("merged");
     }
 
     @Test
-    void holdsRecordsBackUntilWhatWasKnownIsSent() {
+    void holdsRecordsBackUntilTheInitialStateIsSent() {
         SendQueue queue = queue(StreamRequest.Mode.ALL, true, StreamRequest.Format.RECORD);
         queue.offer(record("a", "2", 7));
-        assertThat(queue.take()).isNull();
+        assertThat(queue.poll()).isNull();
 
         queue.prime(List.of(record("a", "1", FeedRecord.NO_SEQUENCE)));
 
-        assertThat(queue.take()).contains("\"kind\":\"prime\"", "\"value\":1").doesNotContain("sequence");
-        assertThat(queue.take()).isEqualTo("{\"primed\":true}");
-        assertThat(queue.take()).contains("\"kind\":\"event\"", "\"sequence\":7", "\"value\":2");
+        assertThat(queue.poll()).contains("\"kind\":\"prime\"", "\"value\":1").doesNotContain("sequence");
+        assertThat(queue.poll()).isEqualTo("{\"primed\":true}");
+        assertThat(queue.poll()).contains("\"kind\":\"event\"", "\"sequence\":7", "\"value\":2");
     }
 
-    /** One id in two tenants, and with two types in one of them. */
+    /** The same id in two tenants, and with two types in one of them. */
     @Test
-    void mergesTheReportsOfAnEntityAlone() {
+    void mergesRecordsOfTheSameEntityOnly() {
         SendQueue queue = queue(StreamRequest.Mode.LATEST, false, StreamRequest.Format.VALUE);
         queue.offer(in("farm", VALVE));
         queue.offer(in("farm", PUMP));
         queue.offer(in("other", VALVE));
         queue.offer(in("farm", VALVE));
 
-        assertThat(List.of(queue.take(), queue.take(), queue.take())).containsExactly(VALVE, PUMP, VALVE);
-        assertThat(queue.take()).isNull();
+        assertThat(List.of(queue.poll(), queue.poll(), queue.poll())).containsExactly(VALVE, PUMP, VALVE);
+        assertThat(queue.poll()).isNull();
     }
 
     @Test
-    void sendsWhatCameAfterADeletionBehindIt() {
+    void sendsARecordBehindAnEarlierDeletion() {
         SendQueue queue = queue(StreamRequest.Mode.LATEST, false, StreamRequest.Format.VALUE);
         queue.offer(in("farm", VALVE));
         queue.offer(in("farm", null));
         queue.offer(in("farm", VALVE));
 
-        assertThat(List.of(queue.take(), queue.take())).containsExactly("null", VALVE);
-        assertThat(queue.take()).isNull();
+        assertThat(List.of(queue.poll(), queue.poll())).containsExactly("null", VALVE);
+        assertThat(queue.poll()).isNull();
     }
 
     private static FeedRecord in(String tenant, String value) {

@@ -21,10 +21,10 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
-/** Who may not read, open or ask, and what they are told. */
-class DashboardRefusalsIT extends DashboardFixture {
+/** Requests that are rejected, with their status and error. */
+class DashboardRejectionsIT extends DashboardFixture {
     @Test
-    void rejectsWhatMayNotBeReadAndWhoeverMayNotRead() throws Exception {
+    void rejectsUnreadableTopicsUnknownTokensAndInvalidParameters() throws Exception {
         restart(settings().withRules(new TopicRules(List.of("data.*"), List.of())));
 
         assertThat(error("/api/register/" + TOPIC, null)).isEqualTo("401 unauthorized");
@@ -61,7 +61,7 @@ class DashboardRefusalsIT extends DashboardFixture {
     }
 
     @Test
-    void opensASocketForNoForeignPageAndUnderNoForeignName() throws Exception {
+    void opensNoSocketForAForeignOriginOrHost() throws Exception {
         restart(settings().withAllowed(new AllowedNames(List.of("farm.example"), List.of("https://maps.example"))));
         URI socket = socket(TOPIC, OLGA);
         String own = socket.getAuthority();
@@ -81,7 +81,7 @@ class DashboardRefusalsIT extends DashboardFixture {
         assertThat(metric("refused_total{reason=\"foreign-host\"}")).isEqualTo(1);
         assertThat(metric("streams_opened_total")).isZero();
 
-        // the ticket is still good, and one for each further page that may
+        // the ticket is still valid for an allowed origin
         assertThat(Handshake.status(socket, own, "Origin", "http://" + own)).isEqualTo(101);
         assertThat(Handshake.status(socket(TOPIC, OLGA), own, "Origin", "https://maps.example"))
                 .isEqualTo(101);
@@ -100,29 +100,29 @@ class DashboardRefusalsIT extends DashboardFixture {
 
         restart(settings().withLimits(limits(2_000, 2)));
         SocketClient.open(http, socket(TOPIC, OLGA));
-        SocketClient writing = SocketClient.open(http, socket(Topics.DOMAIN_MANAGER, OLGA));
+        SocketClient writer = SocketClient.open(http, socket(Topics.DOMAIN_MANAGER, OLGA));
         URI third = socket(TOPIC, OLGA);
         assertThatThrownBy(() -> SocketClient.open(http, third))
                 .satisfies(failure -> assertThat(status(failure)).isEqualTo(429));
         assertThat(error("/api/stream/" + TOPIC, OLGA)).isEqualTo("429 too-many-streams");
         for (int i = 0; i < 8; i++) {
-            writing.send("[]");
+            writer.send("[]");
         }
-        await().until(() -> writing.frames().stream().anyMatch(frame -> frame.contains("too-many-messages")));
+        await().until(() -> writer.frames().stream().anyMatch(frame -> frame.contains("too-many-messages")));
     }
 
     @Tag("full")
     @Test
-    void forgetsATicketThatIsOld() throws Exception {
-        StreamLimits usual = StreamLimits.DEFAULT;
+    void rejectsAnExpiredTicket() throws Exception {
+        StreamLimits defaults = StreamLimits.DEFAULT;
         restart(settings()
                 .withLimits(new StreamLimits(
-                        10, 10, 3, Duration.ofMillis(1), 100, 1_000_000, 10_000, 1_000, 5, usual.primeRecords())));
-        List<URI> old = new ArrayList<>();
+                        10, 10, 3, Duration.ofMillis(1), 100, 1_000_000, 10_000, 1_000, 5, defaults.primeRecords())));
+        List<URI> expired = new ArrayList<>();
         for (int i : IntStream.range(0, 5).toArray()) {
-            old.add(socket(TOPIC + "?x=" + i, OLGA));
+            expired.add(socket(TOPIC + "?x=" + i, OLGA));
         }
-        assertThatThrownBy(() -> SocketClient.open(http, old.get(0)))
+        assertThatThrownBy(() -> SocketClient.open(http, expired.get(0)))
                 .satisfies(failure -> assertThat(status(failure)).isEqualTo(403));
     }
 
@@ -135,24 +135,24 @@ class DashboardRefusalsIT extends DashboardFixture {
         assertThat(error("/api/register/" + TOPIC, VERA)).isEqualTo("503 control-plane-away");
     }
 
-    /** By what it knows already: nobody waits to find it out. */
+    /** The dashboard already knows that Kafka is unavailable, so no request waits for a timeout. */
     @Tag("full")
     @Test
     void rejectsAtOnceWhileKafkaIsUnavailable() throws Exception {
         try (ServerSocket silent = new ServerSocket(0, 50, InetAddress.getLoopbackAddress())) {
-            Properties nowhere = new Properties();
-            nowhere.setProperty("bootstrap.servers", "127.0.0.1:" + silent.getLocalPort());
-            restart(DashboardSettings.of(0, nowhere, api.uri()));
+            Properties client = new Properties();
+            client.setProperty("bootstrap.servers", "127.0.0.1:" + silent.getLocalPort());
+            restart(DashboardSettings.of(0, client, api.uri()));
             await().until(() -> dashboard.streams().feeds().isKafkaUnavailable());
 
-            long begun = System.nanoTime();
-            for (int i = 0; i < 5; i++) { // each of which would wait for 5 s
+            long startedAt = System.nanoTime();
+            for (int i = 0; i < 5; i++) { // each would wait for 5 s
                 assertThat(error("/api/register/" + TOPIC, OLGA)).isEqualTo("503 kafka-away");
                 assertThat(error("/api/topics", OLGA)).isEqualTo("503 kafka-away");
                 assertThat(json(get("/api/platform", OLGA)).at("/kafka/state").asText())
                         .isEqualTo("away");
             }
-            assertThat(Duration.ofNanos(System.nanoTime() - begun)).isLessThan(Duration.ofMinutes(1));
+            assertThat(Duration.ofNanos(System.nanoTime() - startedAt)).isLessThan(Duration.ofMinutes(1));
         }
     }
 }

@@ -12,24 +12,24 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 import io.furrow.soak.CommittedState;
 
-/** Reports each device at once as it is wanted, and runs none. */
-final class ObedientHost implements AutoCloseable {
+/** Reports the desired state of each device at once, without running devices. */
+final class AcceptingHost implements AutoCloseable {
     private static final Duration POLL = Duration.ofMillis(50);
 
     private final String bootstrapServers;
     private final RequestSender sender;
     private volatile boolean closed;
 
-    /** The topics must be there. */
-    ObedientHost(String bootstrapServers, RequestSender sender) {
+    /** The topics must exist. */
+    AcceptingHost(String bootstrapServers, RequestSender sender) {
         this.bootstrapServers = bootstrapServers;
         this.sender = sender;
-        Thread thread = new Thread(this::follow, "obedient-host");
+        Thread thread = new Thread(this::readDevices, "accepting-host");
         thread.setDaemon(true);
         thread.start();
     }
 
-    private void follow() {
+    private void readDevices() {
         try (KafkaConsumer<String, byte[]> consumer = CommittedState.consumer(bootstrapServers)) {
             CommittedState.assign(consumer, List.of(Topics.DEVICES));
             while (!closed) {
