@@ -17,17 +17,16 @@ final class CastVote implements WindowFunction<DeviceReadings, DeviceVote, Strin
     @Override
     public void apply(String voter, TimeWindow window, Iterable<DeviceReadings> only, Collector<DeviceVote> out) {
         for (DeviceReadings readings : only) {
-            readings.all()
-                    .forEach(each -> out.collect(new DeviceVote(
-                            readings.field(),
-                            readings.domain(),
-                            readings.validFrom(),
-                            readings.scope(),
-                            readings.device(),
-                            each.median(),
-                            window.getStart(),
-                            window.getEnd(),
-                            each.type())));
+            out.collect(new DeviceVote(
+                    readings.field(),
+                    readings.domain(),
+                    readings.validFrom(),
+                    readings.scope(),
+                    readings.device(),
+                    readings.median(),
+                    window.getStart(),
+                    window.getEnd(),
+                    readings.type()));
         }
     }
 }

@@ -8,10 +8,7 @@ package io.furrow.analytics.temperature;
  * @param validFrom start of the field's version, epoch ms
  */
 public record FieldReading(String field, String domain, long validFrom, Reading reading) {
-    /**
-     * The device in this field, unique across topics and tenants; the length makes it unambiguous. Devices of one id and several
-     * types share it, for compatibility with state of older builds.
-     */
+    /** The device in this field, unique across topics and tenants; the length makes it unambiguous. */
     String voter() {
         return field.length() + ":" + field + reading.deviceIdentity();
     }

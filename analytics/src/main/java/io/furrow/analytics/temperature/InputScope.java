@@ -14,4 +14,9 @@ public record InputScope(String topic, FiwareScope fiware) {
     String identity(String id) {
         return topic + '|' + fiware.identity(id);
     }
+
+    /** Unique per type and id of this scope. */
+    String identity(String type, String id) {
+        return topic + '|' + fiware.identity(type, id);
+    }
 }

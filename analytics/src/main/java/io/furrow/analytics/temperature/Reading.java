@@ -37,8 +37,8 @@ public record Reading(
         }
     }
 
-    /** The device, unique across topics and tenants, whatever its type. */
+    /** The device, unique across topics, tenants and types. */
     String deviceIdentity() {
-        return input().identity(device);
+        return input().identity(type, device);
     }
 }

@@ -27,7 +27,7 @@ class CollectReadingsTest {
                 readings = collect.add(reading(value), readings);
             }
 
-            assertThat(collect.getResult(readings).all().get(0).median()).isEqualTo(Median.of(values));
+            assertThat(collect.getResult(readings).median()).isEqualTo(Median.of(values));
         }
     }
 

@@ -174,18 +174,20 @@ class ReplayUpkeepIT {
 
     @Test
     void deletesTheTopicOfADeletedMissionAfterAQuietDay() throws Exception {
-        kafka.createTopics(Stream.of("weeding", "mowing", "sowing", "played", "own")
+        kafka.createTopics(Stream.of("weeding", "mowing", "sowing", "sowing-2", "sowing-2.dead", "played", "own")
                 .map(mission -> new NewTopic("data.farm.realtime." + mission, 2, (short) 1))
                 .toList());
         long now = System.currentTimeMillis();
-        for (String mission : List.of("weeding", "mowing", "sowing", "played")) {
+        for (String mission : List.of("weeding", "mowing", "sowing", "sowing-2", "played")) {
             send(Topics.MISSIONS, mission, "{\"domain\":\"farm\"}".getBytes(UTF_8));
-            long reported =
-                    mission.equals("sowing") ? now + Duration.ofMinutes(30).toMillis() : now - 1_000;
-            producer.send(new ProducerRecord<>("data.farm.realtime." + mission, 0, reported, "d", new byte[1]))
+        }
+        for (String topic : List.of("weeding", "mowing", "sowing", "sowing-2", "sowing-2.dead", "played")) {
+            boolean isFresh = topic.equals("sowing") || topic.equals("sowing-2.dead");
+            long reported = isFresh ? now + Duration.ofMinutes(30).toMillis() : now - 1_000;
+            producer.send(new ProducerRecord<>("data.farm.realtime." + topic, 0, reported, "d", new byte[1]))
                     .get();
         }
-        for (String mission : List.of("weeding", "sowing", "played")) {
+        for (String mission : List.of("weeding", "sowing", "sowing-2", "played")) {
             producer.send(new ProducerRecord<>(Topics.MISSIONS, 0, Long.valueOf(now - 1), mission, (byte[]) null))
                     .get();
         }
@@ -218,8 +220,8 @@ class ReplayUpkeepIT {
         await().until(() -> later.equals(cleanup.status().lastSuccess()));
 
         assertThat(names()).contains("""
-                                data.farm.realtime.mowing data.farm.realtime.sowing data.farm.realtime.played
-                                data.farm.realtime.own""".split("\\s+"));
+                                data.farm.realtime.mowing data.farm.realtime.sowing data.farm.realtime.sowing-2
+                                data.farm.realtime.played data.farm.realtime.own""".split("\\s+"));
     }
 
     @Test

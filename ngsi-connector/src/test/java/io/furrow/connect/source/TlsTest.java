@@ -12,7 +12,6 @@ import java.security.cert.X509Certificate;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Map;
 import javax.net.ssl.SSLParameters;
 
 import org.apache.kafka.common.config.ConfigException;
@@ -187,17 +186,6 @@ class TlsTest {
                 .isInstanceOf(ConfigException.class)
                 .hasMessageContainingAll("ssl.keystore.location", file)
                 .hasMessageNotContaining(TlsKeys.PASSWORD);
-    }
-
-    @ParameterizedTest
-    @ValueSource(strings = {"keystore.location", "client.auth", "keystore.password"})
-    void namesTheOptionOfNowForAFormerOne(String name) {
-        Map<String, String> former = Map.of("journal.dir", "/tmp/journal", "tls." + name, "s3cret");
-
-        assertThatThrownBy(() -> new NgsiSourceConfig(former))
-                .isInstanceOf(ConfigException.class)
-                .hasMessageContaining("ssl." + name)
-                .hasMessageNotContaining("s3cret");
     }
 
     private static String[] withKeys(String file) {

@@ -11,22 +11,15 @@ import io.netty.buffer.ByteBuf;
 import io.netty.buffer.Unpooled;
 import org.h2.mvstore.WriteBuffer;
 import org.h2.mvstore.type.BasicDataType;
-import org.h2.mvstore.type.ObjectDataType;
 
-/**
- * Serializes documents as BSON after a byte that no other type begins with. Also reads documents that earlier releases wrote as Java
- * objects.
- */
+/** Serializes documents as BSON. */
 final class DocumentType extends BasicDataType<Document> {
-    private static final byte BSON = 127;
     private static final int FIRST_BYTES = 1024;
     /** Approximate heap sizes of a map, its member and a value, on a 64-bit JVM. */
     private static final int DOCUMENT_MEMORY = 160;
 
     private static final int MEMBER_MEMORY = 96;
     private static final int VALUE_MEMORY = 24;
-
-    private final ObjectDataType javaObjects = new ObjectDataType();
 
     @Override
     public Document[] createStorage(int size) {
@@ -67,18 +60,14 @@ final class DocumentType extends BasicDataType<Document> {
     public void write(WriteBuffer out, Document document) {
         ByteBuf bson = Unpooled.buffer(FIRST_BYTES);
         BsonEncoder.encodeDocument(document, bson);
-        out.put(BSON).put(bson.nioBuffer());
+        out.put(bson.nioBuffer());
     }
 
     @Override
     public Document read(ByteBuffer in) {
-        int start = in.position();
-        if (in.get(start) != BSON) {
-            return (Document) javaObjects.read(in);
-        }
-        ByteBuf bson = Unpooled.wrappedBuffer(in.position(start + 1));
+        ByteBuf bson = Unpooled.wrappedBuffer(in);
         Document document = BsonDecoder.decodeBson(bson);
-        in.position(start + 1 + bson.readerIndex());
+        in.position(in.position() + bson.readerIndex());
         return document;
     }
 }

@@ -1,9 +1,7 @@
 package io.furrow.embedded;
 
 import java.nio.file.Path;
-import java.util.HashMap;
 import java.util.List;
-import java.util.Map;
 import java.util.concurrent.locks.Lock;
 import java.util.concurrent.locks.ReadWriteLock;
 import java.util.concurrent.locks.ReentrantReadWriteLock;
@@ -30,8 +28,6 @@ import org.h2.mvstore.MVStore;
 final class MongoFile extends H2Backend {
     /** Cache of recently read or written data, as on the heap. */
     private static final int CACHE_MEGABYTES = 48;
-    /** Version of the file. In version 0, documents and keys are Java objects, keys in the order of their bytes. */
-    private static final int VERSION = 1;
 
     private static final String INDEX = "._index_";
 
@@ -42,27 +38,13 @@ final class MongoFile extends H2Backend {
         version(EmbeddedMongo.VERSION);
     }
 
-    /** Opens a file, also one of an earlier release. */
     static MongoFile open(Path file) {
-        MVStore store = new MVStore.Builder()
+        return new MongoFile(new MVStore.Builder()
                 .fileName(file.toString())
                 .cacheSize(CACHE_MEGABYTES)
                 .autoCommitDisabled()
                 .autoCommitBufferSize(0)
-                .open();
-        if (store.getStoreVersion() < VERSION) {
-            store.getMapNames().stream().filter(name -> name.contains(INDEX)).forEach(name -> sortAnew(store, name));
-            store.setStoreVersion(VERSION);
-            store.commit();
-        }
-        return new MongoFile(store);
-    }
-
-    private static void sortAnew(MVStore store, String index) {
-        MVMap<KeyValue, Object> old = store.openMap(index);
-        Map<KeyValue, Object> entries = new HashMap<>(old);
-        store.removeMap(old);
-        store.openMap(index, indexMap()).putAll(entries);
+                .open());
     }
 
     private static MVMap.Builder<KeyValue, Object> indexMap() {

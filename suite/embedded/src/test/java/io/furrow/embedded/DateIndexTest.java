@@ -15,10 +15,8 @@ import com.mongodb.client.MongoCollection;
 import com.mongodb.client.model.Filters;
 import com.mongodb.client.model.Indexes;
 import com.mongodb.client.model.Sorts;
-import de.bwaldvogel.mongo.MongoServer;
 import de.bwaldvogel.mongo.backend.IndexKey;
 import de.bwaldvogel.mongo.backend.KeyValue;
-import de.bwaldvogel.mongo.backend.h2.H2Backend;
 import org.bson.Document;
 import org.bson.conversions.Bson;
 import org.h2.mvstore.MVMap;
@@ -60,20 +58,6 @@ class DateIndexTest {
             farm.insertOne(document(5_000, List.of(date(2), date(200))));
             assertSame(farm);
         });
-    }
-
-    @Test
-    void findsWhatAnEarlierReleaseStored() {
-        MVStore store = MVStore.open(directory.resolve("mongo.mv").toString());
-        MongoServer server = new MongoServer(new H2Backend(store));
-        String uri = "mongodb://127.0.0.1:" + server.bind().getPort();
-        use(uri, farm -> {
-            farm.createIndex(Indexes.ascending(INDEXED));
-            IntStream.range(0, MANY).forEach(number -> farm.insertOne(document(number, date(number))));
-        });
-        server.shutdownNow();
-
-        with(DateIndexTest::assertSame);
     }
 
     @Test

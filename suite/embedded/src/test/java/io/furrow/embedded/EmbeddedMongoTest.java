@@ -15,8 +15,6 @@ import com.mongodb.client.MongoCollection;
 import com.mongodb.client.model.Filters;
 import com.mongodb.client.model.ReplaceOptions;
 import com.mongodb.client.model.Sorts;
-import de.bwaldvogel.mongo.MongoServer;
-import de.bwaldvogel.mongo.backend.h2.H2Backend;
 import org.bson.Document;
 import org.bson.types.Binary;
 import org.bson.types.ObjectId;
@@ -73,13 +71,8 @@ class EmbeddedMongoTest {
     }
 
     @Test
-    void goesOnWithAFileOfTheFirstRelease() {
-        // as the library does it by itself: Java objects, and an index in the order of their bytes
-        MVStore store = MVStore.open(directory.resolve("mongo.mv").toString());
-        MongoServer server = new MongoServer(new H2Backend(store));
-        String uri = "mongodb://127.0.0.1:" + server.bind().getPort();
-        use(uri, farm -> IntStream.range(0, MANY).forEach(number -> farm.insertOne(event(number, "old"))));
-        server.shutdownNow();
+    void goesOnWithItsFile() {
+        with(farm -> IntStream.range(0, MANY).forEach(number -> farm.insertOne(event(number, "old"))));
 
         with(farm -> {
             IntStream.range(0, MANY)

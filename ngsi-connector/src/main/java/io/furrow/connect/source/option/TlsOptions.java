@@ -34,7 +34,6 @@ public record TlsOptions(AbstractConfig config) {
     private static final String GROUP = "TLS";
     private static final String PREFIX = "ssl.";
     private static final String NO_CLIENT_AUTH = "none";
-    private static final String FORMER_PREFIX = "tls.";
 
     private static final String TURNS_ON =
             " It enables TLS for notifications; a file that has changed is loaded without a restart.";
@@ -54,7 +53,6 @@ public record TlsOptions(AbstractConfig config) {
     private static final Map<String, ConfigKey> OF_KAFKA = ofKafka();
 
     public TlsOptions {
-        refuseFormerNames(config);
         if (!isOn(config)) {
             USELESS_ALONE.stream()
                     .filter(option -> config.values().get(option) != null)
@@ -70,18 +68,6 @@ public record TlsOptions(AbstractConfig config) {
                     config.getString(CLIENT_AUTH),
                     "needs " + TRUSTSTORE + " or " + TRUSTED + ", which hold the trusted clients");
         }
-    }
-
-    private static void refuseFormerNames(AbstractConfig config) {
-        config.originals().keySet().stream()
-                .filter(name -> name.startsWith(FORMER_PREFIX))
-                .sorted()
-                .findFirst()
-                .ifPresent(former -> {
-                    String name = PREFIX + former.substring(FORMER_PREFIX.length());
-                    String known = config.values().containsKey(name) ? name : KEYSTORE;
-                    throw new ConfigException(known, null, former + " is unknown; the option is called " + known);
-                });
     }
 
     private static boolean trustsSomebody(AbstractConfig config) {
