@@ -1,6 +1,5 @@
 /** Feeds the store from topics: live, or from a replay. */
 import { api } from './api.js';
-import { ANALYTICS } from './jobs.js';
 import { resource } from './resource.js';
 import { deviceKey, endOf, store } from './store.js';
 import { streams } from './stream.js';
@@ -196,7 +195,7 @@ class Feeds {
     const span = store.recordings.get(mission);
     store.setMode({
       kind: 'replay', replay: replay.replay, group, mission, topic, missions: members.map((each) => each.mission),
-      results: Object.fromEntries(ANALYTICS.map((job) => [job, `${topic}.${job}`])),
+      results: Object.fromEntries(store.config.analytics.map((job) => [job, `${topic}.${job}`])),
       state: 'starting', speed: existing?.speed ?? 1, position: span?.first, from: span?.first, to: span?.last, at: Date.now(), epoch: -1,
     });
     this.epochs = new Map();
@@ -273,7 +272,7 @@ export const feeds = new Feeds();
 
 /** Reads the configuration of the server and the user. @throws {import('./api.js').ApiError} */
 export async function loadUser() {
-  store.config = await api.get('/config.json').catch(() => ({}));
+  store.config = await api.get('/config.json').catch(() => store.config);
   store.me = await api.get('/api/me');
   store.notify('me');
 }

@@ -20,7 +20,7 @@ class Store extends Reducers(Object) {
     this.alarmsLoaded = false;
     this.topics = new Map();
     this.me = { user: null, role: null };
-    this.config = {};
+    this.config = { analytics: [] };
     this.connection = { state: 'connecting', since: Date.now(), lastRecord: null, lostSince: null, missed: 0 };
     this.mode = { kind: 'live' };
     this.scope = { domain: null, mission: null };

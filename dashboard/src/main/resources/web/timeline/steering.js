@@ -2,7 +2,6 @@
 import { h, replace } from '../core/dom.js';
 import { dateTime } from '../core/format.js';
 import { icon } from '../core/icons.js';
-import { ANALYTICS } from '../core/jobs.js';
 import { navigate, route } from '../core/router.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
@@ -158,7 +157,7 @@ export const Steering = (Base) => class extends Base {
   async startAt(missions, time) {
     this.announce(t('timeline.starting'), true);
     try {
-      await startReplay({ ...(missions.length > 1 ? { missions } : { mission: missions[0] }), analytics: ANALYTICS });
+      await startReplay({ ...(missions.length > 1 ? { missions } : { mission: missions[0] }), analytics: store.config.analytics });
       if (time) {
         await steer(store.mode, 'seek', { to: Math.round(time) });
       }

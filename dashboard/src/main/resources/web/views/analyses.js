@@ -2,7 +2,6 @@
 import { h, replace, setText } from '../core/dom.js';
 import { clock, dateTime, duration, temperature } from '../core/format.js';
 import { icon } from '../core/icons.js';
-import { ANALYTICS } from '../core/jobs.js';
 import { navigate } from '../core/router.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
@@ -237,7 +236,7 @@ class Analyses extends HTMLElement {
       store.enterReplay(running);
     } else {
       this.announce(t('timeline.starting'));
-      await startReplay({ ...(all.length > 1 ? { missions: all } : { mission: all[0] }), analytics: ANALYTICS });
+      await startReplay({ ...(all.length > 1 ? { missions: all } : { mission: all[0] }), analytics: store.config.analytics });
     }
     await steer(store.mode, 'seek', { to: Math.max(to, Math.min(...firsts)) });
   }

@@ -22,6 +22,8 @@ import com.networknt.schema.SpecVersion.VersionFlag;
 import org.apache.kafka.connect.runtime.distributed.DistributedConfig;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
 import picocli.CommandLine;
 
 import io.furrow.analytics.AnalyticsJobs;
@@ -30,10 +32,10 @@ import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.ingest.IngestJobs;
 import io.furrow.launcher.Furrow;
+import io.furrow.model.result.AnalyticsKind;
 import io.furrow.replay.ReplayJobs;
 
 import static org.assertj.core.api.Assertions.assertThat;
-import static org.assertj.core.api.Assertions.entry;
 
 /** No engine for containers is needed to know that the compose file says what the specification and our programs understand. */
 class ComposeFileTest {
@@ -101,13 +103,22 @@ class ComposeFileTest {
             }
         });
 
-        assertThat(submitted)
-                .containsOnly(
-                        entry("ingest", "ingest.jar"),
-                        entry("temperature", "analytics.jar"),
-                        entry("collision", "analytics.jar"),
-                        entry("presence", "analytics.jar"),
-                        entry("replay", "replay.jar"));
+        Map<String, String> jobs = new HashMap<>(Map.of("ingest", "ingest.jar", "replay", "replay.jar"));
+        AnalyticsKind.jobNames().forEach(job -> jobs.put(job, "analytics.jar"));
+        assertThat(submitted).isEqualTo(jobs);
+    }
+
+    @ParameterizedTest
+    @ValueSource(
+            strings = {
+                "docker/connectors/ngsi-sink.json",
+                "ngsi-connector/config/ngsi-sink.json",
+                "ngsi-connector/config/ngsi-sink-ngsi-ld.json"
+            })
+    void writesTheResultsOfEachJobToTheContextBroker(String connector) throws IOException {
+        JsonNode config = new ObjectMapper().readTree(Path.of("..", connector).toFile());
+
+        assertThat(config.findValue("topics").asText().split(",")).containsAll(AnalyticsKind.topics());
     }
 
     @Test

@@ -4,6 +4,7 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Option;
 
 import io.furrow.analytics.collision.CollisionOptions;
+import io.furrow.analytics.job.AnalyticsOptions;
 import io.furrow.analytics.presence.PresenceOptions;
 import io.furrow.analytics.temperature.TemperatureOptions;
 import io.furrow.flink.job.JobCommandLine;
@@ -27,6 +28,6 @@ public final class AnalyticsJobs {
     }
 
     private static void start(JobOptions options) throws Exception {
-        AnalyticsRegistry.assemble(options).execute();
+        AnalyticsRegistry.assemble((AnalyticsOptions) options).execute();
     }
 }

@@ -4,11 +4,11 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.analytics.collision.CollisionJob;
 import io.furrow.analytics.collision.CollisionOptions;
+import io.furrow.analytics.job.AnalyticsOptions;
 import io.furrow.analytics.presence.PresenceJob;
 import io.furrow.analytics.presence.PresenceOptions;
 import io.furrow.analytics.temperature.TemperatureJob;
 import io.furrow.analytics.temperature.TemperatureOptions;
-import io.furrow.flink.job.JobOptions;
 import io.furrow.model.result.AnalyticsKind;
 
 /** Maps each kind of job to its options and its pipeline. */
@@ -16,7 +16,7 @@ public final class AnalyticsRegistry {
     private AnalyticsRegistry() {}
 
     /** The options to parse. */
-    public static JobOptions options(AnalyticsKind kind) {
+    public static AnalyticsOptions options(AnalyticsKind kind) {
         return switch (kind) {
             case COLLISION -> new CollisionOptions();
             case PRESENCE -> new PresenceOptions();
@@ -24,13 +24,12 @@ public final class AnalyticsRegistry {
         };
     }
 
-    /** @param options the parsed options of one of the kinds */
-    public static StreamExecutionEnvironment assemble(JobOptions options) {
-        if (options instanceof CollisionOptions collision) {
-            return CollisionJob.assemble(collision);
-        }
-        return options instanceof PresenceOptions presence
-                ? PresenceJob.assemble(presence)
-                : TemperatureJob.assemble((TemperatureOptions) options);
+    /** @param options as parsed */
+    public static StreamExecutionEnvironment assemble(AnalyticsOptions options) {
+        return switch (options.kind()) {
+            case COLLISION -> CollisionJob.assemble((CollisionOptions) options);
+            case PRESENCE -> PresenceJob.assemble((PresenceOptions) options);
+            case TEMPERATURE -> TemperatureJob.assemble((TemperatureOptions) options);
+        };
     }
 }

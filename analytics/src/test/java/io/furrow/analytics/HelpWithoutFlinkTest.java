@@ -12,6 +12,7 @@ import org.junit.jupiter.api.Timeout;
 import picocli.CommandLine;
 
 import io.furrow.flink.job.JobOptions;
+import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.topic.Topics;
 import io.furrow.process.TestProcess;
 import io.furrow.unchecked.Unchecked;
@@ -49,7 +50,7 @@ class HelpWithoutFlinkTest {
     void namesTheJobs() throws Exception {
         TestProcess.Ended help = analytics("--help");
 
-        assertThat(help.output()).contains("temperature", "presence").doesNotContain("Exception");
+        assertThat(help.output()).contains(AnalyticsKind.jobNames()).doesNotContain("Exception");
         assertThat(help.status()).isZero();
     }
 

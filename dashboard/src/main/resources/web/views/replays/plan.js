@@ -2,7 +2,6 @@
 import { h, replace, setText } from '../../core/dom.js';
 import { duration, zone } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
-import { ANALYTICS } from '../../core/jobs.js';
 import { TimeInput } from '../../core/local-time.js';
 import { navigate } from '../../core/router.js';
 import { store } from '../../core/store.js';
@@ -111,7 +110,7 @@ export class Plan {
         ...(from > first ? { from: Math.round(from) } : {}),
         ...(this.to.isChosen && to <= last ? { to: Math.round(to) } : {}),
         ...(this.loop.checked ? { loop: true } : {}),
-        ...(this.analytics.checked ? { analytics: ANALYTICS } : {}),
+        ...(this.analytics.checked ? { analytics: store.config.analytics } : {}),
         ...(this.skip.checked && !many ? { maxGap: SHORTENED } : {}),
       });
       navigate('map');

@@ -1,7 +1,7 @@
 /** Arranges topics by use: all reports, results, domains with their missions, replays, control topics, others. */
-import { ANALYTICS } from '../../core/jobs.js';
+import { store } from '../../core/store.js';
 
-const RESULTS = [...ANALYTICS.map((job) => `data.${job}`), 'data.clocks', 'data.images', 'data.context', 'data.catalog'];
+const RESULTS = ['data.clocks', 'data.images', 'data.context', 'data.catalog'];
 /** Shown even if the topic does not exist yet. */
 const ALWAYS = 'data.collision';
 const CANARY = 'canary';
@@ -20,7 +20,7 @@ export function arrange(topics, domains, missions) {
   const names = new Set(topics.map((each) => each.name));
   const claimed = new Set();
   const claim = (list) => list.filter((name) => (names.has(name) || name === ALWAYS) && claimed.add(name));
-  const tree = { all: claim(EVERYTHING), results: claim(RESULTS), domains: domainsOf(names, domains, missions, claimed), replays: [], service: [], other: [], absent: [ALWAYS].filter((name) => !names.has(name)) };
+  const tree = { all: claim(EVERYTHING), results: claim([...store.config.analytics.map((job) => `data.${job}`), ...RESULTS]), domains: domainsOf(names, domains, missions, claimed), replays: [], service: [], other: [], absent: [ALWAYS].filter((name) => !names.has(name)) };
   for (const name of names) {
     if (claimed.has(name)) {
       continue;

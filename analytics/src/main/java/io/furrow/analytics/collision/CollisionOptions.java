@@ -9,6 +9,7 @@ import io.furrow.analytics.collision.motion.MotionOptions;
 import io.furrow.analytics.collision.motion.MotionRules;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.job.AnalyticsOptions;
+import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.topic.Topics;
 
 /** The options of the job {@code collision}. An accessor rejects an invalid value. */
@@ -46,7 +47,7 @@ public final class CollisionOptions extends AnalyticsOptions {
     private String overflowOutput;
 
     public CollisionOptions() {
-        super(Topics.COLLISION, Topics.COLLISION_LATE);
+        super(AnalyticsKind.COLLISION);
     }
 
     public CollisionRules rules() {

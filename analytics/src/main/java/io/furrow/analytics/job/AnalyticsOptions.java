@@ -8,6 +8,7 @@ import picocli.CommandLine.Mixin;
 import io.furrow.flink.job.AlignmentOptions;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.kafka.TopicOptions;
+import io.furrow.model.result.AnalyticsKind;
 
 /** Options of every analytics job. An accessor rejects an invalid value. */
 public abstract class AnalyticsOptions extends JobOptions {
@@ -20,9 +21,15 @@ public abstract class AnalyticsOptions extends JobOptions {
     @Mixin
     private final ResultTopics results;
 
-    /** Takes the default topics. */
-    protected AnalyticsOptions(String output, String lateOutput) {
-        results = new ResultTopics(output, lateOutput);
+    private final AnalyticsKind kind;
+
+    protected AnalyticsOptions(AnalyticsKind kind) {
+        this.kind = kind;
+        results = new ResultTopics(kind.topic(), kind.lateTopic());
+    }
+
+    public AnalyticsKind kind() {
+        return kind;
     }
 
     /** Settings of the topics that the job creates. */

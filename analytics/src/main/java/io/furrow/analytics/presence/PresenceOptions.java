@@ -9,7 +9,7 @@ import picocli.CommandLine.Option;
 import io.furrow.analytics.clock.ClockSettings;
 import io.furrow.analytics.field.FieldOptions;
 import io.furrow.analytics.job.AnalyticsOptions;
-import io.furrow.model.topic.Topics;
+import io.furrow.model.result.AnalyticsKind;
 
 /** The options of the job {@code presence}. An accessor rejects an invalid value. */
 @Command(
@@ -46,7 +46,7 @@ public final class PresenceOptions extends AnalyticsOptions {
     private Duration timeToLive;
 
     public PresenceOptions() {
-        super(Topics.PRESENCE, Topics.PRESENCE_LATE);
+        super(AnalyticsKind.PRESENCE);
     }
 
     public PresenceRules rules() {

@@ -9,7 +9,7 @@ import picocli.CommandLine.Option;
 
 import io.furrow.analytics.field.FieldOptions;
 import io.furrow.analytics.job.AnalyticsOptions;
-import io.furrow.model.topic.Topics;
+import io.furrow.model.result.AnalyticsKind;
 
 /** The options of the job {@code temperature}. An accessor rejects an invalid value. */
 @Command(
@@ -83,7 +83,7 @@ public final class TemperatureOptions extends AnalyticsOptions {
     private Duration repeatWindow;
 
     public TemperatureOptions() {
-        super(Topics.TEMPERATURE, Topics.TEMPERATURE_LATE);
+        super(AnalyticsKind.TEMPERATURE);
     }
 
     FieldOptions fields() {

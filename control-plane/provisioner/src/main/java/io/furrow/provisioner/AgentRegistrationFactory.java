@@ -18,7 +18,6 @@ import io.furrow.model.event.FiwareScope;
  * the place, if the group of the device has one, is a static attribute.
  */
 final class AgentRegistrationFactory {
-    private static final String ROBOT = "Robot";
     private static final Set<String> COMMANDS = new LinkedHashSet<>(List.of("on", "off", "restart"));
 
     private final Supplier<FarmSecret> secret;
@@ -29,7 +28,7 @@ final class AgentRegistrationFactory {
 
     /** Whether a device is provisioned: simulated robots are not, because they write to the context broker directly. */
     static boolean isProvisioned(DesiredDevice desired) {
-        return desired.type() != null && desired.running() && !(desired.simulated() && ROBOT.equals(desired.type()));
+        return desired.type() != null && desired.running() && !(desired.simulated() && desired.isRobot());
     }
 
     /** Whether an API key was derived from the farm's secret, possibly before a rotation. */

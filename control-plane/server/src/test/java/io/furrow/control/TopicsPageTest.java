@@ -15,6 +15,7 @@ import java.util.stream.Stream;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -33,6 +34,7 @@ class TopicsPageTest {
                 .toList();
 
         assertThat(rows()).containsKeys(names.toArray(String[]::new));
+        assertThat(rows()).containsKeys(AnalyticsKind.allTopics().toArray(String[]::new));
     }
 
     @Test

@@ -8,6 +8,7 @@ import jakarta.servlet.http.HttpServletRequest;
 import jakarta.servlet.http.HttpServletResponse;
 
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.result.AnalyticsKind;
 
 /** {@code GET /config.json}: settings of this server for the page. */
 public final class ConfigServlet extends HttpServlet {
@@ -21,6 +22,7 @@ public final class ConfigServlet extends HttpServlet {
         node.put("tileFile", settings.tileFile() == null ? null : TileFile.PATH);
         node.put("signIn", settings.signIn());
         node.put("signOut", settings.signOut());
+        node.set("analytics", NgsiJson.mapper().valueToTree(AnalyticsKind.jobNames()));
         String version = ConfigServlet.class.getPackage().getImplementationVersion();
         node.put("version", version == null ? "development" : version);
         this.config = NgsiJson.write(node);

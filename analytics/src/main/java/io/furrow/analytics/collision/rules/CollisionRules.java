@@ -1,8 +1,9 @@
 package io.furrow.analytics.collision.rules;
 
 import java.io.Serializable;
+import java.nio.charset.StandardCharsets;
 import java.time.Duration;
-import java.util.TreeMap;
+import java.util.UUID;
 
 /**
  * The rules by which encounters are detected and reported.
@@ -77,14 +78,8 @@ public record CollisionRules(
 
     /** Equal for rules by which the same pairs are close, in this and in another JVM. */
     String digest() {
-        return "%s %s %s %s %s %08x"
-                .formatted(
-                        thresholds.meters(),
-                        new TreeMap<>(thresholds.ofTypes()),
-                        timeToLive(),
-                        maxSkew(),
-                        cells,
-                        positions.zones().toString().hashCode());
+        String rules = thresholds + " " + positions + " " + cells;
+        return UUID.nameUUIDFromBytes(rules.getBytes(StandardCharsets.UTF_8)).toString();
     }
 
     /** The greatest threshold of any pair. */

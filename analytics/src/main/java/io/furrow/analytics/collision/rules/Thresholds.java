@@ -44,6 +44,12 @@ public record Thresholds(double meters, Map<String, Double> ofTypes) implements 
         return named != null ? named : Math.max(of(type), of(other));
     }
 
+    /** The same for equal thresholds in every JVM. */
+    @Override
+    public String toString() {
+        return meters + " " + new TreeMap<>(ofTypes);
+    }
+
     /** The greatest threshold of any pair. */
     public double greatest() {
         return ofTypes.values().stream().reduce(meters, Math::max);

@@ -1,13 +1,13 @@
 package io.furrow.control.alarm;
 
 import java.time.Duration;
-import java.util.EnumSet;
 import java.util.LinkedHashSet;
 import java.util.List;
 import java.util.Map;
 import java.util.Objects;
 import java.util.Set;
 import java.util.stream.Collectors;
+import java.util.stream.Stream;
 
 import io.furrow.control.manager.Table;
 import io.furrow.model.control.AlarmKind;
@@ -20,8 +20,9 @@ final class AlarmLimit {
     static final int MAX_COUNTED = 1000;
 
     /** Kinds that are raised per subject. */
-    static final Set<AlarmKind> KINDS = EnumSet.of(
-            AlarmKind.COLLISION, AlarmKind.PREDICTED_ENCOUNTER, AlarmKind.SUSPECT_SENSOR, AlarmKind.CLOCK_BEHIND);
+    static final Set<AlarmKind> KINDS = Stream.of(AlarmKind.values())
+            .filter(kind -> template(kind) != null)
+            .collect(Collectors.toUnmodifiableSet());
 
     private static final long RECOUNT_INTERVAL = Duration.ofSeconds(10).toMillis();
     private static final long SEEN_INTERVAL = Duration.ofSeconds(10).toMillis();
@@ -218,14 +219,17 @@ final class AlarmLimit {
 
     private static String text(Group group) {
         String number = group.counted() < MAX_COUNTED ? group.counted() + " more" : MAX_COUNTED + " or more further";
-        String what = switch (group.kind()) {
+        return template(group.kind()).formatted(number, AlarmGroup.label(group.group()));
+    }
+
+    /** Text of a group alarm; null for a kind that is not raised per subject. */
+    private static String template(AlarmKind kind) {
+        return switch (kind) {
             case COLLISION -> "%s pairs of %s are too close";
             case PREDICTED_ENCOUNTER -> "%s encounters of %s are predicted";
             case SUSPECT_SENSOR -> "%s sensors of %s deviate from the others";
             case CLOCK_BEHIND -> "reports of %s devices of %s arrive too late and are dropped";
-            case MISSING_DEVICES, SILENT_DEVICE, SILENT_MISSION, SILENT_FARM, FAULT ->
-                throw new IllegalStateException("alarms of this kind are not counted by group: " + group.key());
+            case MISSING_DEVICES, SILENT_DEVICE, SILENT_MISSION, SILENT_FARM, FAULT -> null;
         };
-        return what.formatted(number, AlarmGroup.label(group.group()));
     }
 }

@@ -19,6 +19,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.fasterxml.jackson.databind.node.TextNode;
 
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.file.AccessToken;
 import io.furrow.model.ngsi.NgsiJson;
@@ -35,7 +36,6 @@ public final class DeviceCommands implements CommandSender {
     /** Maximum number of asynchronous commands in flight. */
     private static final int MAX_PENDING = 64;
 
-    private static final String ROBOT = "Robot";
     private static final int MAX_QUOTE_LENGTH = 200;
     private static final int NOT_FOUND = 404;
     /** Permanent rejections. Other 4xx responses concern the control plane, like those of a proxy. */
@@ -154,7 +154,7 @@ public final class DeviceCommands implements CommandSender {
 
     /** The desired type of a robot is {@code Robot}, while its entity has the type that it reports, {@code ROBOT} with FIROS. */
     public static boolean isRobot(String type) {
-        return ROBOT.equalsIgnoreCase(type);
+        return DesiredDevice.ROBOT.equalsIgnoreCase(type);
     }
 
     private static ObjectNode body(String type, String command, JsonNode value) {

@@ -24,7 +24,6 @@ import io.furrow.model.ngsi.NgsiJson;
  * @param broker address for devices, {@code mqtt://host:port} or {@code mqtts://host:port}; null if unknown
  */
 public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
-    private static final String ROBOT = "Robot";
     private static final List<String> QR =
             List.of("host", "port", "tls", "user", "password", "measures", "commands", "results");
     /** Width of the border, in modules. */
@@ -35,7 +34,7 @@ public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
 
     /** Whether the farm issues a login for a device: devices listed by id only have their own, simulated robots need none. */
     public static boolean areIssuedFor(DesiredDevice device) {
-        return device.device() != null && !(device.simulated() && ROBOT.equals(device.type()));
+        return device.device() != null && !(device.simulated() && device.isRobot());
     }
 
     /** Returns address, login and topics as JSON in a QR code, as SVG. */

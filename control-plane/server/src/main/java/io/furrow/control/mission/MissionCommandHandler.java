@@ -70,10 +70,11 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
         } else if (command instanceof MissionCommand.RotateCredentials rotate) {
             int generation = devices.rotateCredentials(rotate.device());
             return CommandResult.of("rotated").with("device", rotate.device()).with("generation", generation);
+        } else if (command instanceof MissionCommand.DeleteTemplate delete) {
+            templates.delete(delete.template(), delete.version());
+            return CommandResult.of("deleted").with("template", delete.template());
         }
-        MissionCommand.DeleteTemplate delete = (MissionCommand.DeleteTemplate) command;
-        templates.delete(delete.template(), delete.version());
-        return CommandResult.of("deleted").with("template", delete.template());
+        throw new IllegalStateException("command " + command + " has no handler");
     }
 
     private CommandResult create(MissionCommand.Create create, long now) throws RejectedException {

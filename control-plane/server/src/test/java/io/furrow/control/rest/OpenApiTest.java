@@ -7,6 +7,7 @@ import java.util.Map;
 import java.util.Set;
 import java.util.TreeMap;
 import java.util.TreeSet;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.networknt.schema.JsonSchemaFactory;
@@ -18,7 +19,9 @@ import org.junit.jupiter.api.Test;
 import io.furrow.control.rest.access.RoleFilter;
 import io.furrow.files.Folders;
 import io.furrow.model.control.AdminCommands;
+import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.Role;
+import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -43,6 +46,23 @@ class OpenApiTest {
                 .json()
                 .at("/components/schemas")
                 .forEach(schema -> assertThat(meta.validate(schema)).isEmpty());
+    }
+
+    @Test
+    void namesEachKindOfAlarmAndAnalyticsJob() throws Exception {
+        JsonNode schemas = OpenApiDocument.read().json().at("/components/schemas");
+
+        assertThat(texts(schemas.at("/Alarm/properties/kind/enum")))
+                .containsExactlyInAnyOrderElementsOf(
+                        Stream.of(AlarmKind.values()).map(AlarmKind::code).toList());
+        assertThat(texts(schemas.at("/NewReplay/properties/analytics/items/enum")))
+                .containsExactlyInAnyOrderElementsOf(AnalyticsKind.jobNames());
+    }
+
+    private static List<String> texts(JsonNode values) {
+        List<String> texts = new ArrayList<>();
+        values.forEach(value -> texts.add(value.asText()));
+        return texts;
     }
 
     @Test

@@ -55,6 +55,11 @@ public record MeasuredAttribute(String objectId, String name, String type, Strin
                             of("rain", "Rain", FLOAT),
                             of("sun", "SolarRadiation", FLOAT)));
 
+    /** Returns the attributes that only devices of a type have; empty for an unknown type. */
+    public static List<MeasuredAttribute> ofType(String type) {
+        return BY_TYPE.getOrDefault(type, List.of());
+    }
+
     private static MeasuredAttribute of(String objectId, String name, String type) {
         return new MeasuredAttribute(objectId, name, type, null);
     }
@@ -68,7 +73,7 @@ public record MeasuredAttribute(String objectId, String name, String type, Strin
      */
     public static List<MeasuredAttribute> of(String type, boolean simulated, JsonNode named, boolean placed) {
         Map<String, MeasuredAttribute> byName = new LinkedHashMap<>();
-        List<MeasuredAttribute> ofType = BY_TYPE.getOrDefault(type, List.of());
+        List<MeasuredAttribute> ofType = ofType(type);
         ofType.forEach(each -> byName.put(each.name(), each));
         COMMON.forEach(each -> byName.put(each.name(), each));
         if (ofType.isEmpty() || !simulated) {

@@ -39,6 +39,9 @@ public record DesiredDevice(
         ObjectNode settings,
         GroupRef group,
         int generation) {
+    /** The type of robots, whatever the type that their entities report. */
+    public static final String ROBOT = "Robot";
+
     private static final String SETTINGS = "settings";
     private static final String GROUP = "group";
     private static final String SIMULATED = "simulated";
@@ -65,6 +68,10 @@ public record DesiredDevice(
 
     public DesiredDevice withGeneration(int other) {
         return new DesiredDevice(version, type, device, running, period, simulated, settings, group, other);
+    }
+
+    public boolean isRobot() {
+        return ROBOT.equals(type);
     }
 
     /**

@@ -6,21 +6,11 @@ import java.util.Locale;
 import java.util.Optional;
 import java.util.stream.Stream;
 
-import io.furrow.model.topic.Topics;
-
 /** The analytics jobs, with the topics of their results. */
 public enum AnalyticsKind {
-    COLLISION(Topics.COLLISION, Topics.COLLISION_LATE),
-    PRESENCE(Topics.PRESENCE, Topics.PRESENCE_LATE),
-    TEMPERATURE(Topics.TEMPERATURE, Topics.TEMPERATURE_LATE);
-
-    private final String topic;
-    private final String lateTopic;
-
-    AnalyticsKind(String topic, String lateTopic) {
-        this.topic = topic;
-        this.lateTopic = lateTopic;
-    }
+    COLLISION,
+    PRESENCE,
+    TEMPERATURE;
 
     /** Returns the job of a name in lower case, such as {@code collision}. */
     public static Optional<AnalyticsKind> named(String name) {
@@ -35,12 +25,22 @@ public enum AnalyticsKind {
 
     /** Returns the result topics of the live jobs. */
     public static List<String> topics() {
-        return Arrays.stream(values()).map(kind -> kind.topic).toList();
+        return Arrays.stream(values()).map(AnalyticsKind::topic).toList();
     }
 
     /** Returns all topics of the live jobs: results and late records. */
     public static Stream<String> allTopics() {
-        return Arrays.stream(values()).flatMap(kind -> Stream.of(kind.topic, kind.lateTopic));
+        return Arrays.stream(values()).flatMap(kind -> Stream.of(kind.topic(), kind.lateTopic()));
+    }
+
+    /** Returns the topic of the results. */
+    public String topic() {
+        return "data." + jobName();
+    }
+
+    /** Returns the topic of the records that came after their results. */
+    public String lateTopic() {
+        return topic() + ".late";
     }
 
     /** Returns the name of the job, which is also the last part of its result topic for a replay. */

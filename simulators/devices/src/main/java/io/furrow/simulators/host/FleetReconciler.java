@@ -36,7 +36,6 @@ import io.furrow.simulators.scenario.SimulatedDevice;
  */
 final class FleetReconciler {
     private static final Logger LOG = LoggerFactory.getLogger(FleetReconciler.class);
-    private static final String ROBOT = "Robot";
 
     private final Consumer<Collection<FarmFleet.Member>> add;
     private final Consumer<String> remove;
@@ -119,7 +118,7 @@ final class FleetReconciler {
                 desired.remove(key);
             } else {
                 desired.put(key, device);
-                robots |= ROBOT.equals(device.type());
+                robots |= device.isRobot();
             }
             Step step = reconciler.take(key, device).orElse(null);
             if (step == null && device == null) {
@@ -197,7 +196,7 @@ final class FleetReconciler {
         }
         if (version.carriedBy() != null) {
             DesiredDevice carrier = desired.get(scope.identity(version.carriedBy()));
-            if (carrier == null || !ROBOT.equals(carrier.type()) || !carrier.running()) {
+            if (carrier == null || !carrier.isRobot() || !carrier.running()) {
                 throw new InvalidScenarioException(
                         "carriedBy", "'%s' is not a robot that runs here".formatted(version.carriedBy()));
             }

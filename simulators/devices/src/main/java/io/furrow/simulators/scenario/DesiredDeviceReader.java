@@ -4,7 +4,6 @@ import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
 import java.util.Map;
-import java.util.Set;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
@@ -26,9 +25,7 @@ public final class DesiredDeviceReader {
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
     private static final Duration PERIOD = Duration.ofSeconds(5);
     private static final Map<String, Duration> PERIODS =
-            Map.of("Robot", Duration.ofSeconds(1), "Camera", Duration.ofSeconds(10));
-    private static final String ROBOT = "Robot";
-    private static final Set<String> SIMULATED_TYPES = Set.of("Thermometer", "WeatherStation", "Camera", ROBOT);
+            Map.of(DesiredDevice.ROBOT, Duration.ofSeconds(1), "Camera", Duration.ofSeconds(10));
     private static final List<String> NO_PARAMETERS =
             List.of("type id entity count period area at route path speed faults carriedBy attributes".split(" "));
     private static final Pattern NUMBERED = Pattern.compile(".*-(\\d{1,9})");
@@ -65,7 +62,7 @@ public final class DesiredDeviceReader {
         if (desired.settings().has("faults")) {
             entry.set("faults", desired.settings().get("faults"));
         }
-        if (!SIMULATED_TYPES.contains(desired.type()) && desired.settings().has("attributes")) {
+        if (!GroupReader.TYPES.contains(desired.type()) && desired.settings().has("attributes")) {
             ArrayNode attributes = entry.putArray("attributes");
             desired.settings()
                     .get("attributes")
@@ -97,7 +94,7 @@ public final class DesiredDeviceReader {
     private PlaceReader place(DesiredDevice desired, ObjectNode entry) throws InvalidScenarioException {
         ObjectNode settings = desired.settings();
         String carrier = desired.version().carriedBy();
-        boolean robot = desired.type().equals(ROBOT);
+        boolean robot = desired.isRobot();
         if (robot && carrier != null) {
             throw new InvalidScenarioException("carriedBy", "a robot goes by itself; leave it out");
         }

@@ -4,7 +4,10 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.OptionalDouble;
+import java.util.Set;
 
+import io.furrow.model.control.MeasuredAttribute;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.simulators.device.DeviceRegistration;
 import io.furrow.simulators.robot.RobotModel;
 import io.furrow.simulators.robot.Trajectory;
@@ -21,6 +24,9 @@ import io.furrow.simulators.signal.Weather;
  * Reads an entry of a mission's {@code devices}: a device, or a {@code count} of them that differ in place and seed.
  */
 final class GroupReader {
+    /** The types whose attributes are known, see {@link MeasuredAttribute}. */
+    static final Set<String> TYPES = Set.of("Thermometer", "WeatherStation", "Camera", DesiredDevice.ROBOT);
+
     private static final long MAX_DEVICES = 100_000;
     private static final double COLDEST = -60;
     private static final double HOTTEST = 60;
@@ -68,10 +74,10 @@ final class GroupReader {
         }
         long own = RandomStream.seed(seed, identity.mission() + "/" + identity.id());
         return switch (identity.type()) {
-            case "Thermometer" -> sensor(group, identity, number, own, thermometer(weather(group, own)));
-            case "WeatherStation" -> sensor(group, identity, number, own, station(weather(group, own)));
+            case "Thermometer", "WeatherStation" ->
+                sensor(group, identity, number, own, quantities(identity.type(), weather(group, own)));
             case "Camera" -> camera(group, identity, number, own);
-            case "Robot" -> robot(group, identity, period);
+            case DesiredDevice.ROBOT -> robot(group, identity, period);
             default -> other(group, identity, number, own);
         };
     }
@@ -134,9 +140,8 @@ final class GroupReader {
             return List.of();
         }
         Duration life = atLeastAMillisecond(group, "battery");
-        return List.of(quantity(
-                "bat",
-                "battery",
+        return List.of(new Quantity(
+                new DeviceRegistration.Attribute("bat", "battery", "Float"),
                 Curves.batteryLevel(life, RandomStream.seed(own, "battery")).rounded(3)));
     }
 
@@ -186,22 +191,24 @@ final class GroupReader {
         return signal;
     }
 
-    private static List<Quantity> thermometer(Weather weather) {
-        return List.of(quantity("temp", "Temperature", weather.temperature()));
+    private static List<Quantity> quantities(String type, Weather weather) {
+        return MeasuredAttribute.ofType(type).stream()
+                .map(each -> new Quantity(
+                        new DeviceRegistration.Attribute(each.objectId(), each.name(), each.type()),
+                        signal(each.name(), weather)))
+                .toList();
     }
 
-    private static List<Quantity> station(Weather weather) {
-        return List.of(
-                quantity("temp", "Temperature", weather.temperature()),
-                quantity("hum", "Humidity", weather.humidity()),
-                quantity("press", "Pressure", weather.pressure()),
-                quantity("wind", "WindSpeed", weather.windSpeed()),
-                quantity("dir", "WindDirection", weather.windDirection()),
-                quantity("rain", "Rain", weather.rain()),
-                quantity("sun", "SolarRadiation", weather.radiation()));
-    }
-
-    private static Quantity quantity(String objectId, String name, Signal signal) {
-        return new Quantity(new DeviceRegistration.Attribute(objectId, name, "Float"), signal);
+    private static Signal signal(String attribute, Weather weather) {
+        return switch (attribute) {
+            case "Temperature" -> weather.temperature();
+            case "Humidity" -> weather.humidity();
+            case "Pressure" -> weather.pressure();
+            case "WindSpeed" -> weather.windSpeed();
+            case "WindDirection" -> weather.windDirection();
+            case "Rain" -> weather.rain();
+            case "SolarRadiation" -> weather.radiation();
+            default -> throw new IllegalArgumentException("no signal simulates the attribute " + attribute);
+        };
     }
 }

@@ -78,8 +78,8 @@ public final class DeadLettersCommand {
                             split = ",",
                             hideParamSyntax = true,
                             description =
-                                    "Only those of these stages. Default: all but routes, ingest-images, missions, temperature, "
-                                            + "collision and presence, where the event itself was processed and would become a duplicate.")
+                                    "Only those of these stages. Default: all but routes, ingest-images, missions and the "
+                                            + "analytics jobs, where the event itself was processed and would become a duplicate.")
                     Set<String> stages,
             @Option(names = "--again", description = "Also those that this command has sent back before.")
                     boolean again,

@@ -13,11 +13,12 @@ import io.furrow.cli.option.CommandException;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.launcher.replay.AnalyticsException;
 import io.furrow.launcher.replay.AnalyticsExecutor;
+import io.furrow.model.result.AnalyticsKind;
 
 /** Runs analytics of replays on the suite's Flink, in reserved slots. */
 final class EmbeddedAnalytics implements AnalyticsExecutor {
-    /** Four replays with all three jobs each. */
-    static final int SLOTS = 12;
+    /** Four replays with all jobs each. */
+    static final int SLOTS = 4 * AnalyticsKind.values().length;
 
     private final EmbeddedFlink flink;
     private final Jobs jobs;

@@ -47,8 +47,8 @@ public final class Suite implements AutoCloseable {
 
     private static final String AGENT_USER = "iot-agent";
 
-    /** One for each of our jobs, and those of replays. */
-    private static final int SLOTS = 9 + EmbeddedAnalytics.SLOTS;
+    /** One for each of our jobs, three for others, and those of replays. */
+    private static final int SLOTS = 6 + AnalyticsKind.values().length + EmbeddedAnalytics.SLOTS;
 
     private final SuiteSettings settings;
     private final RunDirectory directory;

@@ -74,7 +74,7 @@ final class SuiteJobs {
         return switch (kind) {
             case COLLISION -> collision();
             case TEMPERATURE -> Stream.of("--window", settings.window());
-            case PRESENCE -> Stream.empty();
+            default -> Stream.empty();
         };
     }
 

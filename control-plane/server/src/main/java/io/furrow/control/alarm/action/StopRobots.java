@@ -17,6 +17,7 @@ import io.furrow.control.alarm.watch.EncounterReport;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.CommandSender;
 import io.furrow.kafka.BoundedMap;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
@@ -56,7 +57,7 @@ public final class StopRobots {
      */
     public record Settings(CommandSender sender, Set<String> types) {
         public static Settings of(CommandSender sender) {
-            return new Settings(sender, Set.of("Robot", "ROBOT"));
+            return new Settings(sender, Set.of(DesiredDevice.ROBOT, "ROBOT"));
         }
     }
 
