@@ -83,10 +83,12 @@ final class ResultCollector {
         if (start.isPresent() && time.isPresent() && closest.isPresent()) {
             String pair = entity.text(CollisionResult.FIRST.id()).orElse("?") + " – "
                     + entity.text(CollisionResult.SECOND.id()).orElse("?");
+            String types = entity.text(CollisionResult.FIRST.type()).orElse("") + " "
+                    + entity.text(CollisionResult.SECOND.type()).orElse("");
             encounters.merge(
                     entity.text(CollisionResult.ENCOUNTER).orElse(entity.id()),
                     new Encounter(
-                            new ResultSubject(scope, pair),
+                            new ResultSubject(scope, types, pair),
                             start.get(),
                             time.get(),
                             !phase.equals(CollisionResult.ENDED),
@@ -103,6 +105,7 @@ final class ResultCollector {
         }
         ResultSubject subject = new ResultSubject(
                 scope,
+                entity.text(PresenceResult.DEVICE_TYPE).orElse(""),
                 entity.text(PresenceResult.DEVICE).orElse("?") + " in "
                         + entity.text(PresenceResult.FIELD).orElse("?"));
         boolean left = entity.text(PresenceResult.PHASE)
@@ -122,7 +125,7 @@ final class ResultCollector {
         }
         String attribute = entity.type().substring(FieldResult.TYPE_PREFIX.length());
         ResultSubject subject =
-                new ResultSubject(scope, entity.text(FieldResult.FIELD).orElse("?") + " " + attribute);
+                new ResultSubject(scope, "", entity.text(FieldResult.FIELD).orElse("?") + " " + attribute);
         Set<String> suspects = new HashSet<>();
         for (JsonNode suspect : entity.value(FieldResult.SUSPECTS).map(List::of).orElse(List.of())) {
             suspect.forEach(device -> suspects.add(device.asText()));

@@ -158,6 +158,20 @@ class ComparisonTest {
                 .isFalse();
     }
 
+    /** Both stays have the same field, device id and time. */
+    @Test
+    void distinguishesEntitiesOfOneId() {
+        Comparison comparison = Comparison.of(
+                side("a", left("x", "Robot", "f", 1, 2), left("x", "Camera", "f", 1, 2)),
+                side("b", left("x", "Robot", "f", 1, 2)),
+                TimeRange.ALL);
+
+        assertThat(comparison.matches().get(ResultKind.STAYS))
+                .filteredOn(match -> match.verdict() != Verdict.SAME)
+                .singleElement()
+                .satisfies(match -> assertThat(match.subject().types()).isEqualTo("Camera"));
+    }
+
     /** The job's own entity, in an epoch that is not the first. */
     @Test
     void readsEncountersAsTheJobWritesThem() {
@@ -176,7 +190,7 @@ class ComparisonTest {
         collector.add(ResultKind.ENCOUNTERS, 3, "farm|/", entity);
 
         assertThat(collector.spans(ResultKind.ENCOUNTERS))
-                .containsExactly(new Encounter(new ResultSubject("farm|/", "x – y"), T0, T0 + 5000, false, 1.25));
+                .containsExactly(new Encounter(new ResultSubject("farm|/", "Robot Robot", "x – y"), T0, T0 + 5000, false, 1.25));
     }
 
     private static PositionFix fix(String id, long time) {

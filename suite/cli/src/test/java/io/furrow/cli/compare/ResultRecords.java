@@ -43,6 +43,13 @@ final class ResultRecords {
                 .build();
     }
 
+    static Entity left(String device, String type, String field, int start, int end) {
+        return presence(device, field, "left", start, end)
+                .text("deviceType", type)
+                .text("stay", type + device + field + "-" + (T0 + start * 1000L))
+                .build();
+    }
+
     private static EntityBuilder presence(String device, String field, String phase, int start, int time) {
         return Entity.builder("Analytics:Presence:" + device + field, "Analytics:Presence")
                 .text("device", device)
