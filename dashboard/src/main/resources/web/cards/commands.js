@@ -52,7 +52,7 @@ export function outcomeOf(entity, sent, now) {
   const prefix = `${sent.command}_status` in entity.attributes ? sent.command : 'cmd';
   const status = String(entity.attributes[`${prefix}_status`]?.value ?? '').toUpperCase();
   const info = entity.attributes[`${prefix}_info`]?.value;
-  const reported = !sent.waiting && entity.time >= sent.at;
+  const reported = !sent.waiting && entity.heard >= sent.at;
   if (reported && (status === 'ERROR' || status === 'EXPIRED' || status === 'FAILED')) {
     return { state: 'failed', info: text(info) };
   }

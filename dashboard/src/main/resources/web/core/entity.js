@@ -2,7 +2,7 @@
 import { hasUnit, shortId } from './format.js';
 import { parse } from './json.js';
 import { Line } from './line.js';
-import { finite, isPercent, positionOf, quantityOf } from './readings.js';
+import { finite, isPercent, jsonOf, positionOf, quantityOf } from './readings.js';
 
 /** Points stored of a trail or a series. */
 const POINTS = 120;
@@ -33,6 +33,7 @@ const ATTENTION_WORDS = new Set(['error', 'fault', 'faulty', 'failed', 'blocked'
  * @property {Object<string, {type: string, value: *, metadata: Object, percent: boolean, time: number}>} attributes values of FIROS are parsed;
  *     `percent` if a number without a unit once exceeded 1
  * @property {number} time of its newest report, event time, epoch ms
+ * @property {number} heard when a report was received last, epoch ms
  * @property {[number, number]|null} position degrees, longitude first
  * @property {string|null} positionFault why there is no position
  * @property {number} positionTime time of the report with the position or fault, epoch ms
@@ -55,7 +56,7 @@ const NO_TRAIL = new Line(['lon', 'lat', 'time'], 0);
 /** @returns {Entity} */
 export function newEntity(identity) {
   return {
-    id: identity.key, identity, difference: '', type: '', kind: 'other', name: shortId(identity.id), attributes: Object.create(null), time: 0, position: null, positionFault: null, positionTime: 0, heading: null, speed: null,
+    id: identity.key, identity, difference: '', type: '', kind: 'other', name: shortId(identity.id), attributes: Object.create(null), time: 0, heard: 0, position: null, positionFault: null, positionTime: 0, heading: null, speed: null,
     period: null, place: null, trail: NO_TRAIL, series: new Map(), domain: null, mission: null, word: null, state: 'ok', suspect: false, omitted: 0,
   };
 }
@@ -91,7 +92,8 @@ export function applyReport(entity, record) {
     }
     entity.time = record.time;
   }
-  describe(entity, reported, record.time);
+  entity.heard = Math.max(entity.heard, Number(record.headers?.['ts-source']) || record.time);
+  describe(entity, record);
   if (newer) {
     appendPoints(entity, reported, record.time);
   }
@@ -103,7 +105,8 @@ function readAttribute(name, reported) {
   }
   const attribute = { type: text(reported.type), value: readValue(reported.value), metadata: reported.metadata ?? {} };
   // without a unit a text is not known to be a number: it may be a code with leading zeros
-  return typeof attribute.value === 'string' && hasUnit(name, attribute) ? { ...attribute, value: finite(attribute.value) ?? attribute.value } : attribute;
+  const number = typeof attribute.value === 'string' && hasUnit(name, attribute) ? finite(attribute.value) : null;
+  return number === null || (Number.isInteger(number) && !Number.isSafeInteger(number)) ? attribute : { ...attribute, value: number };
 }
 
 /** Parses values of FIROS: ROS messages as text with `%27` for quotes. */
@@ -113,7 +116,7 @@ function readValue(value) {
   }
   if (value.startsWith('{%27') && value.length < MAX_VALUE) {
     try {
-      const message = parse(value.replaceAll('%27', '"'));
+      const message = parse(jsonOf(value));
       const names = Object.keys(message);
       if (names.length === 1 && names[0] === 'data') {
         return message.data;
@@ -137,21 +140,25 @@ function truncated(value) {
   return value;
 }
 
-function describe(entity, reported, time) {
+function describe(entity, { value: reported, headers, time }) {
   const attributes = entity.attributes;
   entity.name = nameOf(entity);
   entity.kind = kindOf(entity);
   entity.domain = text(attributes.Domain?.value) || null;
   entity.mission = text(attributes.Mission?.value) || null;
-  entity.speed = quantityOf(attributes.speed ?? attributes.Speed, 'SPEED');
-  entity.heading = quantityOf(attributes.heading ?? attributes.Heading, 'HEADING');
+  entity.speed = within(quantityOf(attributes.speed, 'SPEED'), Infinity);
+  entity.heading = within(quantityOf(attributes.heading, 'HEADING'), 360);
   entity.word = wordOf(attributes);
-  const found = positionOf(reported);
+  const found = positionOf(reported, headers);
   if ((found.position || found.fault) && time >= entity.positionTime) {
     entity.position = found.position ?? entity.position;
     entity.positionFault = found.fault ?? null;
     entity.positionTime = time;
   }
+}
+
+function within(number, max) {
+  return number >= 0 && number <= max ? number : null;
 }
 
 /** The display name of an entity. */
@@ -231,14 +238,14 @@ function addNumber(series, name, time, value) {
  */
 export function applyPast(entity, records) {
   const past = { position: null, place: null, trail: NO_TRAIL, series: new Map(), attributes: Object.create(null) };
-  for (const { time, value } of records) {
+  for (const { time, value, headers } of records) {
     if (value === null || typeof value !== 'object' || Array.isArray(value) || time > entity.time) {
       continue;
     }
     for (const name in value) {
       !FRAME.has(name) && name in entity.attributes && (past.attributes[name] = readAttribute(name, value[name]));
     }
-    past.position = positionOf(value).position ?? past.position;
+    past.position = positionOf(value, headers).position ?? past.position;
     appendPoints(past, value, time);
   }
   entity.trail === NO_TRAIL ? (entity.trail = past.trail) : entity.trail.prepend(past.trail, 'time');
@@ -255,10 +262,11 @@ export function applyPast(entity, records) {
  *
  * @param {Entity} entity
  * @param {number} now the page's time, epoch ms
+ * @param {number} reported when it reported last, by the same clock
  * @param {string|null} period configured by its mission, ISO 8601; null if there is none
  * @returns {'ok'|'attention'|'stale'|'off'}
  */
-export function stateOf(entity, now, period = null) {
+export function stateOf(entity, now, reported, period = null) {
   const word = entity.word?.toLowerCase() ?? '';
   if (OFF_WORDS.has(word)) {
     return 'off';
@@ -266,7 +274,7 @@ export function stateOf(entity, now, period = null) {
   const configured = millisOf(period);
   const observed = entity.period === null ? STALE_AFTER : Math.min(10 * STALE_AFTER, 3 * entity.period);
   const timeout = Math.max(10_000, configured === null ? observed : 3 * configured);
-  if (now - entity.time > timeout) {
+  if (now - reported > timeout) {
     return 'stale';
   }
   return entity.suspect || entity.positionFault || ATTENTION_WORDS.has(word) ? 'attention' : 'ok';

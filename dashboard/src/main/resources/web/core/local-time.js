@@ -38,13 +38,19 @@ export class TimeInput {
 
   /** Epoch ms; NaN if the input is empty. */
   get time() {
-    return this.isChosen ? ofLocal(this.element.value, this.last) : this.exact;
+    return this.isChosen ? ofLocal(this.element.value, this.last, this.exact) : this.exact;
   }
 }
 
-/** Parses a `datetime-local` value. @param {boolean} last whether an ambiguous local time means the last of two */
-export function ofLocal(text, last) {
+/**
+ * Parses a `datetime-local` value.
+ *
+ * @param {boolean} last whether an ambiguous local time means the last of two
+ * @param {number} bound latest time in question if `last`, else the earliest; the other of two is taken if only it is within
+ */
+export function ofLocal(text, last, bound = NaN) {
   const first = Date.parse(text);
   const other = first + wallClock(first) - wallClock(first + AFTER_A_CHANGE) + AFTER_A_CHANGE;
-  return last && wallClock(other) === wallClock(first) ? Math.max(first, other) : first;
+  const both = wallClock(other) === wallClock(first) ? [first, other].sort((a, b) => (last ? b - a : a - b)) : [first];
+  return both.find((time) => (last ? time <= bound : time >= bound)) ?? both[0];
 }

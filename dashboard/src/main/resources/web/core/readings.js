@@ -6,6 +6,7 @@
 const DECIMAL = /^[+-]?(\d{1,40}(\.\d{0,40})?|\.\d{1,40})([eE][+-]?\d{1,3})?$/;
 const SPACE = 0x20;
 const PAIRS = [['Latitude', 'Longitude'], ['latitude', 'longitude']];
+const POSITIONS = ['location', 'gnss', 'pose', ...PAIRS.flat()];
 const BATTERIES = ['battery', 'batteryLevel'];
 const QUOTE = '%27';
 
@@ -17,11 +18,16 @@ const QUANTITIES = {
   SHARE: { __proto__: null, C62: (value) => value, P1: (value) => value / 100 },
 };
 
-/** A finite number, also given as text; null for everything else. */
+/** A finite number, also given as text or as a FIROS message with one number; null for everything else. */
 export function finite(value) {
   const text = typeof value === 'string' ? trimmed(value) : '';
-  const number = DECIMAL.test(text) ? Number(text) : value;
+  const number = DECIMAL.test(text) ? Number(text) : text.startsWith(`{${QUOTE}`) ? only(messageOf(text)) : value;
   return typeof number === 'number' && Number.isFinite(number) ? number : null;
+}
+
+function only(message) {
+  const members = Object.values(message ?? {});
+  return members.length === 1 ? finite(members[0]) : null;
 }
 
 /** Trims as Java does: removes characters up to U+0020 at both ends. */
@@ -79,10 +85,15 @@ export function chargeOf(attributes) {
  * The position in a report.
  *
  * @param {Object<string, {value: *}>} reported attributes of one record
+ * @param {Object<string, string>} headers of the record; `later-attributes` names attributes that are later than it
  * @returns {{position: [number, number]}|{fault: 'no-number'|'no-point'|'out-of-range'|'no-fix'}|{}} degrees, longitude first; empty if the report
  *     has none
  */
-export function positionOf(reported) {
+export function positionOf(reported, headers = {}) {
+  const later = headers['later-attributes']?.split(',') ?? [];
+  if (POSITIONS.some((name) => later.includes(name))) {
+    return {};
+  }
   const value = (name) => (Object.hasOwn(reported, name) ? reported[name]?.value ?? undefined : undefined);
   const location = value('location');
   if (isPresent(location) && !isBlank(location)) {
@@ -121,13 +132,17 @@ function checked(longitude, latitude) {
   return lat === 0 && lon === 0 ? { fault: 'no-fix' } : { position: [lon, lat] };
 }
 
-/** Parses a ROS message, which FIROS writes as text with `%27` for quotes. */
+/** The JSON of a ROS message, which FIROS writes with `%27` for quotes; ROS writes numbers that are not measured as NaN, which become null. */
+export function jsonOf(message) {
+  return message.replaceAll(QUOTE, '"').replace(/"(?:[^"\\]|\\.)*"|NaN|-?Infinity/g, (found) => (found.startsWith('"') ? found : 'null'));
+}
+
 function messageOf(value) {
   if (typeof value !== 'string') {
     return value;
   }
   try {
-    return JSON.parse(value.replaceAll(QUOTE, '"'));
+    return JSON.parse(jsonOf(value));
   } catch {
     return null;
   }

@@ -29,6 +29,7 @@ export const Reducers = (Base) => class extends Base {
     if (record.cut) {
       entity.cut = record.cut;
       entity.time = Math.max(entity.time, record.time);
+      entity.heard = Math.max(entity.heard, entity.time);
     } else if (typeof record.value === 'object' && !Array.isArray(record.value)) {
       applyReport(entity, record);
     }

@@ -104,7 +104,7 @@ class Store extends Reducers(Object) {
   }
 
   stateOf(entity) {
-    return stateOf(entity, this.now(), this.deviceOf(entity)?.period);
+    return stateOf(entity, this.now(), this.isReplay ? entity.time : entity.heard, this.deviceOf(entity)?.period);
   }
 
   /** The device of an entity in the REST API; robots of FIROS write their type in upper case. @returns {Object|undefined} */

@@ -71,7 +71,7 @@ function reach(listed, entity, { outside }, { now }) {
   if (!outside && listed?.wanted === 'stopped') {
     return { level: 'ok', what: 'reach', text: 'off', values: {} };
   }
-  const seen = Math.max(listed?.health?.lastSeen ?? 0, entity?.time ?? 0);
+  const seen = Math.max(listed?.health?.heard ?? listed?.health?.lastSeen ?? 0, entity?.heard ?? 0);
   if (seen === 0) {
     return { level: outside ? 'warning' : 'unknown', what: 'reach', text: 'neverSeen', values: {} };
   }

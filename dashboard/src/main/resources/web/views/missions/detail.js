@@ -119,7 +119,7 @@ export class MissionDetail {
   row(device, now) {
     const health = device.health ?? {};
     const state = device.status?.state ?? t('missions.notYet');
-    const seen = Math.max(health.lastSeen ?? 0, (!store.isReplay && store.entityOf(device)?.time) || 0);
+    const seen = Math.max(health.heard ?? health.lastSeen ?? 0, (!store.isReplay && store.entityOf(device)?.heard) || 0);
     const sound = health.off ? ['muted', t('states.off')] : health.silent ? ['warn', t('states.stale')] : seen ? ['good', t('states.ok')] : ['muted', '–'];
     return h('tr', null,
       h('th', { scope: 'row' }, h('button.sort', { type: 'button', data: { act: device.id }, title: t('missions.onMap', { device: shortId(device.id) }), on: { click: () => { const key = store.entityOf(device)?.id ?? device.id; store.select(key, { reveal: true }); navigate('map', { select: key }); } } }, shortId(device.id))),

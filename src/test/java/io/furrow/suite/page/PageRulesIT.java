@@ -90,7 +90,8 @@ class PageRulesIT {
                 const { quantityOf } = await import('/core/readings.js');
                 report('a', 'Device', '', parse(`{"code": {"value": 840380235174088834}, "least": {"value": -9007199254740993}, "far": {"value": 1E400},
                   "zeros": {"value": "0042"}, "battery": {"value": 1, "metadata": {"unitCode": {"value": "P1"}}}, "batteryLevel": {"value": 0.07},
-                  "speed": {"value": "36", "metadata": {"unitCode": {"value": "KMH"}}}, "serial": {"value": 12345678901}}`));
+                  "speed": {"value": "36", "metadata": {"unitCode": {"value": "KMH"}}}, "serial": {"value": 12345678901},
+                  "energy": {"value": 12345678901234567, "metadata": {"unitCode": {"value": "WHR"}}}}`));
                 const entity = store.entities.get('a');
                 return [...allAttributes(entity).map(({ name, value }) => `${name}=${value}`),
                   ...keyAttributes(entity, 9).map(({ label, value, unit }) => `${label}: ${value} ${unit}`.trim()), `${entity.speed} m/s`];"""))
@@ -99,12 +100,38 @@ class PageRulesIT {
                         "least=-9007199254740993",
                         "far=1E400",
                         "zeros=0042",
+                        "energy=12345678901234567",
                         "Code: 840380235174088834",
                         "Serial: 12 345 678 901",
                         "Battery: 1 %",
                         "Battery level: 7 %",
                         "Speed: 36 km/h",
                         "10 m/s");
+    }
+
+    /** The first report is from a device whose clock is two minutes behind, the second has a position of another time. */
+    @Test
+    void judgesADeviceByTheReceiptOfItsReports() {
+        assertThat(run(REPORT + """
+                const receive = (id, headers, value) => store.applyEntity({ key: id, kind: 'event', time: Date.now() - 120_000, headers, value: { id, type: 'Device', ...value } });
+                receive('slow', { 'ts-source': String(Date.now()) }, { Temperature: { value: 20 } });
+                receive('old', {}, { Temperature: { value: 20 } });
+                receive('later', { 'later-attributes': 'Latitude,Longitude' }, { Latitude: { value: 20 }, Longitude: { value: 10 } });
+                return [store.entities.get('slow').state, store.entities.get('old').state, String(store.entities.get('later').position)];""")).containsExactly("ok", "stale", "null");
+    }
+
+    /** The hour at the end of summer time occurs twice. */
+    @Test
+    void readsALocalTimeWithinTheRecording() {
+        assertThat(run("""
+                const { ofLocal } = await import('/core/local-time.js');
+                const at = (last, bound) => new Date(ofLocal('2026-10-25T02:20:00', last, Date.parse(bound))).toISOString();
+                return [at(false, '2026-10-25T01:05Z'), at(true, '2026-10-25T00:50Z'), at(false, ''), at(true, '')];"""))
+                .containsExactly(
+                        "2026-10-25T01:20:00.000Z",
+                        "2026-10-25T00:20:00.000Z",
+                        "2026-10-25T00:20:00.000Z",
+                        "2026-10-25T01:20:00.000Z");
     }
 
     /** Attributes may have names that every JavaScript object has. */

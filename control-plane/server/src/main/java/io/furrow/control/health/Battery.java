@@ -6,8 +6,10 @@ import java.util.Optional;
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.Entity;
-import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.FirosJson;
+import io.furrow.model.ngsi.Numbers;
 import io.furrow.model.ngsi.Quantity;
+import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * Reads the battery charge of a device, 0 to 1, from the attribute {@code battery} or {@code batteryLevel}: a number,
@@ -20,7 +22,6 @@ final class Battery {
 
     private static final List<String> ATTRIBUTES = List.of(ATTRIBUTE, "batteryLevel");
     private static final String PERCENTAGE = "percentage";
-    private static final String QUOTE = "%27";
     private static final double PERCENT = 100;
 
     private Battery() {}
@@ -35,7 +36,7 @@ final class Battery {
         String attribute = attributeOf(entity);
         Optional<Double> number = entity.number(attribute);
         Optional<Double> level = number.isEmpty()
-                ? entity.text(attribute).map(Battery::ofRobot).map(value -> share(value, value > 1))
+                ? entity.value(attribute).map(Battery::ofRobot).map(value -> share(value, value > 1))
                 : Quantity.unitOf(entity, attribute).isEmpty()
                         ? number.map(value -> share(value, value > 1 || percent))
                         : Quantity.SHARE.of(entity, attribute);
@@ -60,12 +61,12 @@ final class Battery {
                 .orElse(ATTRIBUTE);
     }
 
-    private static Double ofRobot(String text) {
+    /** @param value a message as object or text of FIROS */
+    private static Double ofRobot(JsonNode value) {
         try {
-            JsonNode state = NgsiJson.mapper().readTree(text.replace(QUOTE, "\""));
-            JsonNode level = state == null ? null : state.path(PERCENTAGE);
-            return level == null || !level.isNumber() ? null : Double.valueOf(level.doubleValue());
-        } catch (com.fasterxml.jackson.core.JsonProcessingException e) {
+            JsonNode state = value.isTextual() ? FirosJson.read(value.textValue()) : value;
+            return Numbers.finite(state.path(PERCENTAGE)).orElse(null);
+        } catch (UnreadableException e) {
             return null; // not a ROS message
         }
     }

@@ -26,10 +26,13 @@ final class ReportedState {
 
     private final int[] measured;
     private final int[] commands;
+    /** Of the time at which the IoT Agent received the report. */
+    private final int stamp;
 
-    private ReportedState(int[] measured, int[] commands) {
+    private ReportedState(int[] measured, int[] commands, int stamp) {
         this.measured = measured;
         this.commands = commands;
+        this.stamp = stamp;
     }
 
     static ReportedState of(Entity entity) {
@@ -44,7 +47,8 @@ final class ReportedState {
                 || COMMAND_TYPES.matcher(each.getValue().path("type").asText()).matches();
         return new ReportedState(
                 hashes(attributes, isCommand.negate().and(each -> isMeasured(each.getKey()))),
-                hashes(attributes, isCommand));
+                hashes(attributes, isCommand),
+                entity.value("TimeInstant").hashCode());
     }
 
     private static int[] hashes(
@@ -65,13 +69,15 @@ final class ReportedState {
     }
 
     /**
-     * Whether this state is a new report after another one: a measured value changed, or the event time changed without
-     * a change of commands. All reports of a device without a clock have the same time.
+     * Whether this state is a new report after another one: a measured value changed, or the event time or the IoT
+     * Agent's time changed without a change of commands. All reports of a device whose clock stands still have the same
+     * event time.
      *
      * @param atAnotherTime whether the two states have different event times
      */
     boolean isReportAfter(ReportedState before, boolean atAnotherTime) {
-        return isChanged(before.measured, measured) || atAnotherTime && !isChanged(before.commands, commands);
+        return isChanged(before.measured, measured)
+                || (atAnotherTime || stamp != before.stamp) && !isChanged(before.commands, commands);
     }
 
     private static boolean isChanged(int[] before, int[] now) {

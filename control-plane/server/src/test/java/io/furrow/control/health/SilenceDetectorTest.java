@@ -123,6 +123,17 @@ class SilenceDetectorTest {
     }
 
     /** Also with another time: reports of a device without a clock have that of the context broker. */
+    /** The IoT Agent stamps each report with the time of its receipt. */
+    @Test
+    void acceptsAReportWithTheSameValueFromADeviceWhoseClockStandsStill() {
+        addDesired(PERIOD);
+        for (int i = 0; i < 20; i++) {
+            process(5, "Time", 5, "Temperature", 20, "TimeInstant", "2026-11-21T01:10:%02d.000Z".formatted(i));
+            pass(10_000);
+        }
+        assertThat(signs).isNotEmpty().noneMatch(Heartbeat::silent);
+    }
+
     @Test
     void ignoresChangesOfCommandAttributes() {
         addDesired(PERIOD);

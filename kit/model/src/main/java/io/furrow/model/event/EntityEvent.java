@@ -52,7 +52,10 @@ public record EntityEvent(Entity entity, FiwareScope scope, EventTime time, Inst
      * the time of the measure, and merging retains newer attributes.
      */
     private String laterAttributes() {
-        Instant measured = entity.value(TIME_INSTANT).flatMap(Instants::of).orElse(Instant.MAX);
+        Instant measured = entity.value(TIME_INSTANT)
+                .flatMap(Instants::of)
+                .map(stamp -> stamp.isAfter(time.time()) ? stamp : time.time()) // the stamp may be impossible
+                .orElse(Instant.MAX);
         return entity.attributes().stream()
                 .filter(attribute -> Instants.of(attribute
                                 .getValue()

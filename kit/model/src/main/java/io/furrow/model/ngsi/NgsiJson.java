@@ -16,6 +16,7 @@ import com.fasterxml.jackson.core.util.ByteArrayBuilder;
 import com.fasterxml.jackson.databind.DeserializationFeature;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.ObjectMapper;
+import com.fasterxml.jackson.databind.ObjectReader;
 import com.fasterxml.jackson.databind.cfg.JsonNodeFeature;
 import com.fasterxml.jackson.databind.json.JsonMapper;
 import com.fasterxml.jackson.databind.node.ArrayNode;
@@ -52,6 +53,7 @@ public final class NgsiJson {
             .enable(DeserializationFeature.USE_BIG_DECIMAL_FOR_FLOATS)
             .disable(JsonNodeFeature.STRIP_TRAILING_BIGDECIMAL_ZEROES)
             .build();
+    private static final ObjectReader READER = MAPPER.reader();
 
     private NgsiJson() {}
 
@@ -76,10 +78,14 @@ public final class NgsiJson {
      * @throws UnreadableException with {@link Reason#NOT_JSON} or {@link Reason#TOO_DEEP}
      */
     public static JsonNode read(byte[] bytes) throws UnreadableException {
+        return read(bytes, READER);
+    }
+
+    static JsonNode read(byte[] bytes, ObjectReader reader) throws UnreadableException {
         checkUtf8(bytes);
         checkMark(bytes);
         return understand(() -> {
-            JsonNode node = MAPPER.readTree(bytes);
+            JsonNode node = reader.readTree(bytes);
             Reason.NOT_JSON.refuseIf(node == null || node.isMissingNode(), "the body is empty");
             return node;
         });

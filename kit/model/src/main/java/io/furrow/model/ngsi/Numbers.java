@@ -5,7 +5,7 @@ import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-/** Reads numbers of devices: JSON numbers, or their text. */
+/** Reads numbers of devices: JSON numbers, their text, or a FIROS message with one number. */
 public final class Numbers {
     private static final Pattern DECIMAL =
             Pattern.compile("[+-]?(\\d{1,40}(\\.\\d{0,40})?|\\.\\d{1,40})([eE][+-]?\\d{1,3})?");
@@ -24,7 +24,9 @@ public final class Numbers {
     /** Returns the finite number of a text; NaN for any other text. */
     public static double finite(String untrimmed) {
         String text = untrimmed.trim();
-        double number = DECIMAL.matcher(text).matches() ? Double.parseDouble(text) : Double.NaN;
+        double number = DECIMAL.matcher(text).matches()
+                ? Double.parseDouble(text)
+                : FirosJson.number(text).orElse(Double.NaN);
         return Double.isFinite(number) ? number : Double.NaN;
     }
 }

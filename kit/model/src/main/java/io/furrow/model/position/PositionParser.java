@@ -1,11 +1,10 @@
 package io.furrow.model.position;
 
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.FirosJson;
 import io.furrow.model.ngsi.Numbers;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -57,8 +56,7 @@ final class PositionParser {
     /** Parses the text of {@code gnss} or {@code pose}. */
     static PositionReading ofFiros(String escaped) {
         try {
-            byte[] json = escaped.replace("%27", "\"").getBytes(StandardCharsets.UTF_8);
-            JsonNode message = NgsiJson.read(json);
+            JsonNode message = FirosJson.read(escaped);
             return of(number(message.path("latitude")), number(message.path("longitude")));
         } catch (UnreadableException e) {
             return new PositionReading.Faulty("gnss or pose is not JSON: " + e.getMessage());

@@ -36,7 +36,7 @@ public final class Instants {
     /** The last second of the year 33658. */
     private static final long LATEST_SECOND = 999_999_999_999L;
 
-    private static final Pattern FRACTION = Pattern.compile("([.]\\d{1,9})?");
+    private static final Pattern FRACTION = Pattern.compile("([.,]\\d{1,18})?([eE][+]?\\d{1,2})?");
 
     private static final DateTimeFormatter ISO = new DateTimeFormatterBuilder()
             .append(DateTimeFormatter.ISO_LOCAL_DATE_TIME)
@@ -73,7 +73,7 @@ public final class Instants {
     public static Optional<Instant> ofText(String untrimmed) {
         String text = untrimmed.trim();
         if (isNumber(text)) {
-            return ofNumber(Double.parseDouble(text));
+            return ofNumber(Double.parseDouble(text.replace(',', '.')));
         }
         int slash = text.indexOf('/');
         String start = slash < 0 ? text : text.substring(0, slash).trim();
@@ -83,7 +83,7 @@ public final class Instants {
                 .flatMap(Instants::sinceEpoch);
     }
 
-    /** Returns whether the text is digits with an optional fraction and not a date. */
+    /** Returns whether the text is digits with an optional fraction and exponent and not a date. */
     private static boolean isNumber(String text) {
         int digits = 0;
         while (digits < text.length() && text.charAt(digits) >= '0' && text.charAt(digits) <= '9') {

@@ -18,6 +18,9 @@ final class OtherTimes {
             + "(?:[Tt _]\\s*(\\d\\d)(:?)(\\d\\d)(?:\\6(\\d\\d)(?:[.,](\\d{1,9})\\d*)?)?)?"
             + "\\s*(?:[Zz]|UTC|GMT|([+-]\\d\\d(?::?\\d\\d)?))?");
 
+    /** The end of a day, as ISO 8601 allows it. */
+    private static final Pattern END_OF_DAY = Pattern.compile("[Tt _]\\s*24(:?00)?(:?00)?(?!\\d|:|[.,]\\d*[1-9])");
+
     static final int DATE = "yyyyMMdd".length();
     static final int COMPACT = "yyyyMMddHHmmss".length();
     private static final int NANO_DIGITS = 9;
@@ -35,16 +38,18 @@ final class OtherTimes {
             return Optional.empty();
         }
         try {
+            boolean isEndOfDay = END_OF_DAY.matcher(time.group()).find();
             LocalDateTime local = LocalDateTime.of(
                     number(time.group(1)),
                     number(time.group(3)),
                     number(time.group(4)),
-                    number(time.group(5)),
+                    isEndOfDay ? 0 : number(time.group(5)),
                     number(time.group(7)),
                     number(time.group(SECOND)),
                     nanos(time.group(FRACTION)));
             String offset = time.group(OFFSET);
-            return Optional.of(local.toInstant(offset == null ? ZoneOffset.UTC : ZoneOffset.of(offset)));
+            return Optional.of(local.plusDays(isEndOfDay ? 1 : 0)
+                    .toInstant(offset == null ? ZoneOffset.UTC : ZoneOffset.of(offset)));
         } catch (DateTimeException e) {
             return Optional.empty();
         }

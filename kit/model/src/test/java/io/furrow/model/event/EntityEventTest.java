@@ -77,6 +77,16 @@ class EntityEventTest {
         assertThat(received(entity, RECEIVED).headers("s")).doesNotContainKey(HeaderNames.LATER_ATTRIBUTES);
     }
 
+    /** As of a device that started without its time; the event has the time of its receipt. */
+    @Test
+    void comparesTheAttributesWithTheEventTimeIfTheTimeInstantCannotBeTrue() throws Exception {
+        Entity entity = Entity.parse("""
+                {"id": "a", "type": "T", "TimeInstant": {"value": "1970-01-01T00:01:40Z"},
+                 "Latitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T00:00:00.000Z"}}}}""".getBytes(UTF_8));
+
+        assertThat(received(entity, RECEIVED).headers("s")).doesNotContainKey(HeaderNames.LATER_ATTRIBUTES);
+    }
+
     private static EntityEvent received(Entity entity, Instant when) {
         return EntityEvent.of(
                 entity, FiwareScope.DEFAULT, when, EventTimeRule.within(Duration.ofMinutes(5)), Origin.NOTIFICATION);

@@ -9,7 +9,7 @@ import org.slf4j.LoggerFactory;
 import io.furrow.connect.LogText;
 import io.furrow.model.event.EventTime;
 
-/** Logs once per device that it sends no plausible time. Tracks 10 000 devices and drops the one that was silent longest. */
+/** Logs once per device and fault that it sends no plausible time. Tracks 10 000 devices and drops the one that was silent longest. */
 final class ClockWarning {
     private static final Logger LOG = LoggerFactory.getLogger(ClockWarning.class);
 
@@ -32,7 +32,7 @@ final class ClockWarning {
 
     /** Whether this is the first such event of a tracked device. */
     synchronized boolean note(String device, EventTime.Fault fault) {
-        if (reported.put(device, true) != null) {
+        if (reported.put(fault + " " + device, true) != null) {
             return false;
         }
         String what = switch (fault) {

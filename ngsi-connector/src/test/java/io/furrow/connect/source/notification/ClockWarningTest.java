@@ -32,6 +32,15 @@ class ClockWarningTest {
     }
 
     @Test
+    void namesEachFaultOfADevice() {
+        ClockWarning report = new ClockWarning();
+
+        assertThat(report.note(device("a"), EventTime.Fault.AHEAD)).isTrue();
+        assertThat(report.note(device("a"), EventTime.Fault.UNREADABLE)).isTrue();
+        assertThat(report.note(device("a"), EventTime.Fault.UNREADABLE)).isFalse();
+    }
+
+    @Test
     void writesOneLineWhateverTheIdHolds() {
         List<String> messages = new ArrayList<>();
         Logger logger = (Logger) LogManager.getLogger(ClockWarning.class);

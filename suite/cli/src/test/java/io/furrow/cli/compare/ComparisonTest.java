@@ -190,7 +190,8 @@ class ComparisonTest {
         collector.add(ResultKind.ENCOUNTERS, 3, "farm|/", entity);
 
         assertThat(collector.spans(ResultKind.ENCOUNTERS))
-                .containsExactly(new Encounter(new ResultSubject("farm|/", "Robot Robot", "x – y"), T0, T0 + 5000, false, 1.25));
+                .containsExactly(
+                        new Encounter(new ResultSubject("farm|/", "Robot Robot", "x – y"), T0, T0 + 5000, false, 1.25));
     }
 
     private static PositionFix fix(String id, long time) {
