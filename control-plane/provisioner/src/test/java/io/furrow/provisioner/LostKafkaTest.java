@@ -209,6 +209,22 @@ class LostKafkaTest extends ProvisioningFixture {
         assertThat(outcome.retained().devices()).hasSize(10);
     }
 
+    /** The secret is from a copy that was made before the rotation. */
+    @Test
+    void retainsAccountsOfALaterKey() throws Exception {
+        FarmSecret rotated = SECRET.rotated(Instant.now(), Instant.EPOCH, false).at(Instant.now());
+        addTenDesired();
+        provisioning = provisioning(files(SecretSource.of(rotated), false), SAME);
+        provisioning.step();
+        assertThat(users()).hasSize(10);
+        desired.clear();
+
+        provisioning = provisioning(files(false), EMPTY);
+        provisioning.step();
+
+        assertThat(users()).hasSize(10);
+    }
+
     private static String user(DesiredDevice device, int generation) {
         return SECRET.device("hoeing", device.device(), generation).user();
     }

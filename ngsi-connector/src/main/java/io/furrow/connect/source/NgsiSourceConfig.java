@@ -248,8 +248,7 @@ public class NgsiSourceConfig extends AbstractConfig {
         return new TaskJournals.Safety(
                 journal.retention(),
                 isVerifiable
-                        ? new AcknowledgedRecords(
-                                client, List.of(topics.topic(), topics.deadLetterTopic()), journal.retention())
+                        ? new AcknowledgedRecords(client, List.of(topics.topic(), topics.deadLetterTopic()))
                         : TaskJournals.Verification.NONE);
     }
 

@@ -82,8 +82,8 @@ public final class DeviceAccounts {
     /**
      * Removes the accounts that no desired device has.
      *
-     * @param all whether to remove also accounts that no desired device has had since the start and whose key is still
-     *     accepted
+     * @param all whether to remove also accounts that no desired device has had since the start and whose key has
+     *     not expired
      */
     public void revoke(Collection<DesiredDevice> desired, boolean all) throws IOException {
         Set<String> users = new HashSet<>(byUser(desired).keySet());
@@ -105,7 +105,9 @@ public final class DeviceAccounts {
     }
 
     private boolean isRemovable(UserName user) {
-        return own.contains(user.owner()) || !secret.get().acceptedKeys().contains(user.key());
+        FarmSecret now = secret.get();
+        boolean isExpired = user.key() < now.newestKey() && !now.acceptedKeys().contains(user.key());
+        return own.contains(user.owner()) || isExpired; // a later key is of a newer or another secret
     }
 
     /**

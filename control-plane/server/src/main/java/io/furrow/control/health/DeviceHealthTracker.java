@@ -54,9 +54,8 @@ final class DeviceHealthTracker {
         }
         DeviceHealth stored = health.get(key);
         DeviceHealth existing = stored == null ? DeviceHealth.unheard(device.get(), now) : stored.of(device.get());
-        boolean outdated = existing.report().heard() != null
-                && heartbeat.heard() < existing.report().heard();
-        if (outdated) {
+        long newest = heard(existing, now);
+        if (heartbeat.heard() < newest) {
             return; // another detector has a newer report
         }
         DeviceHealth heard = existing.silent() && heartbeat.silent() ? existing : existing.heard(heartbeat, now);
@@ -89,15 +88,19 @@ final class DeviceHealthTracker {
         String key = device.version().key();
         DeviceHealth stored = health.get(key);
         DeviceHealth existing = stored == null ? DeviceHealth.unheard(device, now) : stored.of(device);
-        long silentSince = Math.max(
-                device.version().from(),
-                existing.report().heard() == null ? 0 : existing.report().heard());
+        long silentSince = Math.max(device.version().from(), heard(existing, now));
         boolean silent = now - Math.max(silentSince, startedAt) > options.silentAfter(device) + TIMEOUT.toMillis();
         DeviceHealth next = silent && !existing.report().off() && !existing.silent() ? existing.silent(now) : existing;
         if (!next.equals(stored)) {
             store(key, next);
         }
         watch(key, next, device);
+    }
+
+    /** When it was heard; 0 if never, or if the clock of another host, which was ahead, says so. */
+    private static long heard(DeviceHealth device, long now) {
+        Long heard = device.report().heard();
+        return heard == null || heard > now ? 0 : heard;
     }
 
     private void removeAllExcept(Set<String> running) {

@@ -106,6 +106,19 @@ class DeviceHealthTrackerTest {
         assertThat(existing().silent()).isTrue();
     }
 
+    /** The instance that watched before had a clock that is two hours ahead. */
+    @Test
+    void detectsSilenceAndReportsThoughAnotherClockWasAhead() {
+        addDesired("m", START);
+        tracker.take(KEY, heartbeat(false, START + 7_200_000), START);
+        tracker.passTime(START);
+        tracker.passTime(START + LONG_ENOUGH + 10_000);
+        assertThat(existing().silent()).isTrue();
+
+        tracker.take(KEY, heartbeat(false, START + LONG_ENOUGH + 11_000), START + LONG_ENOUGH + 11_000);
+        assertThat(existing().silent()).isFalse();
+    }
+
     @Test
     void detectsNoSilenceForTheTimeOfAnOutage() {
         addDesired("m", START);

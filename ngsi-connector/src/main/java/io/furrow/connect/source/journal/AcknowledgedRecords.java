@@ -10,7 +10,6 @@ import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
-import java.util.function.Predicate;
 
 import org.apache.kafka.clients.consumer.Consumer;
 import org.apache.kafka.clients.consumer.ConsumerConfig;
@@ -21,6 +20,7 @@ import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.errors.AuthorizationException;
 import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.utils.Utils;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -33,8 +33,7 @@ import io.furrow.model.text.FailureText;
 
 /**
  * Searches the topics for the records that Kafka acknowledged last. A broker without replicas that lost power may restart
- * without them, although the offset store has their offsets. Events are identified by id; records older than the retention of
- * the journal, and separate dead letters, are not checked.
+ * without them, although the offset store has their offsets. Events are identified by id; separate dead letters are not checked.
  */
 public final class AcknowledgedRecords implements TaskJournals.Verification {
     private static final Logger LOG = LoggerFactory.getLogger(AcknowledgedRecords.class);
@@ -47,13 +46,12 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
 
     private final Map<String, Object> client;
     private final List<String> topics;
-    private final Duration retained;
 
     /**
      * @param client settings of a Kafka client
      * @param topics that of events, and that of dead letters, which receives events that are too large
      */
-    public AcknowledgedRecords(Map<String, Object> client, List<String> topics, Duration retained) {
+    public AcknowledgedRecords(Map<String, Object> client, List<String> topics) {
         this.client = new HashMap<>(client);
         this.client.put(ConsumerConfig.KEY_DESERIALIZER_CLASS_CONFIG, ByteArrayDeserializer.class);
         this.client.put(ConsumerConfig.VALUE_DESERIALIZER_CLASS_CONFIG, ByteArrayDeserializer.class);
@@ -61,10 +59,15 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
         this.client.put(ConsumerConfig.ENABLE_AUTO_COMMIT_CONFIG, false);
         this.client.put(ConsumerConfig.ALLOW_AUTO_CREATE_TOPICS_CONFIG, false);
         this.topics = topics;
-        this.retained = retained;
     }
 
-    private record Event(long sequence, String id, long received) {}
+    private record Event(long sequence, String topic, String key, String id, long received) {
+        /** The partition that Kafka's default partitioner chooses. */
+        TopicPartition partition(int partitions) {
+            int hash = Utils.murmur2(key.getBytes(StandardCharsets.UTF_8));
+            return new TopicPartition(topic, Utils.toPositive(hash) % partitions);
+        }
+    }
 
     @Override
     public long firstMissing(Journal journal, long committed) throws InterruptedException {
@@ -89,7 +92,7 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
         }
     }
 
-    /** The events within the retention before the newest, in order. */
+    /** The events that the journal still has, in order. */
     private List<Event> acknowledged(Journal journal, long committed) throws InterruptedException {
         List<Event> events = new ArrayList<>();
         try (JournalReader reader = journal.reader(Math.max(journal.begin(), committed - MAX_RECORDS))) {
@@ -107,19 +110,17 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
         } catch (java.io.IOException e) {
             throw new java.io.UncheckedIOException("cannot close a file that was only read", e);
         }
-        long newest = events.stream().mapToLong(Event::received).max().orElse(0);
-        events.removeIf(event -> event.received() < newest - retained.toMillis());
         return events;
     }
 
-    /** Empty for a record without id, or of a topic from an earlier configuration. */
+    /** Empty for a record without id or key, or of a topic from an earlier configuration. */
     private Optional<Event> event(JournalRecord kept) {
         KafkaRecord record = JournalRecordCodec.read(kept.payload());
         String id = record.headers().get(HeaderNames.CE_ID);
         String received = record.headers().get(HeaderNames.TS_SOURCE);
-        return id == null || received == null || !topics.contains(record.topic())
+        return id == null || received == null || record.key() == null || !topics.contains(record.topic())
                 ? Optional.empty()
-                : Optional.of(new Event(kept.sequence(), id, Long.parseLong(received)));
+                : Optional.of(new Event(kept.sequence(), record.topic(), record.key(), id, Long.parseLong(received)));
     }
 
     /** One search of the topics, from their ends backwards. */
@@ -129,8 +130,8 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
         private final Set<String> left = new HashSet<>();
         private final long oldest;
         private final Instant deadline = Instant.now().plus(TIMEOUT);
-        /** Kafka may have deleted events before this time. */
-        private long deletedBefore = Long.MIN_VALUE;
+        /** Kafka may have deleted events that were received before these times. */
+        private final Map<TopicPartition, Long> deletedBefore = new HashMap<>();
 
         Search(Consumer<byte[], byte[]> consumer, List<Event> desired) {
             this.consumer = consumer;
@@ -149,8 +150,17 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
             Map<TopicPartition, Long> begins = consumer.beginningOffsets(partitions, TIMEOUT);
             Map<TopicPartition, Long> ends = consumer.endOffsets(partitions, TIMEOUT);
             partitions.forEach(partition -> look(partition, begins.get(partition), ends.get(partition)));
-            Predicate<Event> isMissing = event -> left.contains(event.id()) && event.received() >= deletedBefore;
-            return desired.stream().filter(isMissing).findFirst();
+            return desired.stream()
+                    .filter(event -> left.contains(event.id()))
+                    .filter(event -> event.received() >= deletedBefore(event, partitions))
+                    .findFirst();
+        }
+
+        private long deletedBefore(Event event, List<TopicPartition> partitions) {
+            int count = (int) partitions.stream()
+                    .filter(partition -> partition.topic().equals(event.topic()))
+                    .count();
+            return count == 0 ? Long.MIN_VALUE : deletedBefore.getOrDefault(event.partition(count), Long.MIN_VALUE);
         }
 
         private void look(TopicPartition partition, long begin, long end) {
@@ -163,15 +173,15 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
                 if (received < oldest - MARGIN_MILLIS) {
                     return;
                 }
-                if (from == begin && begin > 0) {
-                    deletedBefore = Math.max(deletedBefore, received);
+                if (from == begin && begin > 0 && received < Long.MAX_VALUE) {
+                    deletedBefore.put(partition, received);
                 }
                 to = from;
                 step *= 2;
             }
         }
 
-        /** Returns the least time of receipt. */
+        /** Returns the least time of receipt, the greatest number if no record has one. */
         private long read(TopicPartition partition, long from, long to) {
             long least = Long.MAX_VALUE;
             consumer.seek(partition, from);
