@@ -19,6 +19,7 @@ import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
+import java.util.regex.Pattern;
 
 import io.furrow.connect.LogText;
 import io.furrow.model.text.FailureText;
@@ -29,6 +30,9 @@ import io.furrow.model.text.FailureText;
  */
 public final class BrokerClient {
     /** Bytes of an error answer that are read for its message. */
+    /** A member of an error of NGSI-v2 or NGSI-LD. */
+    private static final Pattern ERROR = Pattern.compile("^\\{.*\"(error|type|title)\"\\s*:", Pattern.DOTALL);
+
     private static final int MAX_READ = 4000;
 
     private final HttpClient client;
@@ -111,10 +115,14 @@ public final class BrokerClient {
 
     private static Outcome outcome(URI uri, HttpResponse<byte[]> answer) {
         int status = answer.statusCode();
+        String words = status + " " + text(answer.body());
+        if (!isOfBroker(status, answer.body())) {
+            return new Outcome.WrongSetting(
+                    uri + " answered " + words + ", which is not the answer of a context broker");
+        }
         if (status / 100 == 2) {
             return new Outcome.Done(status, new ResponseHeaders(answer.headers()), answer.body());
         }
-        String words = status + " " + text(answer.body());
         return switch (status) {
             case 404 -> new Outcome.Absent(words);
             case 401, 403, 405 -> new Outcome.WrongSetting(uri + " answered " + words);
@@ -125,6 +133,17 @@ public final class BrokerClient {
                     case 5 -> away(uri, words, answer);
                     default -> new Outcome.WrongSetting(uri + " answered " + words);
                 };
+        };
+    }
+
+    /** A proxy may answer 2xx with a page to log in, and 404 with its own page or JSON; a context broker names the error. */
+    private static boolean isOfBroker(int status, byte[] body) {
+        String text = new String(body, 0, Math.min(body.length, MAX_READ), StandardCharsets.UTF_8).strip();
+        boolean isJson = text.isEmpty() || text.startsWith("{") || text.startsWith("[");
+        return switch (status / 100) {
+            case 2 -> isJson;
+            case 4 -> status != 404 || text.isEmpty() || ERROR.matcher(text).find();
+            default -> true;
         };
     }
 

@@ -66,6 +66,6 @@ public sealed interface Outcome {
      */
     record Unavailable(String reason, Optional<Duration> retryAfter, Throwable cause, int status) implements Outcome {}
 
-    /** No request can succeed until a setting is changed (401, 403, 405, 3xx). {@code words} are the URL and the answer. */
+    /** No request can succeed until a setting is changed (401, 403, 405, 3xx, or the page of a proxy). {@code words} are the URL and the answer. */
     record WrongSetting(String words) implements Outcome {}
 }

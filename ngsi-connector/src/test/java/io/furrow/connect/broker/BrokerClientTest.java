@@ -23,6 +23,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.event.FiwareScope;
@@ -89,7 +90,7 @@ class BrokerClientTest {
 
     @Test
     void takesNoAnswerThatIsLargerThanAllowed() {
-        answering = exchange -> StubServer.answer(exchange, 200, "x".repeat(100_000));
+        answering = exchange -> StubServer.answer(exchange, 200, "[" + " ".repeat(99_998) + "]");
         BrokerRequest asked = BrokerRequest.get(PLOT, "/v2/entities");
 
         assertThat(new BrokerClient(settings(Duration.ofSeconds(5)).withMaxAnswerBytes(99_999)).send(asked))
@@ -100,7 +101,26 @@ class BrokerClientTest {
 
     @Test
     void tellsWhatIsNotThereFromWhatIsRefused() {
-        assertThat(answered(404, "no entity")).isEqualTo(new Outcome.Absent("404 no entity"));
+        assertThat(answered(404, "{\"error\": \"NotFound\"}"))
+                .isEqualTo(new Outcome.Absent("404 {\"error\": \"NotFound\"}"));
+        assertThat(answered(404, "{\"title\": \"no entity\"}")).isInstanceOf(Outcome.Absent.class);
+    }
+
+    @ParameterizedTest
+    @CsvSource(
+            delimiter = '|',
+            value = {
+                "200 | <html>log in</html>",
+                "404 | <html>nginx</html>",
+                "404 | not found",
+                "404 | {\"message\": \"no Route\"}"
+            })
+    void callsThePageOfAProxyAWrongSetting(int status, String page) {
+        assertThat(answered(status, page))
+                .isInstanceOfSatisfying(
+                        Outcome.WrongSetting.class,
+                        wrong -> assertThat(wrong.words())
+                                .contains(url() + "/v2/x answered " + status, "context broker"));
     }
 
     @ParameterizedTest

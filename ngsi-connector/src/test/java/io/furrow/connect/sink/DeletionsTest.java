@@ -3,6 +3,7 @@ package io.furrow.connect.sink;
 import java.util.List;
 import java.util.stream.IntStream;
 
+import org.apache.kafka.connect.errors.RetriableException;
 import org.apache.kafka.connect.sink.SinkRecord;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -11,6 +12,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 import io.furrow.connect.sink.FakeContextBroker.Reply;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 /** Deletions go to the context broker in batches; those of a batch are deleted, absent or refused each for itself. */
 class DeletionsTest extends SinkFixture {
@@ -76,6 +78,21 @@ class DeletionsTest extends SinkFixture {
             assertThat(reported.record().key()).isEqualTo("urn:x:77");
             assertThat(reported.cause()).hasMessageContaining("no, not this one");
         });
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"ngsi-v2", "ngsi-ld"})
+    void areTriedAgainWhereAProxyAnswersForTheContextBroker(String api) {
+        startOf(api);
+        task.put(entities());
+        broker.behaviour = update -> new Reply(404, "<html>nginx</html>");
+
+        assertThatThrownBy(() -> task.put(deletions())).isInstanceOf(RetriableException.class);
+
+        assertThat(broker.entities).hasSize(MANY);
+        broker.behaviour = update -> Reply.WRITTEN;
+        task.put(deletions());
+        assertThat(broker.entities).isEmpty();
     }
 
     /** The id is all that one deletion needs. */

@@ -142,11 +142,11 @@ final class FakeContextBroker implements AutoCloseable {
             String id =
                     attribute[0].substring(attribute[0].lastIndexOf('/') + 1).replace("%3A", ":");
             boolean isThere = entities.containsKey(id) && ((ObjectNode) entities.get(id)).remove(attribute[1]) != null;
-            return isThere ? reply : new Reply(404, "none");
+            return isThere ? reply : new Reply(404, "{\"error\":\"NotFound\"}");
         }
         if (update.method().equals("DELETE")) {
             String id = update.path().substring(update.path().lastIndexOf('/') + 1);
-            return entities.remove(id.replace("%3A", ":")) == null ? new Reply(404, "none") : reply;
+            return entities.remove(id.replace("%3A", ":")) == null ? new Reply(404, "{\"error\":\"NotFound\"}") : reply;
         }
         for (JsonNode entity : update.elements()) {
             String id = entity.path("id").textValue();
@@ -168,7 +168,7 @@ final class FakeContextBroker implements AutoCloseable {
         if (absent.isEmpty()) {
             return reply;
         } else if (absent.size() == ids.size()) {
-            return new Reply(404, "none");
+            return new Reply(404, "{\"error\":\"NotFound\"}");
         } else if (!isLd) {
             return new Reply(422, "{\"error\": \"PartialUpdate\"}");
         }

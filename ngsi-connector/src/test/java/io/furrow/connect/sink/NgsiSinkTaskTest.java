@@ -10,6 +10,7 @@ import org.apache.kafka.connect.sink.SinkRecord;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.connect.sink.FakeContextBroker.Reply;
@@ -152,9 +153,11 @@ class NgsiSinkTaskTest extends SinkFixture {
     }
 
     @ParameterizedTest
-    @ValueSource(ints = {301, 401, 404})
-    void triesAgainWhereAProxyAnswersForTheContextBroker(int status) {
-        broker.behaviour = update -> new Reply(status, "");
+    @CsvSource(
+            delimiter = '|',
+            value = {"301 | ''", "401 | ''", "404 | ''", "404 | <html>nginx</html>", "200 | <html>log in</html>"})
+    void triesAgainWhereAProxyAnswersForTheContextBroker(int status, String page) {
+        broker.behaviour = update -> new Reply(status, page);
         List<SinkRecord> delivery = List.of(record("a", entity("a", "x", 1)));
 
         for (int i = 0; i < 3; i++) {

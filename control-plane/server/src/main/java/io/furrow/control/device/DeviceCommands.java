@@ -130,7 +130,7 @@ public final class DeviceCommands implements CommandSender {
     }
 
     private void check(Order order, HttpResponse<byte[]> answer) throws IOException {
-        if (answer.statusCode() / 100 == 2) {
+        if (answer.statusCode() / 100 == 2 && answer.body().length == 0) {
             return;
         }
         Optional<String> message = message(answer.body());

@@ -71,6 +71,7 @@ class DeviceCommandsTest {
                 "422,{\"error\":\"Unprocessable\"},422",
                 "401,{\"error\":\"invalid_token\"},",
                 "404,<html>nginx</html>,",
+                "200,<html>log in</html>,",
                 "503,{\"error\":\"busy\"},"
             })
     void distinguishesRejectionsFromOutages(int answered, String body, Integer refused) {
