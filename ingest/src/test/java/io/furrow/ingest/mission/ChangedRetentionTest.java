@@ -60,6 +60,17 @@ class ChangedRetentionTest {
     }
 
     @Test
+    void leavesTheIndexWhereItsUserMayNotAlterIt() {
+        Long before = mongo.expireAfter("mission_m");
+        mongo.failAlterations(13);
+
+        keep(Duration.ofDays(2));
+
+        assertThat(mongo.expireAfter("mission_m")).isEqualTo(before).isNotEqualTo(172_800L);
+        assertThat(mongo.indexCommands()).containsExactly("collMod");
+    }
+
+    @Test
     void leavesTheIndexWhereAnotherTakesItsTimeWithIt() {
         mongo.failAlterations(12_587); // it is being built
 

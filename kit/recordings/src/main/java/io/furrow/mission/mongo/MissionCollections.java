@@ -47,10 +47,11 @@ public final class MissionCollections {
     private static final Set<Integer> OTHER_OPTIONS = Set.of(85, 86);
 
     /**
-     * Error codes if the server cannot alter an index, or not this one: no permission, no such field, name or command;
+     * Error codes if the server cannot alter an index, or not this one: no such field, name or command;
      * before MongoDB 5.1 also an index without expiry.
      */
-    private static final Set<Integer> NOT_ALTERABLE = Set.of(2, 9, 13, 27, 59, 72, 115, 238, 40415);
+    private static final Set<Integer> NOT_ALTERABLE = Set.of(2, 9, 27, 59, 72, 115, 238, 40415);
+    private static final int UNAUTHORIZED = 13;
     /** Maximum expiry of a server; an index with expiry cannot be altered to one without. */
     private static final long MAX_EXPIRY_SECONDS = Integer.MAX_VALUE;
 
@@ -159,7 +160,7 @@ public final class MissionCollections {
     /**
      * Tries to alter the retention of an index, because rebuilding it takes hours for a large mission.
      *
-     * @return whether the server altered it
+     * @return false if the server rebuilds it instead
      */
     private boolean alter(MongoCollection<?> collection, IndexOptions options) {
         if (!BY_TIME.equals(options.getName())) {
@@ -173,6 +174,13 @@ public final class MissionCollections {
                     new Document("collMod", collection.getNamespace().getCollectionName()).append("index", index));
             return true;
         } catch (MongoCommandException e) {
+            if (e.getErrorCode() == UNAUTHORIZED) {
+                LOG.warn(
+                        "The retention of {} stays as it is, because the user of MongoDB lacks the permission for collMod; grant the role dbAdmin on {}",
+                        collection.getNamespace(),
+                        database.getName());
+                return true;
+            }
             if (!NOT_ALTERABLE.contains(e.getErrorCode())) {
                 throw e;
             }
