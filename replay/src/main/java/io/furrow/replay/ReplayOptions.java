@@ -147,7 +147,7 @@ public final class ReplayOptions extends JobOptions {
     @Option(
             names = "--topic",
             paramLabel = "NAME",
-            description = "With --once: data.<mission>.replay.<eight hexadecimal digits>. Default: of new digits.")
+            description = "With --once: data.<mission>.replay.<eight hexadecimal digits>. Default: a topic with new digits.")
     private String topic;
 
     /** Removes the options of event time and input; {@code --from} is that of a mission. */
@@ -198,7 +198,7 @@ public final class ReplayOptions extends JobOptions {
 
     PageLimits pages() {
         if (pageEvents < 1 || pageBytes < 1) {
-            throw refused("--page-events and --page-bytes are at least 1; leave them out or write more", null);
+            throw refused("--page-events and --page-bytes must be at least 1; omit them or give greater values", null);
         }
         return new PageLimits(pageEvents, pageBytes);
     }

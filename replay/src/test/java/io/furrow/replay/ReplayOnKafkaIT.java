@@ -113,8 +113,8 @@ class ReplayOnKafkaIT {
         assertThat(suite.status("m").progress().primes()).isEqualTo(4);
     }
 
-    private static DesiredReplay seeking(DesiredReplay current, long to) {
-        return current.seeking(to, 3).desired(current.desired(), current.sequence());
+    private static DesiredReplay seeking(DesiredReplay last, long to) {
+        return last.seeking(to, 3).desired(last.desired(), last.sequence());
     }
 
     @Test

@@ -55,7 +55,7 @@ public final class ComposeDocuments extends ProcessFunction<MissionEvent, Missio
                 id,
                 record.timestamp(),
                 entity == null ? key(record) : entity.id(),
-                EventDocumentCodec.kept(record.headers()),
+                EventDocumentCodec.storedHeaders(record.headers()),
                 entity == null ? null : entity.json()));
         return new MissionDocument(MissionCollections.nameOf(event.mission()), id, bson, event);
     }

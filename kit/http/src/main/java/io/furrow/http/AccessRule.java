@@ -39,10 +39,7 @@ public final class AccessRule {
         this.options = options;
     }
 
-    /**
-     * Creates a rule that allows loopback, the address at which the connection arrived, and the names that the operator
-     * allows.
-     */
+    /** Creates a rule that allows loopback, the address of the connection, and the operator's names. */
     public static AccessRule allowing(AllowedNames allowed, OptionNames options) {
         return new AccessRule(
                         Set.of(),

@@ -12,7 +12,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 public final class RandomEvents {
     public static final long TIME = 1_700_000_000_000L;
 
-    private static final String[] SIGNS = {"a", "b", "Z", "é", "\uFFFD", "\uD83D\uDE9C"};
+    private static final String[] CHARACTERS = {"a", "b", "Z", "é", "\uFFFD", "\uD83D\uDE9C"};
 
     private RandomEvents() {}
 
@@ -21,8 +21,8 @@ public final class RandomEvents {
         List<StoredEvent> events = new ArrayList<>();
         for (int i = 0; i < number; i++) {
             StringBuilder id = new StringBuilder();
-            for (int sign = 0; sign < 3; sign++) {
-                id.append(SIGNS[random.nextInt(SIGNS.length)]);
+            for (int position = 0; position < 3; position++) {
+                id.append(CHARACTERS[random.nextInt(CHARACTERS.length)]);
             }
             events.add(event(id.toString() + i, TIME + random.nextInt(times), random.nextInt(300)));
         }

@@ -5,7 +5,7 @@ import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
-/** Computes which of the requested single steps a replay still has to make. */
+/** Computes which requested single steps are pending. */
 record PendingSteps(PlaybackState at, DesiredReplay desired) {
     /** Maximum number of events per step back. */
     static final int MAX_BACK = 100_000;

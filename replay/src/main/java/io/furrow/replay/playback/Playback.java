@@ -209,8 +209,8 @@ public final class Playback {
         if (readResult.epoch() != at.epoch || !awaited) {
             return Optional.empty();
         }
-        if (readResult instanceof ReadResult.Unavailable away) {
-            waiting = away.reason();
+        if (readResult instanceof ReadResult.Unavailable unavailable) {
+            waiting = unavailable.reason();
             return Optional.empty();
         }
         ahead.completeFetch();

@@ -25,7 +25,7 @@ public final class PlaybackState implements Cloneable {
     long epoch;
     /** Sequence of the next record in its epoch. */
     long number;
-    /** Ms that timestamps are ahead of event times. */
+    /** How far timestamps are ahead of event times, ms. */
     long offset;
     /** Timestamp of the newest record, epoch ms; 0 if there is none. */
     long stamp;

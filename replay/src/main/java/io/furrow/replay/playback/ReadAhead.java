@@ -9,10 +9,7 @@ import io.furrow.mission.Cursor;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
-/**
- * Buffers the states and events of one epoch that are read but not played: at most the rest of one page and the page
- * after it.
- */
+/** Buffers unplayed states and events of one epoch: at most the rest of one page and the page after it. */
 final class ReadAhead {
     /** Minimum events of a page, so that slow replays send few requests. */
     static final int MIN_EVENTS = 32;
@@ -34,12 +31,12 @@ final class ReadAhead {
     private boolean complete;
     /** Whether a second read at the end found no more events: a mission may be recorded while it is replayed. */
     private boolean confirmed;
-    /** Null until they are known, and when they have been played. */
+    /** Null until they are read, and after they were played. */
     private List<ReadyEvent> primes;
 
     private boolean fetching;
 
-    /** @param from where the first page begins */
+    /** @param from beginning of the first page */
     ReadAhead(Cursor from) {
         this.loaded = from;
     }
@@ -78,7 +75,7 @@ final class ReadAhead {
         primes = states;
     }
 
-    /** Null until they are known, and when they have been played. */
+    /** Returns null until they are read, and after they were played. */
     List<ReadyEvent> primes() {
         return primes;
     }
@@ -103,9 +100,9 @@ final class ReadAhead {
     }
 
     /**
-     * Whether the following page should be read.
+     * Returns whether the following page should be read.
      *
-     * @param to epoch ms, after the last event that is requested
+     * @param to epoch ms, exclusive end of the requested events
      */
     private boolean needsMore(long to) {
         if (complete) {

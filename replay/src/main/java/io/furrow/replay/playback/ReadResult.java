@@ -27,6 +27,6 @@ public sealed interface ReadResult {
     /** The recording is unavailable; the reader retries and sends the result later. */
     record Unavailable(long epoch, String reason) implements ReadResult {}
 
-    /** The read failed for good: the mission does not exist or was deleted. */
+    /** The read can never succeed: the mission does not exist or was deleted. */
     record Failed(long epoch, String reason) implements ReadResult {}
 }

@@ -95,10 +95,7 @@ final class Schedule {
         return timeline.due(next.time());
     }
 
-    /**
-     * Returns when an epoch without further events ends: at once, or with the group; never while it is paused, so that
-     * it can step back.
-     */
+    /** Returns when an epoch without further events ends: at once, with the group, or not while paused. */
     long endDue() {
         if (isPaused()) {
             return Timeline.NEVER;

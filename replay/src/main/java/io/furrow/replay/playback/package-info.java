@@ -1,2 +1,2 @@
-/** When which event of a replay is due: pure rules, without a clock, a thread or Flink. */
+/** The rules of when the events of a replay are due, without a clock, a thread or Flink. */
 package io.furrow.replay.playback;

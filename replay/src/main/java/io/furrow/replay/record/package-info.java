@@ -1,2 +1,2 @@
-/** What is played, as records of a replay's topic. */
+/** Composes the records of a replay's topic. */
 package io.furrow.replay.record;

@@ -15,18 +15,14 @@ import io.furrow.mission.file.RecordingFiles;
 record FlinkFiles() implements RecordingFiles {
     @Override
     public boolean isFolder(String path) throws IOException {
-        return status(path).isDir();
+        Path file = new Path(path);
+        return file.getFileSystem().getFileStatus(file).isDir();
     }
 
     @Override
     public boolean exists(String path) throws IOException {
         Path file = new Path(path);
         return file.getFileSystem().exists(file);
-    }
-
-    private static FileStatus status(String path) throws IOException {
-        Path file = new Path(path);
-        return file.getFileSystem().getFileStatus(file);
     }
 
     @Override

@@ -17,7 +17,7 @@ public final class PageBudget {
     private static final int OVERHEAD = 1024;
 
     private final PageLimits max;
-    private long held;
+    private long used;
 
     /** @param max limits of each page */
     public PageBudget(PageLimits max) {
@@ -29,17 +29,17 @@ public final class PageBudget {
     }
 
     private synchronized long reserve() {
-        long bytes = Math.max(MIN_PAGE_BYTES, (BYTES - held) / SHARE);
-        held += bytes;
+        long bytes = Math.max(MIN_PAGE_BYTES, (BYTES - used) / SHARE);
+        used += bytes;
         return bytes;
     }
 
     private synchronized void change(long bytes) {
-        held += bytes;
+        used += bytes;
     }
 
-    synchronized long held() {
-        return held;
+    synchronized long used() {
+        return used;
     }
 
     /** The pages of one replay; the two newest may be partly unplayed. Used by one thread. */

@@ -1,2 +1,2 @@
-/** Where the recordings of replays are, and how much of them is held at a time. */
+/** Opens the recordings of replays and bounds the memory of their pages. */
 package io.furrow.replay.recording;

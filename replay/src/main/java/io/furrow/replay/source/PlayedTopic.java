@@ -31,10 +31,7 @@ final class PlayedTopic implements TopicWatch.Watched {
         this.restored = state.sequence() >= 0 || state.epoch() > 0;
     }
 
-    /**
-     * Creates the topic if it does not exist, also after a restart, because a savepoint may be restored on a new
-     * cluster.
-     */
+    /** Creates a missing topic, also after a restart, because a savepoint may be restored on a new cluster. */
     void prepare(String topic) throws IOException, InterruptedException {
         try {
             boolean isFirst = partitions == 0;

@@ -161,10 +161,7 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, EnumeratorS
         }
     }
 
-    /**
-     * Returns whether a settled status reports that this desired state is over; the control plane is about to delete
-     * the replay.
-     */
+    /** Returns whether the replay is over and settled in this state; the control plane is about to delete it. */
     private boolean isSettled(String replay, byte[] value) {
         ReplayStatus status = reported.get(replay);
         if (status == null || !status.state().isOver() || !status.settled()) {

@@ -1,2 +1,2 @@
-/** Replays as a source of Flink: each replay is a split, what is requested of it comes from the enumerator. */
+/** Replays as a Flink source: each replay is a split, whose desired state the enumerator sends. */
 package io.furrow.replay.source;

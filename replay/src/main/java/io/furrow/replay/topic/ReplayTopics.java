@@ -19,7 +19,7 @@ public interface ReplayTopics extends Serializable {
     /** Opens the topics for the lifetime of a reader. */
     Writing open();
 
-    /** The topics as a reader uses them. Thread-safe except for {@link #writable} and {@link #close}. */
+    /** The topics as a reader uses them, from any thread. */
     interface Writing extends AutoCloseable {
         /**
          * Creates the topic if it does not exist, and waits for the broker.
@@ -39,7 +39,7 @@ public interface ReplayTopics extends Serializable {
         /**
          * Returns the ids of those topics that exist; a topic that is created again has another id.
          *
-         * @throws IOException if the broker cannot be asked now
+         * @throws IOException if the broker is unavailable
          */
         Map<String, String> ids(Collection<String> topics) throws IOException, InterruptedException;
 

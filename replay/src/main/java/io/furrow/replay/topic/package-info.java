@@ -1,2 +1,2 @@
-/** The topics that replays are played on: made, watched, and read at their end. */
+/** The topics of replays: creates and watches them, and reads their ends. */
 package io.furrow.replay.topic;

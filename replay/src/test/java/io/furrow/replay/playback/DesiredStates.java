@@ -30,9 +30,9 @@ final class DesiredStates {
         return DesiredReplay.started("m", "data.m.replay.0a1b2c3d", ReplayPlan.PLAIN, speed, 0, 1);
     }
 
-    static DesiredReplay with(DesiredReplay current, State desired, double speed, Long seek, int steps) {
-        long sequence = current.sequence() + 1;
-        DesiredReplay next = current.desired(desired, sequence).at(speed, sequence);
+    static DesiredReplay with(DesiredReplay last, State desired, double speed, Long seek, int steps) {
+        long sequence = last.sequence() + 1;
+        DesiredReplay next = last.desired(desired, sequence).at(speed, sequence);
         next = seek == null ? next : next.seeking(seek, sequence);
         return steps == 0 ? next : next.stepping(steps, sequence);
     }
@@ -94,57 +94,57 @@ final class DesiredStates {
         return desiredStates;
     }
 
-    private static DesiredReplay nextOfGroup(DesiredReplay current, Random random, long at) {
-        long position = current.position(wall(at));
-        var running = new DesiredReplay.Clock(Math.max(wall(at), current.clock().at()), position);
+    private static DesiredReplay nextOfGroup(DesiredReplay last, Random random, long at) {
+        long position = last.position(wall(at));
+        var running = new DesiredReplay.Clock(Math.max(wall(at), last.clock().at()), position);
         return switch (random.nextInt(4)) {
             case 0 ->
-                current.desired() == State.PAUSED
+                last.desired() == State.PAUSED
                         ? follow(
-                                with(current, State.RUNNING, current.speed(), null, 0),
+                                with(last, State.RUNNING, last.speed(), null, 0),
                                 wall(at) + 1_000,
-                                current.clock().shows())
-                        : follow(with(current, State.PAUSED, current.speed(), null, 0), wall(at), position);
+                                last.clock().shows())
+                        : follow(with(last, State.PAUSED, last.speed(), null, 0), wall(at), position);
             case 1 ->
-                follow(with(current, current.desired(), groupSpeed(random), null, 0), running.at(), running.shows());
+                follow(with(last, last.desired(), groupSpeed(random), null, 0), running.at(), running.shows());
             default -> {
-                long to = current.plan().from()
-                        + random.nextLong(current.plan().to() - current.plan().from());
-                yield follow(with(current, current.desired(), current.speed(), to, 0), wall(at) + 1_000, to);
+                long to = last.plan().from()
+                        + random.nextLong(last.plan().to() - last.plan().from());
+                yield follow(with(last, last.desired(), last.speed(), to, 0), wall(at) + 1_000, to);
             }
         };
     }
 
-    private static DesiredReplay follow(DesiredReplay current, long at, long shows) {
-        return current.following(current.group(), new DesiredReplay.Clock(at, shows));
+    private static DesiredReplay follow(DesiredReplay last, long at, long shows) {
+        return last.following(last.group(), new DesiredReplay.Clock(at, shows));
     }
 
     private static double groupSpeed(Random random) {
         return SPEEDS[random.nextInt(SPEEDS.length - 1)];
     }
 
-    private static DesiredReplay next(DesiredReplay current, Random random, long first, long length) {
+    private static DesiredReplay next(DesiredReplay last, Random random, long first, long length) {
         return switch (random.nextInt(6)) {
             case 0 ->
                 with(
-                        current,
-                        current.desired() == State.PAUSED ? State.RUNNING : State.PAUSED,
-                        current.speed(),
+                        last,
+                        last.desired() == State.PAUSED ? State.RUNNING : State.PAUSED,
+                        last.speed(),
                         null,
                         0);
             case 1, 2 ->
-                with(current, current.desired(), current.speed(), first - 5_000 + random.nextLong(length + 10_000), 0);
-            case 3 -> with(current, current.desired(), speed(random), null, 0);
-            case 4 -> current.within(range(random, first, length), current.sequence() + 1);
+                with(last, last.desired(), last.speed(), first - 5_000 + random.nextLong(length + 10_000), 0);
+            case 3 -> with(last, last.desired(), speed(random), null, 0);
+            case 4 -> last.within(range(random, first, length), last.sequence() + 1);
             default ->
-                current.desired() == State.PAUSED
+                last.desired() == State.PAUSED
                         ? with(
-                                current,
-                                current.desired(),
-                                current.speed(),
+                                last,
+                                last.desired(),
+                                last.speed(),
                                 null,
                                 random.nextInt(20) + (random.nextBoolean() ? 1 : -20))
-                        : with(current, State.PAUSED, current.speed(), null, 0);
+                        : with(last, State.PAUSED, last.speed(), null, 0);
         };
     }
 

@@ -35,10 +35,7 @@ final class Missions {
         return new StoredEvent(id, time, entity, Map.of("ce_type", "ngsi.entity.deleted"), null);
     }
 
-    /**
-     * Returns events of 1 to 200 devices, some out of order, at equal times, after gaps, or deletions; in the stored
-     * order.
-     */
+    /** Returns ordered events of 1 to 200 devices, some reported late, at equal times, after gaps, or deletions. */
     static List<StoredEvent> random(Random random) {
         int devices = 1 + random.nextInt(random.nextBoolean() ? 5 : 200);
         int count = 1 + random.nextInt(300);

@@ -130,10 +130,7 @@ class PlaybackRestartModelTest {
         }
     }
 
-    /**
-     * Checks a record against those before it. The end of an epoch may be written twice, because a restart may repeat
-     * events.
-     */
+    /** Checks a record against earlier ones. An epoch may end twice, because a restart may repeat events. */
     private void check(Optional<PlaybackRecord> record) {
         record.ifPresent(playbackRecord -> {
             Long before = stamps.lowerEntry(playbackRecord.epoch()) == null

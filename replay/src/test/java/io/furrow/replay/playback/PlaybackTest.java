@@ -23,14 +23,21 @@ class PlaybackTest {
     private static final StoredEvent FIRST = Missions.event("a", Missions.TIME, "urn:d0");
     private static final StoredEvent NEXT = Missions.event("b", Missions.TIME + 1_000, "urn:d0");
 
+    /** Returns a playback of a recording that continues behind {@link #NEXT}, with its first page read. */
+    private static Playback started(DesiredReplay desired, ReadyPage first) {
+        Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
+        playback.fetch();
+        RecordingExtent extent = new RecordingExtent(FIRST.time(), NEXT.time() + 9_000);
+        playback.accept(new ReadResult.Opened(0, Optional.of(extent)), 0);
+        playback.fetch();
+        playback.accept(new ReadResult.Primed(0, List.of(), first), 0);
+        return playback;
+    }
+
     @Test
     void keepsItsPositionUntilTheNextPageIsRead() {
         DesiredReplay desired = DesiredStates.start(ReplayCommand.MAX);
-        Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
-        playback.fetch();
-        playback.accept(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 0);
-        playback.fetch();
-        playback.accept(new ReadResult.Primed(0, List.of(), page(FIRST, desired, false)), 0);
+        Playback playback = started(desired, page(FIRST, desired, false));
         assertThat(playback.poll(0)).map(one -> one.event().id()).contains("a");
         playback.fetch();
 
@@ -48,11 +55,7 @@ class PlaybackTest {
     @Test
     void continuesBehindFilteredEventsAndReportsItsPositionWithoutTheRecording() {
         DesiredReplay desired = DesiredStates.start(1);
-        Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
-        playback.fetch();
-        playback.accept(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 0);
-        playback.fetch();
-        playback.accept(new ReadResult.Primed(0, List.of(), page(FIRST, desired, false)), 0);
+        Playback playback = started(desired, page(FIRST, desired, false));
         playback.poll(0);
         playback.fetch();
         assertThat(playback.snapshot(0).cursor).isEqualTo(Cursor.after(FIRST));
@@ -69,11 +72,7 @@ class PlaybackTest {
     @Test
     void countsSkippedDocumentsOnceThoughARestartReadsThemAgain() {
         DesiredReplay desired = DesiredStates.start(1);
-        Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
-        playback.fetch();
-        playback.accept(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 0);
-        playback.fetch();
-        playback.accept(new ReadResult.Primed(0, List.of(), skipping(page(FIRST, desired, false), 2)), 0);
+        Playback playback = started(desired, skipping(page(FIRST, desired, false), 2));
         playback.poll(0);
         playback.fetch();
         playback.accept(new ReadResult.NextPage(0, skipping(page(NEXT, desired, true), 3)), 0);
@@ -94,14 +93,7 @@ class PlaybackTest {
         ReplayPlan plan = new ReplayPlan(
                 null, null, NEXT.time(), false, List.of("urn:d0"), null, ReplayPlan.Stamps.ORIGINAL, null, List.of());
         DesiredReplay desired = DesiredReplay.started("m", "data.m.replay.0a1b2c3d", plan, ReplayCommand.MAX, 0, 1);
-        Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
-        playback.fetch();
-        playback.accept(
-                new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time() + 9_000))), 0);
-        playback.fetch();
-        playback.accept(
-                new ReadResult.Primed(0, List.of(), page(Missions.event("c", NEXT.time(), "urn:d1"), desired, false)),
-                0);
+        Playback playback = started(desired, page(Missions.event("c", NEXT.time(), "urn:d1"), desired, false));
 
         assertThat(playback.poll(0)).map(PlaybackRecord::reason).contains("ended");
         assertThat(playback.fetch()).isEmpty();

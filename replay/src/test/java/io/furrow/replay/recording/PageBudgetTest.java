@@ -40,15 +40,15 @@ class PageBudgetTest {
         for (int turn = 0; turn < 20 * REPLAYS; turn++) {
             PageBudget.Pages pages = replays.get(turn < REPLAYS ? turn : random.nextInt(REPLAYS));
             PageLimits limits = pages.next(Integer.MAX_VALUE);
-            assertThat(budget.held()).as("seed %d, turn %d", seed, turn).isLessThanOrEqualTo(BOUND);
+            assertThat(budget.used()).as("seed %d, turn %d", seed, turn).isLessThanOrEqualTo(BOUND);
             pages.add(full(limits));
             pages.settle();
-            assertThat(budget.held()).as("seed %d, turn %d", seed, turn).isLessThanOrEqualTo(BOUND);
+            assertThat(budget.used()).as("seed %d, turn %d", seed, turn).isLessThanOrEqualTo(BOUND);
         }
-        assertThat(budget.held()).as("seed %d", seed).isGreaterThan(PageBudget.BYTES / 2);
+        assertThat(budget.used()).as("seed %d", seed).isGreaterThan(PageBudget.BYTES / 2);
 
         replays.forEach(PageBudget.Pages::clear);
-        assertThat(budget.held()).isZero();
+        assertThat(budget.used()).isZero();
     }
 
     @Test
@@ -56,13 +56,13 @@ class PageBudgetTest {
         PageBudget.Pages pages = budget.pages();
         pages.next(10);
         pages.settle();
-        assertThat(budget.held()).isZero();
+        assertThat(budget.used()).isZero();
 
         for (int events : List.of(10, 20, 30)) {
             pages.add(page(events, 1024));
             pages.settle();
         }
-        assertThat(budget.held()).isEqualTo(50 * 2048);
+        assertThat(budget.used()).isEqualTo(50 * 2048);
     }
 
     private static ReadyPage full(PageLimits limits) {

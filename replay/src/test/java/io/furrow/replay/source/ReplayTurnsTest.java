@@ -24,10 +24,7 @@ import io.furrow.replay.recording.RecordingSources;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/**
- * Tests how the replays of a reader share its thread. Each written record takes some time of a clock that the test
- * drives.
- */
+/** Tests how replays share a reader's thread. Each record takes some time of a clock that the test drives. */
 class ReplayTurnsTest {
     private static final long TIME = 1_700_000_000_000L;
     private static final int EVENTS = 1_000;

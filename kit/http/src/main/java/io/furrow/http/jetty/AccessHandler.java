@@ -19,10 +19,7 @@ import io.furrow.http.HttpCall;
 
 /** Applies an {@link AccessRule} to all requests of a Jetty server before the wrapped handler. */
 public final class AccessHandler extends Handler.Wrapper {
-    /**
-     * A body up to this size is read first, because a client that is still sending may lose an answer when the
-     * connection closes.
-     */
+    /** A body up to this size is read first: a client that still sends may lose an answer to a closed connection. */
     private static final int MAX_DRAINED = 64 * 1024;
 
     private final AccessRule rule;

@@ -8,36 +8,19 @@ import io.furrow.model.text.Coded;
 public enum AlarmKind implements Coded {
     /** Devices of a mission did not start within the timeout; the subject is the mission's entity. */
     MISSING_DEVICES,
-    /**
-     * Devices have not reported for longer than allowed; the subject is the entity of their mission, otherwise of their
-     * domain.
-     */
+    /** Devices were silent for too long; the subject is the entity of their mission, else of their domain. */
     SILENT_DEVICE,
-    /**
-     * So many devices of a mission are silent that its site or connection is probably unavailable; the subject is the
-     * mission's entity.
-     */
+    /** So many devices are silent that their site is probably offline; the subject is the mission's entity. */
     SILENT_MISSION,
     /** No device reports; the subject is the topic without records. */
     SILENT_FARM,
-    /**
-     * Two devices are closer than allowed; the subject is the pair, {@code <idA>-<idB>}, or for several alarms their
-     * mission's entity.
-     */
+    /** Two devices are too close; the subject is the pair {@code <idA>-<idB>}; for several, their mission's entity. */
     COLLISION,
-    /**
-     * Two devices are on courses that bring them too close; the subject is the pair, or for several alarms their
-     * mission's entity.
-     */
+    /** Two devices will come too close; the subject is the pair; for several, their mission's entity. */
     PREDICTED_ENCOUNTER,
-    /**
-     * A sensor deviates from those around it; the subject is its entity, or for several alarms that of the field's
-     * results.
-     */
+    /** A sensor deviates from its neighbors; the subject is its entity; for several, that of the field's results. */
     SUSPECT_SENSOR,
-    /**
-     * A device's positions arrive too late; the subject is its entity, or for several alarms their mission's entity.
-     */
+    /** A device's positions arrive too late; the subject is its entity; for several, their mission's entity. */
     CLOCK_BEHIND,
     /** A part of Furrow fails or needs an operator; the subject is its name. */
     FAULT;

@@ -27,8 +27,8 @@ public record CommandResult(ObjectNode json) {
         return new CommandResult(json.put("type", "response").put("status", status));
     }
 
-    static CommandResult refused(RejectedException refusal) {
-        return ofError(refusal.code().code(), refusal.getMessage());
+    static CommandResult rejected(RejectedException rejection) {
+        return ofError(rejection.code().code(), rejection.getMessage());
     }
 
     /** @param error a code */

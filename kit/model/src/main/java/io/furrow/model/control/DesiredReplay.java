@@ -93,10 +93,7 @@ public record DesiredReplay(
             return shows + (long) Math.floor(Math.max(0, now - at) * speed);
         }
 
-        /**
-         * Returns {@link #position(long, double)}, which restarts at the beginning of the range whenever it reaches the
-         * end.
-         */
+        /** Returns {@link #position(long, double)}, restarting at the beginning of the range whenever it ends. */
         public long position(long now, double speed, Range loop) {
             long position = position(now, speed);
             return position < loop.to ? position : loop.from + (position - loop.from) % (loop.to - loop.from);
@@ -152,22 +149,9 @@ public record DesiredReplay(
                 replay, mission, topic, newGroup, plan, speed, range, desired, seek, step, newClock, created, sequence);
     }
 
-    private DesiredReplay changed(
-            double newSpeed, Range newRange, State next, Seek newSeek, Step newStep, long newSequence) {
+    private DesiredReplay changed(double speed, Range range, State desired, Seek seek, Step step, long sequence) {
         return new DesiredReplay(
-                replay,
-                mission,
-                topic,
-                group,
-                plan,
-                newSpeed,
-                newRange,
-                next,
-                newSeek,
-                newStep,
-                clock,
-                created,
-                newSequence);
+                replay, mission, topic, group, plan, speed, range, desired, seek, step, clock, created, sequence);
     }
 
     /**

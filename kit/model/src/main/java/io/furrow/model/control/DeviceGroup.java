@@ -78,7 +78,7 @@ public record DeviceGroup(
         JsonObjectReader.refuseIf(id != null && count > 1, "count", "1 where the device has an 'id'");
         check(members);
         MeasuredAttribute.check(members);
-        checkPlaces(object.path(AT), count);
+        checkPositions(object.path(AT), count);
         ObjectNode settings = settings(object);
         return new DeviceGroup(
                 members.nameOrNull("name"),
@@ -141,12 +141,12 @@ public record DeviceGroup(
         }
     }
 
-    private static void checkPlaces(JsonNode at, int count) throws RejectedException {
-        boolean fits = at.isMissingNode() || at.isNull() || isPlace(at);
+    private static void checkPositions(JsonNode at, int count) throws RejectedException {
+        boolean fits = at.isMissingNode() || at.isNull() || isPosition(at);
         if (at.isArray() && at.size() == count) {
             fits = true;
             for (JsonNode each : at) {
-                fits &= isPlace(each);
+                fits &= isPosition(each);
             }
         }
         JsonObjectReader.refuseIf(
@@ -155,7 +155,7 @@ public record DeviceGroup(
                 "an object with 'latitude' and 'longitude' in degrees, or a list of one for each of the devices");
     }
 
-    private static boolean isPlace(JsonNode at) {
+    private static boolean isPosition(JsonNode at) {
         return at.isObject() && isDegrees(at.get("latitude"), 90) && isDegrees(at.get("longitude"), 180);
     }
 

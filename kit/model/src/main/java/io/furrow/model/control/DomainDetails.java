@@ -1,22 +1,21 @@
 package io.furrow.model.control;
 
 import java.util.List;
-import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.field.FieldVersion;
 
 /**
  * Details of a domain; null for those that a request omits.
  *
  * @param name for people
  * @param area valid GeoJSON of a Polygon or MultiPolygon
- * @param fields ids of fields, see {@code FieldVersion}
+ * @param fields ids of fields, see {@link FieldVersion}
  */
 public record DomainDetails(String name, String description, ObjectNode area, List<String> fields) {
     /** No details. */
     public static final DomainDetails NONE = new DomainDetails(null, null, null, null);
-
-    private static final Pattern FIELD = Pattern.compile("[!-~&&[^&?/#<>\"'=;()]]{1,200}");
 
     /** Returns these details, completed by others. */
     public DomainDetails over(DomainDetails others) {
@@ -36,6 +35,6 @@ public record DomainDetails(String name, String description, ObjectNode area, Li
                 members.textOrNull("name"),
                 members.textOrNull("description"),
                 area,
-                members.has("fields") ? members.texts("fields", FIELD, "ids of fields") : null);
+                members.has("fields") ? members.texts("fields", FieldVersion.ID, "ids of fields") : null);
     }
 }

@@ -2,10 +2,7 @@ package io.furrow.model.control;
 
 import io.furrow.model.text.Coded;
 
-/**
- * Why a request was rejected: the member {@code error} of the answer. Codes are never renamed because clients depend on
- * them.
- */
+/** Why a request was rejected: the member {@code error} of the answer. Never renamed: clients depend on it. */
 public enum ErrorCode implements Coded {
     /** The value is not a well-formed JSON document in UTF-8. */
     NOT_JSON,

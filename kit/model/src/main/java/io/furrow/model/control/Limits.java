@@ -1,5 +1,7 @@
 package io.furrow.model.control;
 
+import io.furrow.model.text.Utf8;
+
 /**
  * Size limits of requests and records of the control plane, in bytes. Managers, REST API, topics and producers use
  * them, and the OpenAPI document states them.
@@ -51,14 +53,9 @@ public final class Limits {
         if (reason == null) {
             return null;
         }
-        int length = reason.codePointCount(0, reason.length());
-        StringBuilder shortened = new StringBuilder();
-        reason.codePoints()
-                .limit(length > REASON_LENGTH ? REASON_LENGTH - 1 : length)
-                .map(codePoint -> codePoint >= Character.MIN_SURROGATE && codePoint <= Character.MAX_SURROGATE
-                        ? 0xfffd
-                        : codePoint)
-                .forEach(shortened::appendCodePoint);
-        return length > REASON_LENGTH ? shortened.append('…').toString() : shortened.toString();
+        String text = Utf8.encodable(reason);
+        return text.codePointCount(0, text.length()) <= REASON_LENGTH
+                ? text
+                : text.substring(0, text.offsetByCodePoints(0, REASON_LENGTH - 1)) + '…';
     }
 }

@@ -56,7 +56,7 @@ public record RequestSummary(ObjectNode json) {
 
     /** Returns a rejection that names the subject of the request. */
     public CommandResult refusal(ErrorCode code, String reason) {
-        return Requests.aboutSubjects(CommandResult.refused(new RejectedException(code, reason)), json);
+        return Requests.aboutSubjects(CommandResult.rejected(new RejectedException(code, reason)), json);
     }
 
     public byte[] toBytes() {

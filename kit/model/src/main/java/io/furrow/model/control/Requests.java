@@ -59,7 +59,7 @@ public final class Requests {
     public static CommandResult refusal(RejectedException refusal, Command command) {
         ObjectNode request = NgsiJson.object();
         command.describe(request);
-        return aboutSubjects(CommandResult.refused(refusal), request);
+        return aboutSubjects(CommandResult.rejected(refusal), request);
     }
 
     private static <C> ParsedRequest<C> read(byte[] value, Reader<C> reader) {
@@ -70,14 +70,14 @@ public final class Requests {
         try {
             json = NgsiJson.read(value);
         } catch (UnreadableException e) {
-            return refused(ErrorCode.NOT_JSON, JsonObjectReader.quotable(e.getMessage()));
+            return rejected(ErrorCode.NOT_JSON, JsonObjectReader.quotable(e.getMessage()));
         }
         if ("response".equals(json.path("type").textValue())) {
             return new ParsedRequest.Passed<>();
         }
         if (!(json instanceof ObjectNode object)
                 || !"request".equals(json.path("type").textValue())) {
-            return refused(ErrorCode.NOT_A_REQUEST, "it is not an object with type=request");
+            return rejected(ErrorCode.NOT_A_REQUEST, "it is not an object with type=request");
         }
         return read(object, reader);
     }
@@ -91,7 +91,7 @@ public final class Requests {
             C command = reader.read(members.textOrNull("command"), members);
             return new ParsedRequest.Request<>(requestId, command);
         } catch (RejectedException e) {
-            return new ParsedRequest.Refused<>(requestId, aboutSubjects(CommandResult.refused(e), json));
+            return new ParsedRequest.Refused<>(requestId, aboutSubjects(CommandResult.rejected(e), json));
         }
     }
 
@@ -107,8 +107,8 @@ public final class Requests {
         return text != null && REQUEST_ID.matcher(text).matches();
     }
 
-    private static <C> ParsedRequest<C> refused(ErrorCode code, String reason) {
-        return new ParsedRequest.Refused<>(null, CommandResult.refused(new RejectedException(code, reason)));
+    private static <C> ParsedRequest<C> rejected(ErrorCode code, String reason) {
+        return new ParsedRequest.Refused<>(null, CommandResult.rejected(new RejectedException(code, reason)));
     }
 
     static CommandResult aboutSubjects(CommandResult refusal, ObjectNode request) {

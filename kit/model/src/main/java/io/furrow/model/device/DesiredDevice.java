@@ -52,10 +52,7 @@ public record DesiredDevice(
         Objects.requireNonNull(settings);
     }
 
-    /**
-     * Returns a device, simulated if it has a type, that contains its settings and whose credentials were never
-     * rotated.
-     */
+    /** Returns a device, simulated if it has a type, with its settings and without rotated credentials. */
     public static DesiredDevice simulated(
             DeviceVersion version, String type, String device, boolean running, Duration period, ObjectNode settings) {
         return new DesiredDevice(version, type, device, running, period, type != null, settings, null, 0);
@@ -74,10 +71,7 @@ public record DesiredDevice(
         return ROBOT.equals(type);
     }
 
-    /**
-     * Returns the position of a real device that does not report one: {@code {latitude, longitude}}, degrees; null if
-     * it reports it.
-     */
+    /** Returns the {@code {latitude, longitude}} of a real device that does not report them; otherwise null. */
     public JsonNode place() {
         JsonNode at = settings.path("at");
         return at.isObject() && !simulated ? at : null;

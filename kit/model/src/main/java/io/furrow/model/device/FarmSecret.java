@@ -203,10 +203,7 @@ public final class FarmSecret {
         }
     }
 
-    /**
-     * Encodes characters that have a meaning in files or topics of an MQTT broker, and the dot that separates the parts
-     * of a user.
-     */
+    /** Encodes special characters of files and topics of MQTT brokers, and the dot between the parts of a user. */
     private static String encode(String name) {
         return URLEncoder.encode(name, StandardCharsets.UTF_8)
                 .replace("+", "%20")

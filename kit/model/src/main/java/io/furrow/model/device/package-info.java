@@ -1,2 +1,2 @@
-/** What is known of the devices themselves, as the topic {@code service.devices} carries it. */
+/** The devices of a farm, as the topic {@code service.devices} contains them, and their credentials. */
 package io.furrow.model.device;

@@ -1,11 +1,11 @@
 package io.furrow.model.event;
 
-import java.nio.charset.StandardCharsets;
 import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Set;
 
 import io.furrow.model.ngsi.Reason;
+import io.furrow.model.text.Utf8;
 
 /**
  * Headers of rejected input: the value of a record on {@code <topic>.dead} has the original bytes.
@@ -29,27 +29,11 @@ public record DeadLetter(Reason reason, String message, String stage, String sou
 
     public DeadLetter {
         String sentence = message == null ? reason.code() : message;
-        message = unicode(
+        message = Utf8.encodable(
                 sentence.length() <= MAX_MESSAGE_LENGTH
                         ? sentence
                         : sentence.substring(0, MAX_MESSAGE_LENGTH - 1) + "…");
-        source = unicode(source);
-    }
-
-    /**
-     * Replaces halves of surrogate pairs, quoted from the input or left by truncation, which UTF-8 headers cannot
-     * contain.
-     */
-    private static String unicode(String text) {
-        if (text == null || StandardCharsets.UTF_8.newEncoder().canEncode(text)) {
-            return text;
-        }
-        return text.codePoints()
-                .map(codePoint -> codePoint >= Character.MIN_SURROGATE && codePoint <= Character.MAX_SURROGATE
-                        ? 0xfffd
-                        : codePoint)
-                .collect(StringBuilder::new, StringBuilder::appendCodePoint, StringBuilder::append)
-                .toString();
+        source = source == null ? null : Utf8.encodable(source);
     }
 
     public Map<String, String> headers() {

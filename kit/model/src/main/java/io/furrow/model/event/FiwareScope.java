@@ -24,10 +24,7 @@ public record FiwareScope(String service, String servicePath) {
         return of(headers.get(HeaderNames.SERVICE), headers.get(HeaderNames.SERVICE_PATH));
     }
 
-    /**
-     * Returns tenant, service path and id as one text: the key of a device on {@code service.devices}, regardless of
-     * its type.
-     */
+    /** Returns tenant, service path and id as one text: the key of a device on {@code service.devices}. */
     public String identity(String entityId) {
         return escape(service) + "|" + escape(servicePath) + "|" + entityId;
     }

@@ -1,9 +1,6 @@
 package io.furrow.model.event;
 
-/**
- * Headers of the records on {@code data.*}; all values are UTF-8 text, times are epoch milliseconds unless stated
- * otherwise.
- */
+/** Headers of the records on {@code data.*}: UTF-8 text, with times in epoch ms unless stated otherwise. */
 public final class HeaderNames {
     /** Event id, equal for all copies of a change. */
     public static final String CE_ID = "ce_id";
@@ -21,10 +18,7 @@ public final class HeaderNames {
      */
     public static final String ENTITY_TYPE = "entity-type";
 
-    /**
-     * Comma-separated names of attributes that are later than the event, for instance from a later measure of the
-     * device.
-     */
+    /** Comma-separated names of attributes that are later than the event, as those of a later measure. */
     public static final String LATER_ATTRIBUTES = "later-attributes";
 
     public static final String ORIGIN = "origin";

@@ -1,2 +1,2 @@
-/** What a change of an entity becomes on a topic: its identity, its time, its headers, or a dead letter. */
+/** A change of an entity on a topic: its identity, its time, its headers, or a dead letter. */
 package io.furrow.model.event;

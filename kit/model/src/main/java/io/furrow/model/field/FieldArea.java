@@ -1,7 +1,6 @@
 package io.furrow.model.field;
 
 import java.nio.charset.StandardCharsets;
-import java.util.Set;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.locationtech.jts.geom.Envelope;
@@ -20,7 +19,6 @@ import io.furrow.model.ngsi.UnreadableException;
  * read by it except those of files, which are repaired. Requires JTS on the class path of callers.
  */
 public final class FieldArea {
-    private static final Set<String> AREAS = Set.of("Polygon", "MultiPolygon");
     private static final Envelope EARTH = new Envelope(-180, 180, -90, 90);
 
     private FieldArea() {}
@@ -30,7 +28,7 @@ public final class FieldArea {
      * @throws UnreadableException with {@link Reason#NOT_AN_EVENT}; the message names the place and the remedy
      */
     public static Geometry read(JsonNode geometry, String field) throws UnreadableException {
-        if (!AREAS.contains(geometry.path("type").asText())) {
+        if (!FieldVersion.AREAS.contains(geometry.path("type").asText())) {
             throw rejected(field + " is not an area; give it a geometry of type Polygon or MultiPolygon", null);
         }
         int depth = geometry.path("type").asText().equals("Polygon") ? 2 : 3;

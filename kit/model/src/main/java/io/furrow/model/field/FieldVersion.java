@@ -27,9 +27,9 @@ import io.furrow.model.ngsi.UnreadableException;
  */
 public record FieldVersion(String id, long validFrom, ObjectNode geometry, ObjectNode properties) {
     private static final String VALID_FROM = "validFrom";
-    private static final Set<String> AREAS = Set.of("Polygon", "MultiPolygon");
+    static final Set<String> AREAS = Set.of("Polygon", "MultiPolygon");
     /** Characters of an entity id (NGSI-v2, "Field syntax restrictions"), with room for the prefix of a result's id. */
-    private static final Pattern ID = Pattern.compile("[!-~&&[^&?/#<>\"'=;()]]{1,200}");
+    public static final Pattern ID = Pattern.compile("[!-~&&[^&?/#<>\"'=;()]]{1,200}");
 
     private static final DateTimeFormatter UTC_MILLIS =
             new DateTimeFormatterBuilder().appendInstant(3).toFormatter();
@@ -61,10 +61,7 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
         Objects.requireNonNull(properties);
     }
 
-    /**
-     * Returns whether the context broker accepts it as (the end of) an entity id: 1 to 200 ASCII characters with some
-     * exceptions.
-     */
+    /** Returns whether the context broker accepts it as (the end of) an entity id. */
     public static boolean isId(String id) {
         return ID.matcher(id).matches();
     }
@@ -139,10 +136,7 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
         return properties.path("Domain").asText("");
     }
 
-    /**
-     * Returns whether its property {@code kind} is {@code exclusion}: an area in which devices may be close to each
-     * other.
-     */
+    /** Returns whether its {@code kind} is {@code exclusion}: an area in which devices may be close to each other. */
     public boolean isExclusion() {
         return properties.path("kind").asText("").equals("exclusion");
     }

@@ -1,2 +1,2 @@
-/** What is known of the fields of a farm, as the topic {@code service.fields} carries it, and what a file of them contains. */
+/** The fields of a farm, as the topic {@code service.fields} contains them, and the content of field files. */
 package io.furrow.model.field;

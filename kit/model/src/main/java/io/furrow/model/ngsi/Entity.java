@@ -54,10 +54,7 @@ public record Entity(ObjectNode json) {
         return of(NgsiJson.read(normalized));
     }
 
-    /**
-     * Reads only the desired attributes, for readers that need few of many and, for instance, no images. The same input
-     * is rejected.
-     */
+    /** Reads only the desired attributes, for readers that need few of many; rejects the same input. */
     public static Entity parse(byte[] normalized, Set<String> desired) throws UnreadableException {
         return PartialEntityReader.read(normalized, desired);
     }

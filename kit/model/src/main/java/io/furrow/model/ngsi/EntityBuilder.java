@@ -10,10 +10,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-/**
- * Builds an {@link Entity} with the attribute types of the WeLASER platform; {@link #toBytes} writes it without
- * building a tree.
- */
+/** Builds an {@link Entity} with attribute types of the WeLASER platform; {@link #toBytes} builds no tree. */
 public final class EntityBuilder {
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
 

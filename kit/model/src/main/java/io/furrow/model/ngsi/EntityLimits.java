@@ -41,10 +41,7 @@ final class EntityLimits {
         }
     }
 
-    /**
-     * Rejects half of a surrogate pair, which has no UTF-8 form and would become a question mark in record keys and
-     * hashes.
-     */
+    /** Rejects half of a surrogate pair, which would become a question mark in record keys and hashes. */
     static void checkText(String text) throws UnreadableException {
         for (int i = 0; i < text.length(); i++) {
             if (Character.isSurrogate(text.charAt(i))) {

@@ -140,9 +140,9 @@ final class NgsiLdAttribute {
             return metadata;
         }
         ObjectNode attribute = read(reported);
-        boolean whole = attribute.get("metadata").isEmpty();
-        metadata.set("type", whole ? attribute.get("type") : JsonNodeFactory.instance.textNode("StructuredValue"));
-        metadata.set("value", whole ? attribute.get("value") : reported);
+        boolean isSimple = attribute.get("metadata").isEmpty();
+        metadata.set("type", isSimple ? attribute.get("type") : JsonNodeFactory.instance.textNode("StructuredValue"));
+        metadata.set("value", isSimple ? attribute.get("value") : reported);
         return metadata;
     }
 }

@@ -48,10 +48,7 @@ final class NgsiLdEntity {
 
     private NgsiLdEntity() {}
 
-    /**
-     * Returns whether a bare entity is NGSI-LD by its shape: it has a context, or an attribute of a kind without
-     * NGSI-v2's metadata.
-     */
+    /** Returns whether a bare entity has a context or an attribute of a kind without NGSI-v2's metadata. */
     static boolean looksLike(JsonNode entity) {
         return entity.isObject()
                 && (entity.has("@context")

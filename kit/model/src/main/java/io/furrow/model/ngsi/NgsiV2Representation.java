@@ -93,10 +93,7 @@ enum NgsiV2Representation {
         return attribute;
     }
 
-    /**
-     * Returns the type that the context broker assigns to an attribute without one (NGSI-v2, "Partial
-     * Representations").
-     */
+    /** Returns the context broker's type of an attribute without one (NGSI-v2, "Partial Representations"). */
     static String typeOf(JsonNode value) {
         return switch (value.getNodeType()) {
             case STRING -> "Text";

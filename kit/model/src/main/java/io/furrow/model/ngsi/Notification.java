@@ -62,10 +62,7 @@ public record Notification(
         return entities.size() + rejected.size();
     }
 
-    /**
-     * Returns whether it is an NGSI-LD notification. An NGSI-v2 entity may have the type Notification, too, but not a
-     * list as data.
-     */
+    /** Returns whether it is an NGSI-LD notification; an NGSI-v2 entity of that type has no list as data. */
     private static boolean isLinkedData(JsonNode root) {
         return "Notification".equals(root.path("type").textValue())
                 && NgsiLdEntity.members(root.path("data")).isPresent();

@@ -20,10 +20,7 @@ public enum Reason implements Coded {
     NOT_AN_IMAGE,
     /** The event time is so long after the receipt that a clock must be wrong. */
     FROM_THE_FUTURE,
-    /**
-     * The mission or domain is unknown and the limit of unknown ones is reached, or the mission belongs to another
-     * domain.
-     */
+    /** The mission or domain is unknown beyond the limit of such, or the mission belongs to another domain. */
     UNKNOWN_MISSION,
     /** The target server rejected it. */
     REFUSED,

@@ -175,10 +175,7 @@ public final class EntityReader {
         return tree == null ? value(attribute).finite() : tree.number(attribute).orElse(Double.NaN);
     }
 
-    /**
-     * Returns the value of a desired attribute as a quantity, in its unit; NaN if it is not a number, or in an unknown
-     * unit.
-     */
+    /** Returns a desired attribute as a quantity, in its unit; NaN if it is not a number or has an unknown unit. */
     public double number(String attribute, Quantity quantity) {
         return tree == null
                 ? quantity.read(value(attribute).finite(), value(attribute).unit())

@@ -2,10 +2,7 @@ package io.furrow.model.result;
 
 /** Common parts of the types of result entities. */
 public final class ResultTypes {
-    /**
-     * Prefix of the type and the id of each result entity; jobs skip these entities when they return through the
-     * context broker.
-     */
+    /** Prefix of types and ids of result entities, which jobs skip when they return through the context broker. */
     public static final String PREFIX = "Analytics:";
     /** Type for a position that arrived too late for an analysis. */
     public static final String LATE_POSITION = PREFIX + "LatePosition";

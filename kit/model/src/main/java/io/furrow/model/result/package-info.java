@@ -1,5 +1,5 @@
 /**
- * Types and attribute names of the entities that analytics writes: the contract between {@code analytics}, which writes them, and the control
- * plane and the command line, which read them. Knows nothing of how results are computed.
+ * Types and attribute names of the entities that analytics writes: the contract between {@code analytics}, which writes
+ * them, and the control plane and the command line, which read them.
  */
 package io.furrow.model.result;

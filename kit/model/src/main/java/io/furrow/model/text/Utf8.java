@@ -1,8 +1,19 @@
 package io.furrow.model.text;
 
-/** Validates UTF-8 (RFC 3629), because Jackson's decoder accepts overlong forms and code points beyond U+10FFFF. */
+/**
+ * Validates UTF-8 (RFC 3629), because Jackson's decoder accepts overlong forms and code points beyond U+10FFFF, and
+ * makes texts encodable.
+ */
 public final class Utf8 {
     private Utf8() {}
+
+    /** Replaces halves of surrogate pairs, which UTF-8 cannot encode, by U+FFFD. */
+    public static String encodable(String text) {
+        return text.codePoints()
+                .map(each -> Character.getType(each) == Character.SURROGATE ? 0xfffd : each)
+                .collect(StringBuilder::new, StringBuilder::appendCodePoint, StringBuilder::append)
+                .toString();
+    }
 
     /** Returns the position of the first byte that is not part of a UTF-8 sequence; -1 if there is none. */
     public static int firstWrong(byte[] bytes) {

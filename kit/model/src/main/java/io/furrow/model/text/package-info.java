@@ -1,2 +1,2 @@
-/** Parts of sentences for people. */
+/** Parts of messages for people. */
 package io.furrow.model.text;

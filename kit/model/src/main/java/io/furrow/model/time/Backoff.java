@@ -2,10 +2,7 @@ package io.furrow.model.time;
 
 import java.time.Duration;
 
-/**
- * Computes delays between attempts: the first is {@code min}, each further one twice the previous, up to {@code max}.
- * Not thread-safe.
- */
+/** Computes delays between attempts that double from {@code min} to {@code max}. Not thread-safe. */
 public final class Backoff {
     private final Duration min;
     private final Duration max;

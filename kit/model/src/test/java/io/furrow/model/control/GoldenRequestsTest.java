@@ -27,7 +27,7 @@ class GoldenRequestsTest {
         List<String> now = new ArrayList<>();
         for (String line : golden) {
             if (!line.startsWith(" ") && !line.isEmpty()) {
-                now.addAll(List.of(line, "  " + answer(manager, whole(line)), ""));
+                now.addAll(List.of(line, "  " + answer(manager, expand(line)), ""));
             }
         }
         if (Boolean.getBoolean("golden.renew")) {
@@ -36,7 +36,7 @@ class GoldenRequestsTest {
         assertThat(now).hasSizeGreaterThan(20).isEqualTo(Files.readAllLines(file));
     }
 
-    private static byte[] whole(String line) {
+    private static byte[] expand(String line) {
         String json = line.startsWith("{'type'") || !line.startsWith("{") || line.equals("{}")
                 ? line
                 : line.replaceFirst("\\{", "{'type':'request',");

@@ -5,10 +5,7 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Random;
 
-/**
- * Generates entities with everything that devices, brokers and robots write, and much that they should not; mostly
- * well-formed.
- */
+/** Generates mostly well-formed entities with all that devices, brokers and robots write, and much more. */
 public record MadeUpEntities(Random random) {
     private static final String[] NAMES = {
         "location", "Latitude", "Longitude", "gnss", "pose", "temperature", "Mission", "TimeInstant",

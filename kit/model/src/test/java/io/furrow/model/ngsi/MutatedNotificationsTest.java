@@ -18,10 +18,7 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.fail;
 
-/**
- * Checks that recorded notifications, mutated at random, are either unreadable or entities that every accessor and
- * reader accepts.
- */
+/** Checks that randomly mutated notifications are unreadable or accepted by every accessor and reader. */
 @Timeout(60)
 class MutatedNotificationsTest {
     private static final long SEED = 20261121;

@@ -55,7 +55,7 @@ class PartialEntityReaderTest {
     void rejectsInvalidEntities(String body, String reason) {
         assertThatExceptionOfType(UnreadableException.class)
                 .isThrownBy(() -> Entity.parse(bytes(body), Set.of("Mission")))
-                .satisfies(refusal -> assertThat(refusal.reason().code()).isEqualTo(reason));
+                .satisfies(rejection -> assertThat(rejection.reason().code()).isEqualTo(reason));
     }
 
     @Test
@@ -64,7 +64,7 @@ class PartialEntityReaderTest {
 
         assertThatExceptionOfType(UnreadableException.class)
                 .isThrownBy(() -> Entity.parse(bytes(deep), Set.of()))
-                .satisfies(refusal -> assertThat(refusal.reason()).isEqualTo(Reason.TOO_DEEP));
+                .satisfies(rejection -> assertThat(rejection.reason()).isEqualTo(Reason.TOO_DEEP));
     }
 
     static Stream<String> attributes() {
@@ -93,8 +93,8 @@ class PartialEntityReaderTest {
     void rejectsInASkippedAttributeWhatAWholeReadRejects(String attribute) {
         byte[] entity = bytes("{\"id\":\"c\",\"x\":" + attribute + "}");
 
-        assertThat(refusal(() -> Entity.parse(entity, Set.of("Mission"))))
-                .isEqualTo(refusal(() -> Entity.parse(entity)));
+        assertThat(rejection(() -> Entity.parse(entity, Set.of("Mission"))))
+                .isEqualTo(rejection(() -> Entity.parse(entity)));
     }
 
     @Test
@@ -108,15 +108,15 @@ class PartialEntityReaderTest {
                 damaged[random.nextInt(damaged.length)] = characters[random.nextInt(characters.length)];
             }
 
-            String whole = refusal(() -> Entity.parse(damaged));
-            assertThat(refusal(() -> Entity.parse(damaged, Set.of("Mission"))).isEmpty())
+            String whole = rejection(() -> Entity.parse(damaged));
+            assertThat(rejection(() -> Entity.parse(damaged, Set.of("Mission"))).isEmpty())
                     .as("seed %d, round %d: %s, as a whole %s", seed, i, new String(damaged, UTF_8), whole)
                     .isEqualTo(whole.isEmpty());
         }
     }
 
     /** Returns the reason; empty if there is none. */
-    private static String refusal(NgsiJson.Reading<Entity> reading) {
+    private static String rejection(NgsiJson.Reading<Entity> reading) {
         try {
             reading.read();
             return "";

@@ -34,9 +34,9 @@ import static org.assertj.core.api.Assertions.fail;
  */
 class EntityReaderTest {
     private static final long SEED = 20261121;
-    private static final Set<String> WANTED = Set.of("temperature", "Mission", "TimeInstant", "Time", "speed", "id");
+    private static final Set<String> DESIRED = Set.of("temperature", "Mission", "TimeInstant", "Time", "speed", "id");
 
-    private final EntityReader reader = new EntityReader(WANTED);
+    private final EntityReader reader = new EntityReader(DESIRED);
     private int byTokens;
 
     /** Returns all that a job may read from an entity, or why it is unreadable. */
@@ -169,7 +169,7 @@ class EntityReaderTest {
     private Answer ofReader(byte[] entity) {
         try {
             reader.read(entity);
-            List<Object> attributes = new TreeSet<>(WANTED)
+            List<Object> attributes = new TreeSet<>(DESIRED)
                     .stream().map(this::ofReader).map(Object.class::cast).toList();
             return new Answer(reader.id(), reader.type(), reader.position(), attributes, null, null);
         } catch (UnreadableException e) {
@@ -189,10 +189,10 @@ class EntityReaderTest {
 
     private static Answer ofTree(byte[] bytes) {
         try {
-            Set<String> desired = new TreeSet<>(WANTED);
+            Set<String> desired = new TreeSet<>(DESIRED);
             desired.addAll(PositionReading.ATTRIBUTES);
             Entity entity = Entity.parse(bytes, desired);
-            List<Object> attributes = new TreeSet<>(WANTED)
+            List<Object> attributes = new TreeSet<>(DESIRED)
                     .stream()
                             .map(name -> ofTree(entity, name))
                             .map(Object.class::cast)

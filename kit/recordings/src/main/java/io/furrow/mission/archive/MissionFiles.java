@@ -72,10 +72,7 @@ public final class MissionFiles {
         return isCompressed(file) ? new GZIPInputStream(in, BUFFER) : in;
     }
 
-    /**
-     * Writes a file, replacing an existing one. On file systems without an atomic replacement the existing file is
-     * deleted just before.
-     */
+    /** Writes or replaces a file; on file systems without atomic replacement it deletes the old one first. */
     public static long write(Path file, Content content) throws IOException {
         FileSystem files = file.getFileSystem();
         RecoverableFsDataOutputStream out = files.createRecoverableWriter().open(file);

@@ -1,2 +1,2 @@
-/** Stored missions as files of lines on Flink's file systems, which whoever uses them brings: exported, imported, archived. */
+/** Exports, imports and archives stored missions as files of lines on Flink's file systems, which callers provide. */
 package io.furrow.mission.archive;

@@ -118,8 +118,8 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
             }
             return rejected;
         } catch (ExecutionException e) {
-            throw e.getCause() instanceof IOException known
-                    ? known
+            throw e.getCause() instanceof IOException mongoException
+                    ? mongoException
                     : new IOException("documents could not be written", e.getCause());
         } finally {
             answers.forEach(answer -> answer.cancel(true));
@@ -145,7 +145,7 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
     private void send(
             String collection, List<D> documents, UnknownErrorPolicy unknownErrorPolicy, List<Refusal<D>> rejected)
             throws IOException, InterruptedException {
-        RetryTimer retryTimer = new RetryTimer(waits.away());
+        RetryTimer retryTimer = new RetryTimer(waits.unavailable());
         List<D> remaining = documents;
         int disconnects = 0;
         while (!remaining.isEmpty()) {
@@ -193,7 +193,7 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
     }
 
     private static MongoFailure failureToPrepare(Exception e) throws IOException {
-        if (e instanceof MongoException known && MongoFailure.of(known) == MongoFailure.SETTING) {
+        if (e instanceof MongoException mongoException && MongoFailure.of(mongoException) == MongoFailure.SETTING) {
             throw wrongSetting(e);
         }
         return MongoFailure.UNAVAILABLE;
@@ -202,23 +202,23 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
     /** Returns the failure of a whole command; documents with an unknown code are rejected after a timeout. */
     private MongoFailure failure(Exception e, String collection, UnknownErrorPolicy unknownErrorPolicy, int documents)
             throws IOException {
-        if (!(e instanceof MongoException known)) {
+        if (!(e instanceof MongoException mongoException)) {
             return MongoFailure.REJECTED; // the driver cannot encode a document
         }
-        MongoFailure failure = MongoFailure.of(known);
+        MongoFailure failure = MongoFailure.of(mongoException);
         if (failure == MongoFailure.SETTING) {
             throw wrongSetting(e);
         }
-        boolean ofCommand = failure == MongoFailure.REJECTED && MongoCodes.isAmbiguousForCommand(known.getCode());
+        boolean ofCommand = failure == MongoFailure.REJECTED && MongoCodes.isAmbiguousForCommand(mongoException.getCode());
         if (failure != MongoFailure.UNKNOWN && !ofCommand) {
             return failure;
         }
-        countUnknownError(collection, known.getCode(), known.getMessage(), unknownErrorPolicy);
-        if (!unknownErrorPolicy.isExhausted(collection, known.getCode())) {
+        countUnknownError(collection, mongoException.getCode(), mongoException.getMessage(), unknownErrorPolicy);
+        if (!unknownErrorPolicy.isExhausted(collection, mongoException.getCode())) {
             return MongoFailure.UNKNOWN;
         }
         if (documents == 1) {
-            unknownErrorPolicy.giveUp(known.getCode());
+            unknownErrorPolicy.giveUp(mongoException.getCode());
         }
         return MongoFailure.REJECTED;
     }

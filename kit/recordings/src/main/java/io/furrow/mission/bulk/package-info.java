@@ -1,2 +1,2 @@
-/** Documents to MongoDB in bulks: what is tried again, what is refused. */
+/** Writes documents to MongoDB in bulks, and retries or rejects them. */
 package io.furrow.mission.bulk;

@@ -10,10 +10,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.mission.marker.Marker;
 import io.furrow.model.ngsi.NgsiJson;
 
-/**
- * Writes the channel {@code markers} of an MCAP file, with a message for each marker at its time. Without markers there
- * is no channel.
- */
+/** Writes the markers of an MCAP file at their times to the channel {@code markers}, if there are any. */
 final class McapMarkers {
     private static final String TOPIC = "markers";
 

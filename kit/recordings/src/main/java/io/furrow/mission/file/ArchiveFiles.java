@@ -12,10 +12,7 @@ import io.furrow.mission.Cursor;
 import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.RecordingInterruptedException;
 
-/**
- * Reads the lines of files in the order of events, from a cursor on: one group after the other, with the files of a
- * group merged.
- */
+/** Reads the lines of files in the order of events: one group after the other, each merged. */
 final class ArchiveFiles implements AutoCloseable {
     static final int LENGTH_OF_DAY = "2026-11-21".length();
 

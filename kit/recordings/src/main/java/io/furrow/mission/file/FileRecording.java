@@ -22,10 +22,7 @@ import io.furrow.mission.SkippedRecords;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.ngsi.UnreadableException;
 
-/**
- * Reads a mission from files. Consecutive pages continue; any other page starts at the beginning of the file, or of the
- * day's files.
- */
+/** Reads a mission from files; a page that does not follow the last one starts at the beginning of the file or day. */
 final class FileRecording implements Recording {
     private final String mission;
     private final RecordingFiles files;

@@ -6,10 +6,7 @@ import java.util.List;
 
 import io.furrow.model.ngsi.NgsiJson;
 
-/**
- * Writes the markers of an exported mission to a file beside that of its events, with a {@linkplain Marker#toJson JSON
- * object} per line.
- */
+/** Writes markers to a file beside an exported mission, a {@linkplain Marker#toJson JSON object} per line. */
 public final class MarkerFile {
     private static final String ENDING = ".markers.jsonl";
     private static final List<String> MISSION_ENDINGS = List.of(".gz", ".ndjson", ".jsonl");

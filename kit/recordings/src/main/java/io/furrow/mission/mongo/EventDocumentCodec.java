@@ -189,11 +189,11 @@ public final class EventDocumentCodec {
     }
 
     /** Returns the headers to store, without those that repeat other fields of the document. */
-    public static Map<String, String> kept(Map<String, String> headers) {
-        Map<String, String> kept = new TreeMap<>(headers);
-        kept.remove(HeaderNames.CE_ID);
-        kept.remove(HeaderNames.CE_TIME);
-        kept.remove(HeaderNames.CE_SPECVERSION);
-        return kept;
+    public static Map<String, String> storedHeaders(Map<String, String> headers) {
+        Map<String, String> storedHeaders = new TreeMap<>(headers);
+        storedHeaders.remove(HeaderNames.CE_ID);
+        storedHeaders.remove(HeaderNames.CE_TIME);
+        storedHeaders.remove(HeaderNames.CE_SPECVERSION);
+        return storedHeaders;
     }
 }

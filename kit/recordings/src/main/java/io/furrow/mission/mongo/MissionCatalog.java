@@ -12,10 +12,7 @@ import org.bson.RawBsonDocument;
 
 import io.furrow.mission.RecordingException;
 
-/**
- * Lists the missions that are stored in MongoDB, from the names of collections and the first and last entry of their
- * index on event time.
- */
+/** Lists the missions in MongoDB by the names of collections and the ends of their index on event time. */
 public final class MissionCatalog extends StoredDatabase {
     MissionCatalog(MongoRecordings recordings) {
         super(recordings);

@@ -104,10 +104,7 @@ public final class MissionCollections {
         });
     }
 
-    /**
-     * Returns the possible collections of a mission, the most likely first, given its name or its encoded name in
-     * topics.
-     */
+    /** Returns the possible collections of a mission or its encoded name in topics, the most likely first. */
     public static List<String> candidates(String mission) {
         boolean looksEncoded = mission.startsWith("_x-") || mission.startsWith("_h-");
         return looksEncoded ? List.of(nameOf(mission), PREFIX + mission) : List.of(nameOf(mission));

@@ -19,10 +19,10 @@ public record MongoAccess(String uri, Waits waits) implements Serializable {
     /**
      * How long documents are retried.
      *
-     * @param away while the server is unavailable
+     * @param unavailable while the server is unavailable
      * @param unknown while the server rejects them for an unknown reason
      */
-    public record Waits(Duration away, Duration unknown) implements Serializable {
+    public record Waits(Duration unavailable, Duration unknown) implements Serializable {
         /** Returns the same timeout for both. */
         public static Waits of(Duration timeout) {
             return new Waits(timeout, timeout);

@@ -16,10 +16,7 @@ import org.bson.RawBsonDocument;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.mongo.OrderedDocumentReader.Ordered;
 
-/**
- * Reads a millisecond with too many documents for the memory: holds their ids and reads a few documents at a time,
- * large ones one by one.
- */
+/** Reads a millisecond with too many documents for the memory, by ids and in small batches. */
 final class SameTimeCursor implements Iterator<List<Ordered>> {
     private static final int MAX_BATCH = 16;
     private static final int ID_BATCH = 10_000;

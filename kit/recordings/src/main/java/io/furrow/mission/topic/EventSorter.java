@@ -17,7 +17,7 @@ import io.furrow.mission.RecordingInterruptedException;
 
 /**
  * Sorts events on disk: writes sorted runs of limited size, then merges them. Of events with the same time and id, the
- * first by partition and offset is kept.
+ * first by partition and offset counts.
  */
 final class EventSorter {
     private static final int MAX_MERGED = 64;

@@ -123,7 +123,7 @@ final class EventTopicReader {
                 id,
                 record.timestamp(),
                 entity == null ? key(record) : entity.id(),
-                EventDocumentCodec.kept(headers),
+                EventDocumentCodec.storedHeaders(headers),
                 entity == null ? null : entity.json());
     }
 

@@ -23,10 +23,7 @@ class McapExportTest {
     @TempDir
     Path folder;
 
-    /**
-     * The expected file was verified with mcap 1.6.0 of PyPI, including checksums; {@code ./furrow soak mcap} repeats
-     * that.
-     */
+    /** mcap 1.6.0 of PyPI has verified the expected file and its checksums; {@code ./furrow soak mcap} repeats that. */
     @Test
     void writesTheBytesThatAnIndependentReaderVerified() throws Exception {
         byte[] written = exported(RESOURCES.resolve("mission.ndjson"), new ExportResult(10, 0, Optional.empty()));

@@ -75,12 +75,12 @@ class ImageNameTest {
     @Test
     void givesNoTwoNamesTheSamePart() {
         Random random = new Random(3);
-        String signs = "ab.~:/_-%7EhHnone2F ñ";
+        String characters = "ab.~:/_-%7EhHnone2F ñ";
         Map<String, String> byPart = new HashMap<>();
         for (int i = 0; i < 100_000; i++) {
             StringBuilder name = new StringBuilder();
             for (int length = random.nextInt(6); length > 0; length--) {
-                name.append(signs.charAt(random.nextInt(signs.length())));
+                name.append(characters.charAt(random.nextInt(characters.length())));
             }
             String other = byPart.put(ImageName.part(name.toString()), name.toString());
             assertThat(other == null || other.contentEquals(name))

@@ -5,13 +5,9 @@ import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.CopyOnWriteArrayList;
 
-import com.mongodb.ConnectionString;
-import com.mongodb.MongoClientSettings;
 import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoClients;
 import com.mongodb.client.MongoDatabase;
-import com.mongodb.event.CommandListener;
-import com.mongodb.event.CommandStartedEvent;
 import org.bson.BsonDateTime;
 import org.bson.BsonDocument;
 import org.bson.BsonString;
@@ -97,15 +93,7 @@ class MissionCatalogTest {
     void readsOneDocumentAtEachEndOfTheIndexOnEventTime() throws Exception {
         store("mission_weeding", 30, 10, 20);
         List<BsonDocument> commands = new CopyOnWriteArrayList<>();
-        try (MongoClient listening = MongoClients.create(MongoClientSettings.builder()
-                .applyConnectionString(new ConnectionString(mongo.uri()))
-                .addCommandListener(new CommandListener() {
-                    @Override
-                    public void commandStarted(CommandStartedEvent event) {
-                        commands.add(event.getCommand().clone());
-                    }
-                })
-                .build())) {
+        try (MongoClient listening = MongoAwayTest.listening(mongo.uri(), commands)) {
             MongoRecording.span(listening
                     .getDatabase(MongoAccess.DATABASE)
                     .getCollection("mission_weeding", RawBsonDocument.class));

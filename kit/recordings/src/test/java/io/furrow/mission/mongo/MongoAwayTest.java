@@ -149,7 +149,8 @@ class MongoAwayTest {
                 .count();
     }
 
-    private static MongoClient listening(String uri, List<BsonDocument> commands) {
+    /** Returns a client that adds its commands to a list. */
+    static MongoClient listening(String uri, List<BsonDocument> commands) {
         return MongoClients.create(MongoClientSettings.builder()
                 .applyConnectionString(new ConnectionString(uri))
                 .addCommandListener(new CommandListener() {

@@ -20,7 +20,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class EventSorterTest {
-    private static final String[] SIGNS = {"a", "b", "Z", "é", "\uFFFD", "\uD83D\uDE9C"};
+    private static final String[] CHARACTERS = {"a", "b", "Z", "é", "\uFFFD", "\uD83D\uDE9C"};
 
     @Test
     void sortsMoreEventsThanFitIntoMemoryAndKeepsTheFirstOfDuplicates(@TempDir Path folder) throws Exception {
@@ -30,7 +30,7 @@ class EventSorterTest {
             EventSorter sorter = new EventSorter(new DiskSpace(folder, 0, () -> Long.MAX_VALUE), 2_000);
             TreeMap<Cursor, SortedEvent> expected = new TreeMap<>();
             for (int i = 0; i < events; i++) {
-                String id = SIGNS[random.nextInt(SIGNS.length)] + random.nextInt(events);
+                String id = CHARACTERS[random.nextInt(CHARACTERS.length)] + random.nextInt(events);
                 String line = "x".repeat(random.nextInt(100)) + i;
                 SortedEvent event = new SortedEvent(
                         new Cursor(random.nextInt(50), id),
