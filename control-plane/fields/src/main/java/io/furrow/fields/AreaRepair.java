@@ -73,9 +73,9 @@ final class AreaRepair {
         note(withoutArea > 0, "left out " + Counts.of(withoutArea, "ring") + " without area");
     }
 
-    private void note(boolean happened, String what) {
-        if (happened) {
-            notes.add(what);
+    private void note(boolean condition, String text) {
+        if (condition) {
+            notes.add(text);
         }
     }
 
@@ -151,13 +151,13 @@ final class AreaRepair {
         }
         Geometry fixed = GeometryFixer.fix(area);
         if (fixed.isEmpty()) {
-            throw new RejectedFeatureException("encloses no area (" + what(error) + ")");
+            throw new RejectedFeatureException("encloses no area (" + describe(error) + ")");
         }
-        notes.add("repaired: " + what(error));
+        notes.add("repaired: " + describe(error));
         return fixed;
     }
 
-    private static String what(TopologyValidationError error) {
+    private static String describe(TopologyValidationError error) {
         return error.getMessage() + " at " + Phrases.place(error.getCoordinate().x, error.getCoordinate().y);
     }
 

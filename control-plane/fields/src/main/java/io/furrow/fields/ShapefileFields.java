@@ -55,14 +55,14 @@ final class ShapefileFields {
             ShapefileReader.Shape shape = shapes.get(index);
             features.add(new SourceFeature(index + 1, null, rows.get(index), shape.outline(), shape.fault()));
         }
-        Optional<Path> prj = beside(".prj");
+        Optional<Path> prj = sibling(".prj");
         return new FieldLayer(prj.isPresent() ? text(prj.get()) : null, features, notes);
     }
 
     /** Returns one row per shape; null if it is deleted. */
     private List<ObjectNode> rows(int shapes) throws InvalidFileException {
         List<ObjectNode> rows = new ArrayList<>();
-        Optional<Path> dbf = beside(".dbf");
+        Optional<Path> dbf = sibling(".dbf");
         if (dbf.isEmpty()) {
             notes.add("there is no .dbf file next to it: the fields have no attributes");
             for (int shape = 0; shape < shapes; shape++) {
@@ -109,7 +109,7 @@ final class ShapefileFields {
 
     /** Returns the code page that .cpg names, else the one that the table names, else the detected one. */
     private Charset charset(byte[] table) throws InvalidFileException {
-        Optional<Path> cpg = beside(".cpg");
+        Optional<Path> cpg = sibling(".cpg");
         String named = cpg.isPresent() ? text(cpg.get()) : "";
         if (!named.isEmpty()) {
             return CodePage.named(named)
@@ -145,7 +145,7 @@ final class ShapefileFields {
     }
 
     /** Finds the file of the same name with another extension, in lower or upper case. */
-    private Optional<Path> beside(String ending) {
+    private Optional<Path> sibling(String ending) {
         String name = shp.getFileName().toString().replaceFirst("\\.[^.]*$", "");
         return Stream.of(ending, ending.toUpperCase(Locale.ROOT))
                 .map(one -> shp.resolveSibling(name + one))

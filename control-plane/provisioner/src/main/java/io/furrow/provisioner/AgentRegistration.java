@@ -110,14 +110,14 @@ record AgentRegistration(
                 .put("transport", "MQTT");
         ArrayNode mapped = json.putArray("attributes");
         attributes.forEach(attribute -> {
-            ObjectNode one = attribute.toJson();
+            ObjectNode mapping = attribute.toJson();
             if (attribute.unit() != null) {
-                one.putObject("metadata")
+                mapping.putObject("metadata")
                         .putObject("unitCode")
                         .put("type", "Text")
                         .put("value", attribute.unit());
             }
-            mapped.add(one);
+            mapped.add(mapping);
         });
         fix(json, fixed);
         ArrayNode orders = json.putArray("commands");

@@ -260,7 +260,7 @@ final class AgentRegistrationCache {
         return own().filter(device -> !removals.allows(device));
     }
 
-    /** Returns own devices and groups that stay although this Kafka does not want them, or wants them in another mission. */
+    /** Returns own devices and groups that stay although they are not desired in this Kafka, or in another mission. */
     Retained retained(Set<String> apiKeys) {
         return new Retained(
                 List.of(),

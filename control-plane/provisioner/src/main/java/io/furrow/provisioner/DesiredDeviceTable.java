@@ -87,7 +87,6 @@ final class DesiredDeviceTable {
         }
     }
 
-    /** Returns the devices by key. */
     Map<String, DesiredDevice> all() {
         return devices;
     }

@@ -151,9 +151,9 @@ final class ProvisioningReconciler {
                 String failure = remove(scope, budget);
                 removalFailure = failure == null ? removalFailure : failure;
                 removed &= failure != null || isClean(scope);
-                Retained here = cacheOf(scope).retained(desiredKeys(scope));
-                retainedDevices.addAll(here.devices());
-                retainedGroups.addAll(here.groups());
+                Retained ofScope = cacheOf(scope).retained(desiredKeys(scope));
+                retainedDevices.addAll(ofScope.devices());
+                retainedGroups.addAll(ofScope.groups());
             }
         }
         Retained retained = new Retained(accounts.retained(), retainedDevices, retainedGroups);

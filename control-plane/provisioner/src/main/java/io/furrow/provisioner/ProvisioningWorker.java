@@ -58,7 +58,6 @@ final class ProvisioningWorker implements AutoCloseable {
     private final KafkaProducer<String, byte[]> producer;
     private final DesiredDeviceTable desired;
     private final Properties client;
-    /** Address of the IoT Agent. */
     private final String agent;
     /** Reads {@code service.missions.devices}; null while another instance is active. */
     private CommittedReader<String> lists;
@@ -130,7 +129,7 @@ final class ProvisioningWorker implements AutoCloseable {
             try {
                 desired.take(record.key(), record.value() == null ? null : DesiredDevice.read(record.value()));
             } catch (UnreadableException e) {
-                LOG.warn("{}@{} is not a desired device and is skipped", record.topic(), record.offset(), e);
+                LOG.warn("{} is not a desired device and is skipped", KafkaClients.position(record), e);
             }
         }
         if (!records.isEmpty()) {
@@ -155,7 +154,7 @@ final class ProvisioningWorker implements AutoCloseable {
                         published.put(record.key(), DeviceConnection.read(record.value()));
                     }
                 } catch (UnreadableException e) { // written by a later version; its history starts again
-                    LOG.debug("{}@{} is not a connection of a device", record.topic(), record.offset(), e);
+                    LOG.debug("{} is not a connection of a device", KafkaClients.position(record), e);
                 }
             });
         }

@@ -50,7 +50,7 @@ final class RemovalGuard {
 
         /** Returns a summary without names, for public pages. */
         String summary() {
-            return "%d MQTT accounts, %d devices and %d service groups of the IoT Agent stay, though this Kafka does not want them"
+            return "%d MQTT accounts, %d devices and %d service groups of the IoT Agent stay, although this Kafka does not contain them"
                     .formatted(accounts.size(), devices.size(), groups.size());
         }
 
@@ -59,7 +59,7 @@ final class RemovalGuard {
             List<String> names = new ArrayList<>(devices.isEmpty() ? accounts : devices);
             names.addAll(names.isEmpty() ? groups : List.of());
             String named = String.join(", ", names.subList(0, Math.min(names.size(), MAX_NAMED)));
-            return "%s: it is empty, or another than the one for which they were made (%s%s). Check --kafka; after a loss of Kafka's data start their missions again; --forget-devices removes what is not wanted"
+            return "%s: it is empty, or they were created for another Kafka (%s%s). Check --kafka; after a loss of Kafka's data, start their missions again; --forget-devices removes those that are not desired"
                     .formatted(summary(), named, names.size() > MAX_NAMED ? ", …" : "");
         }
 

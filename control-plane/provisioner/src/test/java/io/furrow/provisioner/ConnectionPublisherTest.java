@@ -131,9 +131,9 @@ class ConnectionPublisherTest {
 
     @Test
     void reportsThatLoginsAreNotObserved() throws Exception {
-        ConnectionPublisher unsure = publisher(ConnectionSources.NONE);
+        ConnectionPublisher unobserved = publisher(ConnectionSources.NONE);
         now.addAndGet(INTERVAL);
-        unsure.publish(Set.of(key));
+        unobserved.publish(Set.of(key));
 
         assertThat(newest()).isEqualTo(new DeviceConnection(null, null, null, null, null, true));
     }

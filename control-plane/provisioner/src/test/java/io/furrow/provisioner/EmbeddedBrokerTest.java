@@ -40,7 +40,7 @@ class EmbeddedBrokerTest {
     @AutoClose
     private static EmbeddedMqtt mqtt;
 
-    private final Map<String, String> heard = new ConcurrentHashMap<>();
+    private final Map<String, String> received = new ConcurrentHashMap<>();
     private MqttClient agent;
 
     @BeforeAll
@@ -57,7 +57,7 @@ class EmbeddedBrokerTest {
         ACCOUNTS.replace(
                 List.of(MqttAccount.device(SECRET, "hoeing", "d"), MqttAccount.gateway(SECRET, "hoeing")), Set.of());
         agent = connect(new FarmSecret.Login("agent", "plough"));
-        agent.subscribe("#", 1, (topic, message) -> heard.put(topic, new String(message.getPayload(), UTF_8)));
+        agent.subscribe("#", 1, (topic, message) -> received.put(topic, new String(message.getPayload(), UTF_8)));
     }
 
     @AfterEach
@@ -71,8 +71,8 @@ class EmbeddedBrokerTest {
         device.publish(KEY + "/e/attrs", "forged".getBytes(UTF_8), 0, false);
         device.publish(KEY + "/d/attrs", "1".getBytes(UTF_8), 1, false);
 
-        await().until(() -> "1".equals(heard.get(KEY + "/d/attrs")));
-        assertThat(heard).doesNotContainKey(KEY + "/e/attrs");
+        await().until(() -> "1".equals(received.get(KEY + "/d/attrs")));
+        assertThat(received).doesNotContainKey(KEY + "/e/attrs");
         leave(device);
     }
 
@@ -85,8 +85,8 @@ class EmbeddedBrokerTest {
         device.publish(KEY + "/e/attrs", "forged".getBytes(UTF_8), qos, true);
         device.publish(KEY + "/d/attrs", "qos %d".formatted(qos).getBytes(UTF_8), qos, false);
 
-        await().until(() -> "qos %d".formatted(qos).equals(heard.get(KEY + "/d/attrs")));
-        assertThat(heard).doesNotContainKey(KEY + "/e/attrs");
+        await().until(() -> "qos %d".formatted(qos).equals(received.get(KEY + "/d/attrs")));
+        assertThat(received).doesNotContainKey(KEY + "/e/attrs");
         leave(device);
     }
 
@@ -100,8 +100,8 @@ class EmbeddedBrokerTest {
             device.disconnectForcibly(0, TIMEOUT_MS, false);
         }
 
-        await().until(() -> "gone".equals(heard.get(KEY + "/d/attrs")));
-        assertThat(heard).doesNotContainKey(KEY + "/e/attrs");
+        await().until(() -> "gone".equals(received.get(KEY + "/d/attrs")));
+        assertThat(received).doesNotContainKey(KEY + "/e/attrs");
         device.close();
     }
 

@@ -35,11 +35,11 @@ final class FakeAgent implements AutoCloseable {
     /** Groups of other tenants. */
     final Map<String, JsonNode> hidden = new LinkedHashMap<>();
     /** Ids of devices that it rejects. */
-    final Set<String> disliked = new HashSet<>();
+    final Set<String> rejectedIds = new HashSet<>();
     /** Ids of devices whose creation or removal fails with 500. */
     final Set<String> broken = new HashSet<>();
     /** Ids of devices that it still creates after it has rejected their batch. */
-    final Set<String> late = new HashSet<>();
+    final Set<String> createdLate = new HashSet<>();
     /** Method and path of each changing request. */
     final List<String> changes = new CopyOnWriteArrayList<>();
     /** Values of {@code fiware-service}. */
@@ -52,23 +52,22 @@ final class FakeAgent implements AutoCloseable {
     /** Whether it answers every request with 503. */
     volatile boolean unavailable;
     /** Fixed answer to every GET; null for the real answer. */
-    volatile String garbage;
+    volatile String fixedAnswer;
     /** Maximum number of devices of a batch; it breaks the connection of a larger batch. */
-    volatile int most = Integer.MAX_VALUE;
+    volatile int maxBatch = Integer.MAX_VALUE;
     /** Run at each changing request. */
     volatile Runnable onChange = () -> {};
 
     private final StubServer server = new StubServer(this::handle);
-    private final List<JsonNode> unfinished = new ArrayList<>();
+    private final List<JsonNode> pendingBatch = new ArrayList<>();
 
-    /** An error response. */
-    private static final class Refusal extends Exception {
+    private static final class Rejection extends Exception {
         private static final long serialVersionUID = 1;
 
         private final int status;
         private final String name;
 
-        private Refusal(int status, String name, String message) {
+        private Rejection(int status, String name, String message) {
             super(message);
             this.status = status;
             this.name = name;
@@ -89,11 +88,10 @@ final class FakeAgent implements AutoCloseable {
                 .collect(Collectors.toUnmodifiableSet());
     }
 
-    /** Restarts with an empty registry. */
     synchronized void restart() {
         devices.clear();
         groups.clear();
-        unfinished.clear();
+        pendingBatch.clear();
     }
 
     static String key(String resource, String apiKey) {
@@ -108,19 +106,19 @@ final class FakeAgent implements AutoCloseable {
     private synchronized void handle(HttpExchange exchange) throws IOException {
         try {
             if (unavailable) {
-                throw new Refusal(503, "AWAY", "the registry is away");
+                throw new Rejection(503, "AWAY", "the registry is away");
             }
             if (proxy > 0 && !exchange.getRequestMethod().equals("GET")) {
-                throw new Refusal(proxy, "PROXY", "no token");
+                throw new Rejection(proxy, "PROXY", "no token");
             }
-            if (garbage != null && exchange.getRequestMethod().equals("GET")) {
-                answer(exchange, 200, garbage.getBytes(UTF_8));
+            if (fixedAnswer != null && exchange.getRequestMethod().equals("GET")) {
+                answer(exchange, 200, fixedAnswer.getBytes(UTF_8));
                 return;
             }
             answer(exchange, exchange.getRequestMethod().equals("POST") ? 201 : 200, NgsiJson.write(route(exchange)));
-        } catch (Refusal e) {
-            ObjectNode refusal = JsonNodeFactory.instance.objectNode().put("name", e.name);
-            answer(exchange, e.status, NgsiJson.write(refusal.put("message", e.getMessage())));
+        } catch (Rejection e) {
+            ObjectNode rejection = JsonNodeFactory.instance.objectNode().put("name", e.name);
+            answer(exchange, e.status, NgsiJson.write(rejection.put("message", e.getMessage())));
         } finally {
             exchange.close(); // without an answer, which breaks the connection
         }
@@ -132,10 +130,10 @@ final class FakeAgent implements AutoCloseable {
         exchange.getResponseBody().write(body);
     }
 
-    private JsonNode route(HttpExchange exchange) throws Refusal, IOException {
+    private JsonNode route(HttpExchange exchange) throws Rejection, IOException {
         String service = exchange.getRequestHeaders().getFirst("fiware-service");
         if (service == null || exchange.getRequestHeaders().getFirst("fiware-servicepath") == null) {
-            throw new Refusal(400, "MISSING_HEADERS", "Some headers were missing from the request");
+            throw new Rejection(400, "MISSING_HEADERS", "Some headers were missing from the request");
         }
         services.add(service);
         tokens.add(exchange.getRequestHeaders().getFirst("X-Farm"));
@@ -170,11 +168,11 @@ final class FakeAgent implements AutoCloseable {
         return query;
     }
 
-    private JsonNode listDevices(HttpExchange exchange) throws Refusal {
+    private JsonNode listDevices(HttpExchange exchange) throws Rejection {
         if (exchange.getRequestURI().getRawPath().length() > "/iot/devices".length()) {
             JsonNode device = devices.get(id(exchange.getRequestURI().getRawPath()));
             if (device == null) {
-                throw new Refusal(404, "DEVICE_NOT_FOUND", "No device was found with id");
+                throw new Rejection(404, "DEVICE_NOT_FOUND", "No device was found with id");
             }
             return device;
         }
@@ -190,9 +188,9 @@ final class FakeAgent implements AutoCloseable {
                 .set("devices", page);
     }
 
-    private JsonNode listGroups(String service) throws Refusal {
+    private JsonNode listGroups(String service) throws Rejection {
         if (groups.isEmpty()) {
-            throw new Refusal(
+            throw new Rejection(
                     404,
                     "DEVICE_GROUP_NOT_FOUND",
                     "Couldn\t find device group for fields: \"%s\" and values: \"/\"".formatted(service));
@@ -201,48 +199,48 @@ final class FakeAgent implements AutoCloseable {
         return JsonNodeFactory.instance.objectNode().put("count", groups.size()).set("services", all);
     }
 
-    private JsonNode addGroup(JsonNode group) throws Refusal {
+    private JsonNode addGroup(JsonNode group) throws Rejection {
         String key = key(group.path("resource").asText(), group.path("apikey").asText());
         if (hidden.containsKey(key) || groups.putIfAbsent(key, group) != null) {
-            throw new Refusal(409, "DUPLICATE_GROUP", "A device configuration already exists for resource " + key);
+            throw new Rejection(409, "DUPLICATE_GROUP", "A device configuration already exists for resource " + key);
         }
         return JsonNodeFactory.instance.objectNode();
     }
 
-    private JsonNode removeGroup(HttpExchange exchange) throws Refusal {
+    private JsonNode removeGroup(HttpExchange exchange) throws Rejection {
         Map<String, String> query = query(exchange);
         if (query.get("resource") == null || query.get("apikey") == null) {
-            throw new Refusal(400, "MISSING_HEADERS", "Some headers were missing from the request");
+            throw new Rejection(400, "MISSING_HEADERS", "Some headers were missing from the request");
         }
         if (groups.remove(key(query.get("resource"), query.get("apikey"))) == null) {
-            throw new Refusal(404, "DEVICE_GROUP_NOT_FOUND", "Couldn\t find device group");
+            throw new Rejection(404, "DEVICE_GROUP_NOT_FOUND", "Couldn\t find device group");
         }
         return JsonNodeFactory.instance.objectNode();
     }
 
-    private JsonNode removeDevice(String id) throws Refusal {
+    private JsonNode removeDevice(String id) throws Rejection {
         if (broken.contains(id)) {
-            throw new Refusal(500, "Error", "cannot remove " + id);
+            throw new Rejection(500, "Error", "cannot remove " + id);
         }
         if (devices.remove(id) == null) {
-            throw new Refusal(404, "DEVICE_NOT_FOUND", "No device was found with id:" + id);
+            throw new Rejection(404, "DEVICE_NOT_FOUND", "No device was found with id:" + id);
         }
         return JsonNodeFactory.instance.objectNode();
     }
 
-    private JsonNode addDevices(JsonNode sent) throws Refusal, IOException {
-        unfinished.forEach(device -> devices.put(device.path("device_id").asText(), device));
-        unfinished.clear();
-        Refusal first = null;
-        int made = 0;
+    private JsonNode addDevices(JsonNode sent) throws Rejection, IOException {
+        pendingBatch.forEach(device -> devices.put(device.path("device_id").asText(), device));
+        pendingBatch.clear();
+        Rejection first = null;
+        int created = 0;
         for (JsonNode device : sent.path("devices")) {
-            if (made == most) {
+            if (created == maxBatch) {
                 throw new IOException("out of time");
             }
             try {
                 add(device, sent.path("devices").size() > 1);
-                made++;
-            } catch (Refusal e) {
+                created++;
+            } catch (Rejection e) {
                 first = first == null ? e : first;
             }
         }
@@ -252,19 +250,19 @@ final class FakeAgent implements AutoCloseable {
         return JsonNodeFactory.instance.objectNode();
     }
 
-    private void add(JsonNode device, boolean inABatch) throws Refusal {
+    private void add(JsonNode device, boolean inABatch) throws Rejection {
         String id = device.path("device_id").asText();
         if (broken.contains(id)) {
-            throw new Refusal(500, "Error", "cannot make " + id);
+            throw new Rejection(500, "Error", "cannot make " + id);
         }
-        if (disliked.contains(id)) {
-            throw new Refusal(422, "REFUSED", "not " + id);
+        if (rejectedIds.contains(id)) {
+            throw new Rejection(422, "REFUSED", "not " + id);
         }
         if (devices.containsKey(id)) {
-            throw new Refusal(409, "DUPLICATE_DEVICE_ID", "A device with the same info was found:" + id);
+            throw new Rejection(409, "DUPLICATE_DEVICE_ID", "A device with the same info was found:" + id);
         }
-        if (late.contains(id) && inABatch) {
-            unfinished.add(device);
+        if (createdLate.contains(id) && inABatch) {
+            pendingBatch.add(device);
         } else {
             devices.put(id, device);
         }

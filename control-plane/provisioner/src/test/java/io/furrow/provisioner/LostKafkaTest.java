@@ -25,7 +25,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 class LostKafkaTest extends ProvisioningFixture {
     private static final Origin EMPTY = new Origin("topic-2", false);
     /** An agent may answer this while it starts. */
-    private static final String NOTHING = "{'count':0,'devices':[],'services':[]}".replace('\'', '"');
+    private static final String EMPTY_ANSWER = "{'count':0,'devices':[],'services':[]}".replace('\'', '"');
 
     @TempDir
     Path directory;
@@ -55,7 +55,7 @@ class LostKafkaTest extends ProvisioningFixture {
         assertThat(provisioning.step().retained().devices()).hasSize(10);
         assertThat(agent.deviceIds()).hasSize(10);
 
-        provisioning = provisioning(settings(SecretSource.of(SECRET), false), SAME);
+        provisioning = provisioning(settings(SecretSource.of(SECRET), false), SAME_KAFKA);
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(agent.deviceIds()).isEmpty();
     }
@@ -86,7 +86,7 @@ class LostKafkaTest extends ProvisioningFixture {
         String id = "d";
         DesiredDevice there = DesiredDeviceFixture.device("Thermometer", "hoeing", id, 1);
         addDesired(there);
-        provisioning(files(false), SAME).step();
+        provisioning(files(false), SAME_KAFKA).step();
         DesiredDevice moved = DesiredDeviceFixture.device("Thermometer", "weeding", id, 1);
         desired.take(there.version().key(), null);
         addDesired(moved);
@@ -123,15 +123,15 @@ class LostKafkaTest extends ProvisioningFixture {
     void retainsLoginsIfTheAgentReportsNoDevices() throws Exception {
         provisionTen();
         addTenDesired();
-        agent.garbage = NOTHING;
-        provisioning = provisioning(files(false), SAME);
+        agent.fixedAnswer = EMPTY_ANSWER;
+        provisioning = provisioning(files(false), SAME_KAFKA);
 
         for (int answers = 0; answers < 3; answers++) {
             assertThat(provisioning.step().rejected()).hasSize(10);
             assertThat(users()).hasSize(10);
             stepLater();
         }
-        agent.garbage = null;
+        agent.fixedAnswer = null;
 
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(users()).hasSize(10);
@@ -143,10 +143,10 @@ class LostKafkaTest extends ProvisioningFixture {
         provisionTen();
         addDesired(DesiredDeviceFixture.thermometer("weeding", 1));
         provisioning = provisioning(settings(SecretSource.of(SECRET), false), EMPTY);
-        agent.garbage = NOTHING;
+        agent.fixedAnswer = EMPTY_ANSWER;
         assertThat(provisioning.step()).isEqualTo(DONE);
 
-        agent.garbage = null;
+        agent.fixedAnswer = null;
         for (int answers = 0; answers < 3; answers++) {
             stepLater();
             assertThat(provisioning.step().retained().devices()).hasSize(10);
@@ -170,7 +170,7 @@ class LostKafkaTest extends ProvisioningFixture {
     void doesNotAcceptARevokedLoginAgain() throws Exception {
         DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
         addDesired(device);
-        provisioning = provisioning(files(false), SAME);
+        provisioning = provisioning(files(false), SAME_KAFKA);
         provisioning.step();
         addDesired(device.withGeneration(1));
         provisioning.step();
@@ -192,7 +192,7 @@ class LostKafkaTest extends ProvisioningFixture {
         assertThat(provisioning(files(true), new Origin("topic-3", false))
                         .step()
                         .rejected())
-                .as("though no account of it was left")
+                .as("without a remaining account")
                 .isNotEmpty();
         assertThat(users()).isEmpty();
     }
@@ -238,7 +238,7 @@ class LostKafkaTest extends ProvisioningFixture {
     /** Provisions devices for another Kafka than {@link #EMPTY}; afterwards nothing is desired. */
     private void provisionTen() throws Exception {
         addTenDesired();
-        provisioning = provisioning(files(false), SAME);
+        provisioning = provisioning(files(false), SAME_KAFKA);
         assertThat(provisioning.step()).isEqualTo(DONE);
         stepLater();
         assertThat(provisioning.step()).isEqualTo(DONE);

@@ -148,18 +148,18 @@ class MosquittoIT {
 
     @Test
     void doesNotReplaceAForeignUser() throws Exception {
-        Login theirs = new Login(SECRET.device("hoeing", "theirs").user(), "their password");
+        Login foreign = new Login(SECRET.device("hoeing", "theirs").user(), "their password");
         List<String> lines = new ArrayList<>(Files.readAllLines(broker.passwords()));
-        lines.add(0, MosquittoPassword.line(theirs));
+        lines.add(0, MosquittoPassword.line(foreign));
         Files.write(broker.passwords(), lines);
         List<MqttAccount> desired = new ArrayList<>(ACCOUNTS);
         desired.add(MqttAccount.device(SECRET, "hoeing", "theirs"));
         desired.add(MqttAccount.device(SECRET, "hoeing", "late"));
 
-        assertThat(files.replace(desired, Set.of())).containsOnlyKeys(theirs.user());
+        assertThat(files.replace(desired, Set.of())).containsOnlyKeys(foreign.user());
 
         broker.connectOnceAccepted(SECRET.device("hoeing", "late")).close();
-        broker.connect(theirs, "theirs").close();
+        broker.connect(foreign, "foreign").close();
         assertThatThrownBy(() -> broker.connect(SECRET.device("hoeing", "theirs"), "ours"))
                 .isInstanceOf(MqttException.class);
     }
@@ -169,14 +169,14 @@ class MosquittoIT {
     void rejectsTheOldPasswordAfterARotationAndClosesItsConnection() throws Exception {
         List<MqttAccount> rotated = new ArrayList<>(MqttAccount.devices(SECRET, "hoeing", DEVICE, 1));
         rotated.add(MqttAccount.device(SECRET, "weeding", "other"));
-        try (MqttPeer thief = broker.connectOnceAccepted(SECRET.device("hoeing", DEVICE));
+        try (MqttPeer stolen = broker.connectOnceAccepted(SECRET.device("hoeing", DEVICE));
                 MqttPeer other = broker.connect(SECRET.device("weeding", "other"), "other")) {
             files.retain(
                     Set.of(
                             SECRET.device("hoeing", DEVICE, 1).user(),
                             SECRET.device("weeding", "other").user()),
                     any -> true);
-            await().until(() -> !thief.isConnected());
+            await().until(() -> !stolen.isConnected());
             files.replace(rotated, Set.of());
 
             broker.connectOnceAccepted(SECRET.device("hoeing", DEVICE, 1)).close();

@@ -75,7 +75,6 @@ final class ProvisionedMosquitto implements AutoCloseable {
         return directory.resolve("passwords");
     }
 
-    /** Returns the complete log. */
     Path log() {
         return directory.resolve("log");
     }

@@ -13,14 +13,13 @@ import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.kafka.CommittedReader;
 import io.furrow.kafka.secret.SecretSource;
@@ -48,7 +47,7 @@ class ProvisionerIT {
     void start() throws Exception {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
         agent = new FakeAgent();
-        producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
+        producer = KafkaClients.producer(kafka.client());
         createTopics();
     }
 
@@ -89,24 +88,24 @@ class ProvisionerIT {
     void reportsWhyADeviceIsNotProvisionedAndRetries() throws Exception {
         DesiredDevice before = thermometer("hoeing", 1);
         DesiredDevice after = thermometer("hoeing", 2);
-        DesiredDevice disliked = thermometer("hoeing", 3);
-        agent.disliked.add(disliked.device());
+        DesiredDevice rejected = thermometer("hoeing", 3);
+        agent.rejectedIds.add(rejected.device());
         try (Provisioner provisioner = provisioner()) {
             put(before);
-            put(disliked);
-            await().until(() -> statuses().containsKey(disliked.version().key()));
+            put(rejected);
+            await().until(() -> statuses().containsKey(rejected.version().key()));
             agent.unavailable = true;
             put(after);
             await().until(() -> statuses().containsKey(after.version().key()));
 
             assertThat(statuses()).doesNotContainKey(before.version().key());
-            assertThat(statuses().get(disliked.version().key()).reason()).contains("not provisioned", "422");
+            assertThat(statuses().get(rejected.version().key()).reason()).contains("not provisioned", "422");
             DeviceStatus status = statuses().get(after.version().key());
             assertThat(status.state()).isEqualTo(DeviceStatus.State.FAILED);
             assertThat(status.sequence()).isEqualTo(after.version().sequence());
             assertThat(status.reason()).contains("not provisioned", "answers 503");
 
-            agent.disliked.clear();
+            agent.rejectedIds.clear();
             agent.unavailable = false;
             await().until(() -> agent.deviceIds().size() == 3);
             assertThat(provisioner).isNotNull();

@@ -48,9 +48,9 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
     @Test
     void acceptsADeviceThatTheAgentCreatedAfterItRejectedTheBatch() throws Exception {
         addDesired(4);
-        agent.disliked.add(id(1));
-        agent.late.add(id(2));
-        agent.late.add(id(3));
+        agent.rejectedIds.add(id(1));
+        agent.createdLate.add(id(2));
+        agent.createdLate.add(id(3));
 
         assertThat(provisioning.step().rejected()).containsOnlyKeys(key(1));
 
@@ -99,7 +99,7 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
     @Test
     void provisionsALargeMissionAtASlowAgent() throws Exception {
         addDesired(60);
-        agent.most = 4;
+        agent.maxBatch = 4;
         int failures = 0;
         int inARow = 0;
         for (int step = 0; step < 100 && agent.deviceIds().size() < 60; step++) {
@@ -140,22 +140,22 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
     /** Advances the time by three seconds in each request. */
     @Test
     void removesManyDevicesOfASlowAgentInShortSteps() throws Exception {
-        clock = passed::get;
+        clock = elapsed::get;
         provisioning = provisioning();
         List<DesiredDevice> devices = addDesired(100);
         while (!provisioning.step().done()) {
             assertThat(agent.deviceIds()).hasSizeLessThan(100);
         }
         devices.forEach(device -> desired.take(device.version().key(), null));
-        agent.onChange = () -> passed.addAndGet(Duration.ofSeconds(3).toNanos());
+        agent.onChange = () -> elapsed.addAndGet(Duration.ofSeconds(3).toNanos());
 
         int steps = 0;
         boolean done = false;
         while (!done) {
-            long before = passed.get();
+            long before = elapsed.get();
             done = provisioning.step().done();
             steps++;
-            assertThat(Duration.ofNanos(passed.get() - before))
+            assertThat(Duration.ofNanos(elapsed.get() - before))
                     .isLessThanOrEqualTo(ProvisioningReconciler.STEP.plusSeconds(3));
         }
 
@@ -166,12 +166,12 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
 
     @ParameterizedTest
     @ValueSource(strings = {"<html>not an agent</html>", "{}", "{\"count\": 1, \"devices\": {}}", "[]"})
-    void changesNothingWhileTheAgentsAnswersAreUnreadable(String garbage) throws Exception {
+    void changesNothingWhileTheAgentsAnswersAreUnreadable(String answer) throws Exception {
         addDesired(2);
         provisioning.step();
         desired.take(key(1), null);
         agent.changes.clear();
-        agent.garbage = garbage;
+        agent.fixedAnswer = answer;
 
         provisioning.refresh();
         assertThatThrownBy(provisioning::step)

@@ -30,7 +30,7 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 abstract class ProvisioningFixture {
     static final Outcome DONE = new Outcome(Map.of(), null, null, true);
     /** The Kafka whose devices were provisioned before. */
-    static final RemovalGuard.Origin SAME = new RemovalGuard.Origin("topic-1", true);
+    static final RemovalGuard.Origin SAME_KAFKA = new RemovalGuard.Origin("topic-1", true);
 
     static final String KEY = DesiredDeviceFixture.SECRET.apiKey("hoeing");
 
@@ -39,11 +39,11 @@ abstract class ProvisioningFixture {
     /** Number of accounts after each change. */
     final List<Integer> counts = new ArrayList<>();
 
-    final Map<String, String> refused = new HashMap<>();
+    final Map<String, String> rejected = new HashMap<>();
     /** Offset to the system clock. */
-    final AtomicLong passed = new AtomicLong();
+    final AtomicLong elapsed = new AtomicLong();
 
-    LongSupplier clock = () -> System.nanoTime() + passed.get();
+    LongSupplier clock = () -> System.nanoTime() + elapsed.get();
 
     @AutoClose
     FakeAgent agent;
@@ -57,7 +57,7 @@ abstract class ProvisioningFixture {
     }
 
     ProvisioningReconciler provisioning() {
-        return provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), false), SAME);
+        return provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), false), SAME_KAFKA);
     }
 
     ProvisioningReconciler provisioning(ProvisioningSettings settings, RemovalGuard.Origin origin) {
@@ -82,7 +82,7 @@ abstract class ProvisioningFixture {
 
     /** Refreshes, and advances the time so that an unchanged answer of the agent counts. */
     void stepLater() {
-        passed.addAndGet(ProvisioningReconciler.AGREEMENT.toNanos());
+        elapsed.addAndGet(ProvisioningReconciler.AGREEMENT.toNanos());
         provisioning.refresh();
     }
 
@@ -99,7 +99,7 @@ abstract class ProvisioningFixture {
             users.retainAll(retained);
             all.forEach(account -> users.add(account.login().user()));
             counts.add(users.size());
-            return Map.copyOf(refused);
+            return Map.copyOf(rejected);
         }
 
         @Override

@@ -92,7 +92,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         provisioning.step();
         assertThat(accounts.mayRead(gateway, "/" + KEY + "/+/cmd")).isFalse();
 
-        provisioning = provisioning(settings(SecretSource.of(SECRET), true), SAME);
+        provisioning = provisioning(settings(SecretSource.of(SECRET), true), SAME_KAFKA);
         provisioning.step();
 
         assertThat(counts).containsExactly(1, 2);
@@ -171,7 +171,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         for (int i = 1; i <= 250; i++) {
             addDesired(DesiredDeviceFixture.thermometer("hoeing", i));
             if (i <= 120) {
-                agent.disliked.add("urn:ngsi-ld:Thermometer:hoeing-" + i);
+                agent.rejectedIds.add("urn:ngsi-ld:Thermometer:hoeing-" + i);
             }
         }
 
@@ -187,7 +187,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         assertThat(agent.deviceIds()).hasSize(130);
         assertThat(counts.get(counts.size() - 1)).isEqualTo(130);
 
-        agent.disliked.clear();
+        agent.rejectedIds.clear();
         provisioning.refresh();
         while (!provisioning.step().done()) {
             assertThat(agent.deviceIds()).hasSizeLessThan(250);
@@ -220,12 +220,12 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
         addDesired(device);
         addDesired(DesiredDeviceFixture.thermometer("hoeing", 2));
-        refused.put(SECRET.device("hoeing", device.device()).user(), "somebody else's");
+        rejected.put(SECRET.device("hoeing", device.device()).user(), "somebody else's");
 
         assertThat(provisioning.step().rejected())
                 .containsExactly(Map.entry(device.version().key(), "somebody else's"));
 
-        refused.clear();
+        rejected.clear();
         provisioning.refresh();
         assertThat(provisioning.step()).isEqualTo(DONE);
     }
@@ -263,6 +263,6 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         provisioning.refresh();
         int changes = agent.changes.size();
         assertThat(provisioning.step()).isEqualTo(DONE);
-        assertThat(agent.changes).as("the agent has it as desired").hasSize(changes);
+        assertThat(agent.changes).as("the agent already has the desired state").hasSize(changes);
     }
 }

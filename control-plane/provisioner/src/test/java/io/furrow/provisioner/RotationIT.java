@@ -10,10 +10,7 @@ import java.util.Map;
 import java.util.stream.Stream;
 
 import org.apache.kafka.clients.admin.NewTopic;
-import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.eclipse.paho.client.mqttv3.MqttException;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
@@ -21,6 +18,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.clock.SettableClock;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.kafka.secret.SecretFile;
@@ -113,14 +111,14 @@ class RotationIT {
 
     @Test
     void givesOneDeviceANewPasswordWithoutAffectingOthers() throws Exception {
-        MqttPeer thief = open(broker.connectOnceAccepted(old.device("hoeing", first.device())));
+        MqttPeer stolen = open(broker.connectOnceAccepted(old.device("hoeing", first.device())));
         MqttPeer other = open(broker.connectOnceAccepted(old.device("hoeing", second.device())));
 
         put(first.withGeneration(1));
 
-        await().until(() -> !thief.isConnected());
+        await().until(() -> !stolen.isConnected());
         broker.connectOnceAccepted(old.device("hoeing", first.device(), 1)).close();
-        assertThatThrownBy(() -> broker.connect(old.device("hoeing", first.device()), "thief"))
+        assertThatThrownBy(() -> broker.connect(old.device("hoeing", first.device()), "stolen"))
                 .isInstanceOf(MqttException.class);
         assertThat(other.isConnected()).isTrue();
     }
@@ -148,7 +146,7 @@ class RotationIT {
     }
 
     private void put(DesiredDevice... devices) {
-        try (var producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer())) {
+        try (var producer = KafkaClients.producer(kafka.client())) {
             for (DesiredDevice device : devices) {
                 producer.send(
                         new ProducerRecord<>(Topics.DEVICES, device.version().key(), device.toBytes()));

@@ -19,7 +19,7 @@ class SecretRotationTest extends ProvisioningFixture {
     @Test
     void acceptsOldAndNewPasswordsDuringARotationWithoutProvisioningAgain() throws Exception {
         Secret secret = new Secret();
-        provisioning = provisioning(settings(secret, false), SAME);
+        provisioning = provisioning(settings(secret, false), SAME_KAFKA);
         DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
         addDesired(device);
         provisioning.step();
@@ -49,7 +49,7 @@ class SecretRotationTest extends ProvisioningFixture {
         DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
         addDesired(device);
         addDesired(DesiredDeviceFixture.thermometer("gone", 1));
-        provisioning(settings(secret, false), SAME).step();
+        provisioning(settings(secret, false), SAME_KAFKA).step();
         agent.devices.put(
                 "foreign",
                 JsonNodeFactory.instance
@@ -60,7 +60,7 @@ class SecretRotationTest extends ProvisioningFixture {
         addDesired(device);
         secret.current = SECRET.rotated(Instant.now(), Instant.EPOCH, true).at(Instant.now());
 
-        assertThat(provisioning(settings(secret, false), SAME).step()).isEqualTo(DONE);
+        assertThat(provisioning(settings(secret, false), SAME_KAFKA).step()).isEqualTo(DONE);
 
         assertThat(agent.deviceIds()).containsExactlyInAnyOrder(device.device(), "foreign");
         assertThat(agent.apiKeys()).containsExactly(secret.current.apiKey("hoeing"));
@@ -105,7 +105,7 @@ class SecretRotationTest extends ProvisioningFixture {
         Secret another = new Secret();
         another.current = FarmSecret.generate();
         another.foreign = "this farm has another secret";
-        provisioning = provisioning(settings(another, false), SAME);
+        provisioning = provisioning(settings(another, false), SAME_KAFKA);
 
         assertThatThrownBy(provisioning::step).isInstanceOf(IOException.class).hasMessage(another.foreign);
 

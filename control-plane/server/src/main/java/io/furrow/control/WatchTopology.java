@@ -38,7 +38,7 @@ final class WatchTopology {
         AnalyticsAlarms.addEncounters(
                 collisions,
                 types,
-                new EncounterAlarmProcessor.AlarmDurations(options.predictionHolds(), options.collisionHolds()));
+                new EncounterAlarmProcessor.AlarmDurations(options.predictionValidity(), options.collisionValidity()));
 
         KStream<String, byte[]> temperatures = observed(topology, Topics.TEMPERATURE, "temperatures");
         AnalyticsAlarms.addSensors(temperatures, types);

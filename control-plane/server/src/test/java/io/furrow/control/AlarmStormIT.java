@@ -12,8 +12,6 @@ import java.util.concurrent.TimeUnit;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
@@ -22,6 +20,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestReporter;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.control.alarm.action.StopRobots;
 import io.furrow.control.alarm.action.Webhook;
 import io.furrow.control.device.DeviceCommands;
@@ -52,16 +51,16 @@ class AlarmStormIT {
 
     private final List<JsonNode> posted = Collections.synchronizedList(new ArrayList<>());
     private final List<Long> stopped = Collections.synchronizedList(new ArrayList<>());
-    private final CountDownLatch hanging = new CountDownLatch(1);
+    private final CountDownLatch release = new CountDownLatch(1);
     private EmbeddedKafka kafka;
     private KafkaProducer<String, byte[]> producer;
-    private volatile boolean hangs;
+    private volatile boolean blocked;
     private volatile String failing = "";
 
     @AutoClose
-    private final StubServer hook = new StubServer(exchange -> {
+    private final StubServer webhook = new StubServer(exchange -> {
         JsonNode alarm = NgsiJson.mapper().readTree(exchange.getRequestBody());
-        if (hangs) {
+        if (blocked) {
             awaitEnd();
         }
         boolean fails = alarm.path("kind").asText().equals(failing);
@@ -80,12 +79,12 @@ class AlarmStormIT {
     @BeforeEach
     void start() throws Exception {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
-        producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
+        producer = KafkaClients.producer(kafka.client());
     }
 
     @AfterEach
     void stop() {
-        hanging.countDown();
+        release.countDown();
         producer.close();
         kafka.close();
     }
@@ -109,7 +108,7 @@ class AlarmStormIT {
     /** Stop commands do not wait for alarms. */
     @Test
     void stopsARobotWhileTenThousandDevicesFallSilentAndTheWebhookHangs(TestReporter reporter) throws Exception {
-        hangs = true;
+        blocked = true;
         try (FarmWatch watch = watch()) {
             addDesired(ROBOT, "Robot", Duration.ofHours(1));
             for (int i = 0; i < DEVICES; i++) {
@@ -152,7 +151,7 @@ class AlarmStormIT {
 
     private FarmWatch watch() throws Exception {
         WatchOptions options = WatchOptions.DEFAULT
-                .with(Webhook.Settings.of(hook.uri("")))
+                .with(Webhook.Settings.of(webhook.uri("")))
                 .with(StopRobots.Settings.of(
                         new DeviceCommands(broker.uri(""), FiwareScope.DEFAULT, AccessToken.NONE)));
         return FarmWatch.start(
@@ -163,7 +162,7 @@ class AlarmStormIT {
 
     private void awaitEnd() {
         try {
-            hanging.await();
+            release.await();
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }

@@ -9,13 +9,12 @@ import java.util.concurrent.Callable;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.awaitility.Awaitility;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DomainCommand;
@@ -50,7 +49,7 @@ abstract class ControlPlaneFixture {
     }
 
     KafkaProducer<String, byte[]> producer() {
-        return new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
+        return KafkaClients.producer(kafka.client());
     }
 
     List<CommandResult> answers(String topic) throws Exception {

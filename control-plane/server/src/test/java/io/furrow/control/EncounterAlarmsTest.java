@@ -24,13 +24,13 @@ class EncounterAlarmsTest {
         farm.request(Topics.ALARM_MANAGER, "'command':'close','alarm':'collision-1'");
         assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("closed");
         farm.encounter("ongoing", 3.2);
-        JsonNode again = farm.newest(Topics.ALARMS);
-        assertThat(again.path("state").asText()).isEqualTo("open");
+        JsonNode repeated = farm.newest(Topics.ALARMS);
+        assertThat(repeated.path("state").asText()).isEqualTo("open");
         farm.pipe(
                 Topics.ALARM_MANAGER,
                 null,
                 "{'type':'request','command':'close','alarm':'%s'}"
-                        .formatted(again.path("alarm").asText()));
+                        .formatted(repeated.path("alarm").asText()));
         assertThat(farm.newest(Topics.ALARM_MANAGER).path("error").asText()).isEqualTo("wrong-state");
         assertThat(farm.read(Topics.ALARMS)).isEmpty();
     }

@@ -153,7 +153,6 @@ final class FarmWatchFixture implements AutoCloseable {
                 .readRecordsToList();
     }
 
-    /** Returns the keys of the emitted heartbeats. */
     List<String> heartbeats() {
         return read(FarmWatch.APPLICATION + "-device-heartbeats-repartition").stream()
                 .map(TestRecord::key)

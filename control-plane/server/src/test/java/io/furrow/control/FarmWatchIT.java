@@ -11,8 +11,6 @@ import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.awaitility.Awaitility;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.AutoClose;
@@ -21,6 +19,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.control.alarm.action.StopRobots;
 import io.furrow.control.alarm.action.Webhook;
 import io.furrow.embedded.EmbeddedKafka;
@@ -51,14 +50,14 @@ class FarmWatchIT {
     private final List<String> sent = Collections.synchronizedList(new ArrayList<>());
     private EmbeddedKafka kafka;
     private KafkaProducer<String, byte[]> producer;
-    private volatile boolean hookIsUp = true;
+    private volatile boolean webhookAvailable = true;
     private WatchOptions options;
 
     @AutoClose
-    private final StubServer hook = new StubServer(exchange -> {
+    private final StubServer webhook = new StubServer(exchange -> {
         JsonNode alarm = NgsiJson.mapper().readTree(exchange.getRequestBody());
-        StubServer.answer(exchange, hookIsUp ? 204 : 503, "");
-        if (hookIsUp) {
+        StubServer.answer(exchange, webhookAvailable ? 204 : 503, "");
+        if (webhookAvailable) {
             posted.add(alarm);
         }
     });
@@ -66,10 +65,10 @@ class FarmWatchIT {
     @BeforeEach
     void start() throws Exception {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
-        producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
+        producer = KafkaClients.producer(kafka.client());
         options = WatchOptions.DEFAULT
                 .withCollisionHolds(Duration.ofSeconds(1))
-                .with(Webhook.Settings.of(hook.uri("")).withGroupWait(Duration.ZERO))
+                .with(Webhook.Settings.of(webhook.uri("")).withGroupWait(Duration.ZERO))
                 .with(StopRobots.Settings.of((device, type, command, value) -> sent.add(device + " " + command)));
     }
 
@@ -106,7 +105,7 @@ class FarmWatchIT {
     @Tag("full")
     @Test
     void deliversAnAlarmAfterOutagesOfWebhookAndWatch() throws Exception {
-        hookIsUp = false;
+        webhookAvailable = false;
         try (FarmWatch watch = watch("one")) {
             encounter("started");
             await(() -> state("collision").equals("open"));
@@ -121,7 +120,7 @@ class FarmWatchIT {
                             tuple("stop-on-predicted", ComponentStatus.State.UP));
             assertThat(watch.workers().get(0).lastSuccess()).isNull();
         }
-        hookIsUp = true;
+        webhookAvailable = true;
         try (FarmWatch watch = watch("two")) {
             await(() -> !posted.isEmpty());
             await(() -> watch.workers().get(0).lastSuccess() != null);
@@ -133,7 +132,7 @@ class FarmWatchIT {
             assertThat(watch.workers().get(0).detail()).contains("0 rejected");
         }
         assertThat(posted)
-                .as("what was delivered is not delivered again")
+                .as("delivered once")
                 .extracting(alarm -> alarm.path("id").asText())
                 .containsExactly("collision-1:2", "collision-3:3");
     }
@@ -238,7 +237,6 @@ class FarmWatchIT {
         producer.send(new ProducerRecord<>(Topics.COLLISION, ROBOT + "-somebody", entity.toBytes()));
     }
 
-    /** Returns the state of the newest alarm of a kind. */
     private String state(String kind) throws Exception {
         String state = "";
         for (ConsumerRecord<String, byte[]> record : records(Topics.ALARMS)) {

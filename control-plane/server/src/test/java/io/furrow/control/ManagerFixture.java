@@ -54,7 +54,6 @@ final class ManagerFixture implements AutoCloseable {
         return driver.getAllStateStores().keySet();
     }
 
-    /** Returns the number of request ids in a store. */
     int countRequestIds(String store) {
         int ids = 0;
         try (var all = driver.<String, byte[]>getWindowStore(store).all()) {

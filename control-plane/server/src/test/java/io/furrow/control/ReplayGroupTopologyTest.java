@@ -259,10 +259,10 @@ class ReplayGroupTopologyTest {
                 .isEmpty();
         farm.read(Topics.REPLAYS);
 
-        CommandResult refused = request("'command':'start'," + members);
+        CommandResult rejected = request("'command':'start'," + members);
 
-        assertThat(refused.error()).contains(error);
-        assertThat(refused.json().path("reason").asText()).contains(message);
+        assertThat(rejected.error()).contains(error);
+        assertThat(rejected.json().path("reason").asText()).contains(message);
         assertThat(farm.read(Topics.REPLAYS)).isEmpty();
     }
 
@@ -275,7 +275,7 @@ class ReplayGroupTopologyTest {
         assertThat(request("'command':'start','mission':'b'").error()).contains("unknown-mission");
         assertThat(request("'command':'start','mission':'a','source':{'file':'a.jsonl'}")
                         .error())
-                .as("what has a source is not looked up")
+                .as("a source is not looked up")
                 .isEmpty();
     }
 

@@ -31,8 +31,6 @@ import org.apache.kafka.common.resource.PatternType;
 import org.apache.kafka.common.resource.Resource;
 import org.apache.kafka.common.resource.ResourcePattern;
 import org.apache.kafka.common.resource.ResourceType;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.bson.Document;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
@@ -40,6 +38,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.control.replay.RecordingWatch;
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.control.replay.TopicCleanup;
@@ -73,7 +72,7 @@ class ReplayUpkeepIT {
 
     @BeforeEach
     void start(@TempDir Path directory) throws Exception {
-        kafka = opened(EmbeddedKafka.start(
+        kafka = register(EmbeddedKafka.start(
                 directory.resolve("kafka"),
                 0,
                 Map.of(
@@ -82,8 +81,8 @@ class ReplayUpkeepIT {
         client = kafka.client();
         client.setProperty("state.dir", directory.resolve("state").toString());
         ServiceTopics.prepare(ControlSettings.of(client));
-        producer = opened(new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer()));
-        admin = opened(Admin.create(client));
+        producer = register(KafkaClients.producer(client));
+        admin = register(Admin.create(client));
     }
 
     @AfterEach
@@ -93,7 +92,7 @@ class ReplayUpkeepIT {
         }
     }
 
-    private <T extends AutoCloseable> T opened(T part) {
+    private <T extends AutoCloseable> T register(T part) {
         open.add(part);
         return part;
     }
@@ -104,21 +103,21 @@ class ReplayUpkeepIT {
 
     @Test
     void listsRecordedMissionsAndRejectsReplaysOfOthers() throws Exception {
-        EmbeddedMongo mongo = opened(EmbeddedMongo.inMemory());
-        MongoDatabase missions = opened(MongoClients.create(mongo.uri())).getDatabase("persistence");
+        EmbeddedMongo mongo = register(EmbeddedMongo.inMemory());
+        MongoDatabase missions = register(MongoClients.create(mongo.uri())).getDatabase("persistence");
         missions.getCollection("mission_weeding")
                 .insertMany(List.of(new Document("_time", new Date(1000)), new Document("_time", new Date(3000))));
         var settings = ReplaySettings.DEFAULT.withMongo(mongo.uri()).withPollInterval(Duration.ofMillis(100));
         TopicContent recordings = new TopicContent(client, Topics.RECORDINGS);
         for (int i = 0; i < 2; i++) {
-            opened(RecordingWatch.start(client, settings, Clock.systemUTC()));
+            register(RecordingWatch.start(client, settings, Clock.systemUTC()));
         }
         await().until(() -> recordings.newest().containsKey("weeding"));
         assertThat(RecordedMission.read(recordings.newest().get("weeding")))
                 .isEqualTo(new RecordedMission("weeding", 1000, 3000));
 
         ControlPlane plane =
-                opened(ControlPlane.start(ControlSettings.of(client).with(settings)));
+                register(ControlPlane.start(ControlSettings.of(client).with(settings)));
         await().until(plane::isHealthy);
         assertThat(answer("weeding").status()).isEqualTo("created");
         assertThat(answer("harrowing").error()).contains("unknown-mission");
@@ -157,12 +156,12 @@ class ReplayUpkeepIT {
         send(Topics.REPLAYS_STATUS, "b.0000000b", over()); // of the previous start
         send(Topics.REPLAYS, "a.0000000a", null);
 
-        TopicCleanup early = opened(
+        TopicCleanup early = register(
                 TopicCleanup.start(client, ReplaySettings.DEFAULT.withGrace(Duration.ofHours(1)), Clock.systemUTC()));
         await().until(() -> early.status().lastSuccess() != null);
         assertThat(names()).containsAll(removed);
         for (int i = 0; i < 2; i++) {
-            opened(TopicCleanup.start(client, ReplaySettings.DEFAULT.withGrace(Duration.ZERO), Clock.systemUTC()));
+            register(TopicCleanup.start(client, ReplaySettings.DEFAULT.withGrace(Duration.ZERO), Clock.systemUTC()));
         }
 
         await().until(() -> names().stream().noneMatch(removed::contains));
@@ -210,10 +209,10 @@ class ReplayUpkeepIT {
         AtomicReference<Instant> clock =
                 new AtomicReference<>(Instant.ofEpochMilli(now).plus(Duration.ofDays(1)));
         InstantSource time = clock::get;
-        TopicCleanup cleanup = opened(TopicCleanup.start(
+        TopicCleanup cleanup = register(TopicCleanup.start(
                 client, ReplaySettings.DEFAULT.withGrace(Duration.ofSeconds(1)), time.withZone(ZoneOffset.UTC)));
         await().until(() -> cleanup.status().lastSuccess() != null);
-        assertThat(names()).as("it may be written to now").contains("data.farm.realtime.weeding");
+        assertThat(names()).as("in use again").contains("data.farm.realtime.weeding");
         clock.set(clock.get().plus(Duration.ofMinutes(15)));
         await().until(() -> !names().contains("data.farm.realtime.weeding"));
         Instant later = clock.updateAndGet(instant -> instant.plusMillis(1));
@@ -226,21 +225,21 @@ class ReplayUpkeepIT {
 
     @Test
     void deletesOtherTopicsIfOneDeletionIsDenied() throws Exception {
-        List<String> guarded = IntStream.range(0, 8)
+        List<String> protectedTopics = IntStream.range(0, 8)
                 .mapToObj(number -> "data.farm.realtime.guarded-" + number)
                 .toList();
         String free = "data.farm.realtime.weeding";
-        kafka.createTopics(Stream.concat(guarded.stream(), Stream.of(free, Topics.dead(free)))
+        kafka.createTopics(Stream.concat(protectedTopics.stream(), Stream.of(free, Topics.dead(free)))
                 .map(name -> new NewTopic(name, 1, (short) 1))
                 .toList());
-        admin.createAcls(Stream.concat(guarded.stream().map(ReplayUpkeepIT::topic), Stream.of(WHOLE_CLUSTER))
+        admin.createAcls(Stream.concat(protectedTopics.stream().map(ReplayUpkeepIT::topic), Stream.of(WHOLE_CLUSTER))
                         .flatMap(resource -> Stream.of(
                                 acl(resource, AclOperation.ALL, AclPermissionType.ALLOW),
                                 acl(resource, AclOperation.DELETE, AclPermissionType.DENY)))
                         .toList())
                 .all()
                 .get();
-        for (String topic : Stream.concat(guarded.stream(), Stream.of(free)).toList()) {
+        for (String topic : Stream.concat(protectedTopics.stream(), Stream.of(free)).toList()) {
             String mission = topic.substring(topic.lastIndexOf('.') + 1);
             send(Topics.MISSIONS, mission, "{\"domain\":\"farm\"}".getBytes(UTF_8));
             send(Topics.MISSIONS, mission, null);
@@ -248,17 +247,17 @@ class ReplayUpkeepIT {
 
         AtomicReference<Instant> clock = new AtomicReference<>(Instant.now().plus(Duration.ofDays(2)));
         InstantSource time = clock::get;
-        TopicCleanup cleanup = opened(TopicCleanup.start(
+        TopicCleanup cleanup = register(TopicCleanup.start(
                 client, ReplaySettings.DEFAULT.withGrace(Duration.ofSeconds(1)), time.withZone(ZoneOffset.UTC)));
         await().until(() -> cleanup.status().lastSuccess() != null);
         clock.set(clock.get().plus(Duration.ofMinutes(15)));
 
         await().until(() -> !names().contains(free) && !names().contains(Topics.dead(free)));
-        assertThat(names()).containsAll(guarded);
+        assertThat(names()).containsAll(protectedTopics);
         await().until(() -> cleanup.status().detail().contains("topic data.farm.realtime.guarded-"));
         admin.deleteAcls(List.of(AclBindingFilter.ANY)).all().get();
         clock.set(clock.get().plus(Duration.ofMinutes(10)));
-        await().until(() -> names().stream().noneMatch(guarded::contains));
+        await().until(() -> names().stream().noneMatch(protectedTopics::contains));
     }
 
     private static ResourcePattern topic(String name) {

@@ -115,7 +115,7 @@ class SilenceTopologyTest {
             }
         }
         assertThat(farm.all(Topics.ALARMS))
-                .as("each only closes, and but for the farm's inhibited to its end")
+                .as("only ends; all but that of the farm stay inhibited")
                 .filteredOn(alarm -> !alarm.path("kind").asText().equals("silent-farm"))
                 .allMatch(alarm -> alarm.has("inhibitedBy"))
                 .filteredOn(alarm -> alarm.path("state").asText().equals("closed"))

@@ -8,9 +8,7 @@ import java.util.concurrent.atomic.AtomicInteger;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.KafkaException;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.Serdes;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.apache.kafka.streams.StreamsBuilder;
 import org.apache.kafka.streams.Topology;
 import org.apache.kafka.streams.kstream.Consumed;
@@ -18,6 +16,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.kafka.ComponentStatus;
 import io.furrow.model.topic.Topics;
@@ -43,7 +42,7 @@ class StreamsApplicationIT {
             try (StreamsApplication application =
                             new StreamsApplication("application", this::topology, settings.streams());
                     KafkaProducer<String, byte[]> producer =
-                            new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer())) {
+                            KafkaClients.producer(client)) {
                 application.startClient();
                 await().atMost(TIMEOUT).until(application::isHealthy);
                 producer.send(new ProducerRecord<>(Topics.DOMAINS, "north", new byte[1]));

@@ -3,6 +3,7 @@ package io.furrow.kafka;
 import java.nio.charset.StandardCharsets;
 import java.util.Properties;
 
+import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.common.header.Header;
@@ -25,6 +26,11 @@ public final class KafkaClients {
 
     public static KafkaConsumer<String, byte[]> consumer(Properties settings) {
         return new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer());
+    }
+
+    /** Returns the position of a record as {@code <topic>-<partition>@<offset>}. */
+    public static String position(ConsumerRecord<?, ?> record) {
+        return record.topic() + "-" + record.partition() + "@" + record.offset();
     }
 
     /** The text of a header; null if there is none. */

@@ -119,8 +119,8 @@ public final class DeviceAccounts {
      */
     public Map<String, String> grant(Map<String, DesiredDevice> registered, boolean complete) throws IOException {
         List<MqttAccount> accounts = List.copyOf(byUser(registered.values()).values());
-        boolean grows = granted != null && new HashSet<>(accounts).containsAll(granted);
-        if (!accounts.equals(granted) && (complete || grows)) {
+        boolean onlyAdditions = granted != null && new HashSet<>(accounts).containsAll(granted);
+        if (!accounts.equals(granted) && (complete || onlyAdditions)) {
             granted = null;
             rejected = new HashMap<>();
             Set<String> retain = new HashSet<>(retained);

@@ -104,12 +104,12 @@ public final class InMemoryAccounts implements MqttAccounts, LoginReports {
     /** Whether a user may publish to a topic. */
     public boolean mayWrite(String user, String topic) {
         MqttAccount account = byUser.get(user);
-        boolean may = account != null && account.mayWrite(topic);
-        if (account != null && !may) {
+        boolean allowed = account != null && account.mayWrite(topic);
+        if (account != null && !allowed) {
             owners.published(user, topic, clock.getAsLong());
             log("message to a topic of somebody else", user);
         }
-        return may;
+        return allowed;
     }
 
     /** Limits rate and length and removes control characters, because any client can cause these lines. */

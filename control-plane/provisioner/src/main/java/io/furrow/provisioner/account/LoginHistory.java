@@ -33,7 +33,6 @@ final class LoginHistory {
         update(user, entry -> entry.published(begin, now));
     }
 
-    /** Removes all other users. */
     synchronized void retain(Set<String> users) {
         byUser.keySet().retainAll(users);
     }

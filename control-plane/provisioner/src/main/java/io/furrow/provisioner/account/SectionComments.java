@@ -52,7 +52,6 @@ record SectionComments(String topic, Map<String, Integer> generations) {
         return new SectionComments(newTopic, generations);
     }
 
-    /** Adds the generations of users. */
     SectionComments with(Collection<String> users) {
         Map<String, Integer> next = new TreeMap<>(generations);
         for (String user : users) {

@@ -155,10 +155,10 @@ class MosquittoFilesTest {
         Files.write(rules(), List.of("  user   " + gateway.login().user(), "topic readwrite #"));
         List<String> before = Files.readAllLines(passwords());
 
-        Map<String, String> refused = files(null).replace(List.of(gateway, device, other()), Set.of());
+        Map<String, String> rejected = files(null).replace(List.of(gateway, device, other()), Set.of());
 
-        assertThat(refused).containsOnlyKeys(user, gateway.login().user());
-        assertThat(refused.get(user))
+        assertThat(rejected).containsOnlyKeys(user, gateway.login().user());
+        assertThat(rejected.get(user))
                 .contains("'" + user + "' exists outside of Furrow's section of " + passwords(), "remove it there");
         assertThat(Files.readAllLines(passwords()))
                 .startsWith(before.get(0))

@@ -87,7 +87,6 @@ public record Alarm(
         }
     }
 
-    /** Kinds of changes. */
     public enum Change implements Coded {
         OPENED,
         /** Its extent, its text or its inhibiting alarm changed. */
@@ -164,40 +163,40 @@ public record Alarm(
 
     /** @param newMutedUntil null to unmute */
     public Alarm muted(Long newMutedUntil, long now) {
-        Change what = newMutedUntil == null ? Change.UNMUTED : Change.MUTED;
+        Change newChange = newMutedUntil == null ? Change.UNMUTED : Change.MUTED;
         Handling muted = new Handling(newMutedUntil, handling.acknowledgedBy, handling.reason);
-        return changed(state, what, period, muted, now);
+        return changed(state, newChange, period, muted, now);
     }
 
     private Alarm updated(long now) {
         return changed(state, Change.UPDATED, period, handling, now);
     }
 
-    private Alarm changed(AlarmState next, Change what, Period then, Handling handled, long now) {
-        Period lasts = then.changedAt(now);
+    private Alarm changed(AlarmState next, Change newChange, Period newPeriod, Handling newHandling, long now) {
+        Period changedPeriod = newPeriod.changedAt(now);
         return new Alarm(
-                head, next, what, description, lasts, handled, sequence, group, extent, seen, inhibitedBy, identity);
+                head, next, newChange, description, changedPeriod, newHandling, sequence, group, extent, seen, inhibitedBy, identity);
     }
 
     /** Counts another observation of the cause; text and extent stay unchanged. */
     Alarm repeated(Long newUntil, long now) {
         int count = period.count == Integer.MAX_VALUE ? period.count : period.count + 1;
-        return lasting(new Period(period.raised, period.changed, count, newUntil), now);
+        return extended(new Period(period.raised, period.changed, count, newUntil), now);
     }
 
-    /** The cause goes on; it is not counted again. */
-    Alarm lasting(Long newUntil, long now) {
-        return lasting(period.until(newUntil), now);
+    /** Extends the period of a cause that continues, without counting it again. */
+    Alarm extended(Long newUntil, long now) {
+        return extended(period.until(newUntil), now);
     }
 
     /** Sets the time of its end; this is not a change that is published. */
     Alarm ending(long newUntil) {
-        return lasting(period.until(newUntil), seen);
+        return extended(period.until(newUntil), seen);
     }
 
-    private Alarm lasting(Period then, Long at) {
+    private Alarm extended(Period newPeriod, Long at) {
         return new Alarm(
-                head, state, change, description, then, handling, sequence, group, extent, at, inhibitedBy, identity);
+                head, state, change, description, newPeriod, handling, sequence, group, extent, at, inhibitedBy, identity);
     }
 
     /** Copies text, devices and extent from the cause. */
@@ -211,9 +210,9 @@ public record Alarm(
         return described(new Description(cause.text(), description.devices), extent);
     }
 
-    private Alarm described(Description what, Extent size) {
+    private Alarm described(Description newDescription, Extent newExtent) {
         return new Alarm(
-                head, state, change, what, period, handling, sequence, group, size, seen, inhibitedBy, identity);
+                head, state, change, newDescription, period, handling, sequence, group, newExtent, seen, inhibitedBy, identity);
     }
 
     /** @param by id of the inhibiting alarm; null if no longer inhibited */

@@ -28,7 +28,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
      * How long a collision lasts without a record of its encounter: many times the interval between records of an
      * ongoing encounter, which the time-to-live of its devices limits.
      */
-    public static final Duration COLLISION_HOLDS = Duration.ofHours(1);
+    public static final Duration COLLISION_VALIDITY = Duration.ofHours(1);
 
     static final Duration CLOSED_RETENTION = Duration.ofDays(1);
     static final int MAX_CLOSED = 10_000;
@@ -46,7 +46,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         this.tables = tables;
         this.sequence = sequence;
         this.publisher = publisher;
-        this.limit = new AlarmLimit(tables.groups(), tables.counted());
+        this.limit = new AlarmLimit(tables.groups(), tables.overflows());
     }
 
     /** Raises an alarm, or refreshes the existing one. If its group has reached the limit, the cause is only counted. */
@@ -65,7 +65,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         if (existing == null) {
             raise(cause, now);
         } else {
-            tables.alarms().put(existing.alarm(), existing.lasting(cause.until(now), now));
+            tables.alarms().put(existing.alarm(), existing.extended(cause.until(now), now));
         }
     }
 
@@ -140,10 +140,10 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     }
 
     private void endOthers(Predicate<Alarm> some, List<Cause> causes, String reason, long now) {
-        Set<String> lasting = new HashSet<>();
-        causes.forEach(cause -> lasting.add(cause.key()));
+        Set<String> activeKeys = new HashSet<>();
+        causes.forEach(cause -> activeKeys.add(cause.key()));
         for (Alarm alarm : current()) {
-            if (some.test(alarm) && !lasting.contains(alarm.key())) {
+            if (some.test(alarm) && !activeKeys.contains(alarm.key())) {
                 change(alarm, AlarmStateMachine.ended(reason), now);
             }
         }

@@ -30,7 +30,7 @@ final class AlarmLimit {
     private static final long LONG = Duration.ofMinutes(30).toMillis();
 
     private final Table<Group> groups;
-    private final Table<Overflow> counted;
+    private final Table<Overflow> overflows;
     private long recounted;
 
     /**
@@ -58,9 +58,9 @@ final class AlarmLimit {
     record Overflow(
             String key, AlarmKind kind, String group, List<Cause.AffectedDevice> devices, Long until, long seen) {}
 
-    AlarmLimit(Table<Group> groups, Table<Overflow> counted) {
+    AlarmLimit(Table<Group> groups, Table<Overflow> overflows) {
         this.groups = groups;
-        this.counted = counted;
+        this.overflows = overflows;
     }
 
     /**
@@ -86,7 +86,7 @@ final class AlarmLimit {
             return false;
         }
         Group group = group(cause.kind(), cause.group());
-        Overflow before = find(counted, cause.kind(), cause.identity());
+        Overflow before = find(overflows, cause.kind(), cause.identity());
         boolean existing = before != null;
         if (!existing && group.alarms() < MAX_ALARMS) {
             return false;
@@ -95,7 +95,7 @@ final class AlarmLimit {
         String key = existing ? before.key() : cause.key();
         Overflow counting = new Overflow(key, cause.kind(), cause.group(), cause.devices(), cause.until(now), now);
         if (existing ? isUpdate(before, counting) : isWithinMax) {
-            counted.put(key, counting);
+            overflows.put(key, counting);
         }
         if (!existing && isWithinMax) {
             store(new Group(
@@ -126,20 +126,20 @@ final class AlarmLimit {
      */
     boolean clear(AlarmKind kind, String group, long now) {
         List<Overflow> members =
-                counted.where(each -> each.kind() == kind && each.group().equals(group));
-        if (members.stream().anyMatch(each -> now - each.seen() < AlarmStateMachine.CAUSE_LASTS.toMillis())) {
+                overflows.where(each -> each.kind() == kind && each.group().equals(group));
+        if (members.stream().anyMatch(each -> now - each.seen() < AlarmStateMachine.ACTIVE_TIMEOUT.toMillis())) {
             return false;
         }
-        members.forEach(each -> counted.put(each.key(), null));
+        members.forEach(each -> overflows.put(each.key(), null));
         store(group(kind, group).with(group(kind, group).alarms(), 0));
         return true;
     }
 
     /** Removes the counted cause of a kind and identity, if there is one. */
     void end(AlarmKind kind, String identity) {
-        Overflow existing = find(counted, kind, identity);
+        Overflow existing = find(overflows, kind, identity);
         if (existing != null) {
-            counted.put(existing.key(), null);
+            overflows.put(existing.key(), null);
             Group group = group(kind, existing.group());
             store(group.with(group.alarms(), Math.max(0, group.counted() - 1)));
         }
@@ -147,9 +147,9 @@ final class AlarmLimit {
 
     /** Sets the end of the counted cause of a kind and identity, if there is one. */
     void endAt(AlarmKind kind, String identity, long until) {
-        Overflow existing = find(counted, kind, identity);
+        Overflow existing = find(overflows, kind, identity);
         if (existing != null) {
-            counted.put(
+            overflows.put(
                     existing.key(),
                     new Overflow(existing.key(), kind, existing.group(), existing.devices(), until, existing.seen()));
         }
@@ -180,12 +180,12 @@ final class AlarmLimit {
     }
 
     private void recount(long now) {
-        counted.where(each -> each.until() != null && each.until() <= now)
-                .forEach(each -> counted.put(each.key(), null));
-        Map<String, List<Overflow>> lasting =
-                counted.all().stream().collect(Collectors.groupingBy(each -> Cause.key(each.kind(), each.group())));
+        overflows.where(each -> each.until() != null && each.until() <= now)
+                .forEach(each -> overflows.put(each.key(), null));
+        Map<String, List<Overflow>> byGroup =
+                overflows.all().stream().collect(Collectors.groupingBy(each -> Cause.key(each.kind(), each.group())));
         for (Group group : groups.all()) {
-            List<Overflow> members = lasting.getOrDefault(group.key(), List.of());
+            List<Overflow> members = byGroup.getOrDefault(group.key(), List.of());
             List<Cause.AffectedDevice> devices = List.of();
             for (Overflow each : members) {
                 devices = joined(devices, each.devices());

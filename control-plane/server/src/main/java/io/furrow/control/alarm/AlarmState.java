@@ -10,7 +10,6 @@ public enum AlarmState implements Coded {
     /** It has ended; the same cause raises a new alarm. */
     CLOSED;
 
-    /** Whether the transition is allowed. */
     boolean canBecome(AlarmState next) {
         return next.ordinal() > ordinal();
     }

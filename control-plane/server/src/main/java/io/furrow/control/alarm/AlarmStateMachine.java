@@ -10,13 +10,12 @@ import io.furrow.model.control.RejectedException;
 /** Computes the life cycle of an alarm: open, acknowledged, closed. A pure function of an alarm and an event. */
 final class AlarmStateMachine {
     /** A cause observed within this time is considered active, so that its alarm cannot be closed manually. */
-    static final Duration CAUSE_LASTS = Duration.ofMinutes(1);
+    static final Duration ACTIVE_TIMEOUT = Duration.ofMinutes(1);
     /** Minimum time between two updates of the extent of a group alarm. */
     static final Duration UPDATE_INTERVAL = Duration.ofSeconds(10);
 
     private AlarmStateMachine() {}
 
-    /** An event in the life cycle of an alarm. */
     interface Event {
         /**
          * Returns the next state of the alarm, or the same instance if nothing changes.
@@ -57,8 +56,8 @@ final class AlarmStateMachine {
     static Event closedManually(String user, boolean causesEnded) {
         return ofOpen((alarm, now) -> {
             Duration ago = alarm.seen() == null ? null : Duration.ofMillis(now - alarm.seen());
-            boolean lasts = alarm.isOfGroup() ? !causesEnded : ago != null && ago.compareTo(CAUSE_LASTS) < 0;
-            if (lasts) {
+            boolean active = alarm.isOfGroup() ? !causesEnded : ago != null && ago.compareTo(ACTIVE_TIMEOUT) < 0;
+            if (active) {
                 String seen = alarm.isOfGroup() ? "" : " (seen %d s ago)".formatted(ago.toSeconds());
                 throw new RejectedException(
                         ErrorCode.WRONG_STATE,
@@ -116,9 +115,9 @@ final class AlarmStateMachine {
         if (alarm.kind() != AlarmKind.COLLISION || alarm.seen() == null) {
             return "its cause was no longer observed";
         }
-        Duration holds = AlarmCommandHandler.COLLISION_HOLDS;
-        return alarm.period().until() - alarm.seen() == holds.toMillis()
-                ? "no report of the encounter for %d min, not even of its end".formatted(holds.toMinutes())
+        Duration validity = AlarmCommandHandler.COLLISION_VALIDITY;
+        return alarm.period().until() - alarm.seen() == validity.toMillis()
+                ? "no report of the encounter for %d min, not even of its end".formatted(validity.toMinutes())
                 : "the encounter has ended, and the pair has had no other since";
     }
 

@@ -9,14 +9,14 @@ import io.furrow.control.manager.Table;
  * @param current ids of the alarms that are not closed, by kind and identity
  * @param mutes active mutes by kind and subject or identity; an empty subject stands for all of a kind
  * @param groups numbers of alarms and of causes without an alarm, by kind and group
- * @param counted causes without an alarm, by kind and identity
+ * @param overflows causes without an alarm, by kind and identity
  */
 record AlarmTables(
         Table<Alarm> alarms,
         Table<String> current,
         Table<Mute> mutes,
         Table<AlarmLimit.Group> groups,
-        Table<AlarmLimit.Overflow> counted) {
+        Table<AlarmLimit.Overflow> overflows) {
     /**
      * Suppresses the delivery of alarms, including future ones.
      *

@@ -14,7 +14,7 @@ import io.furrow.model.event.FiwareScope;
  *     that is unambiguous. There is at most one open alarm per kind and identity
  * @param text human-readable sentence
  * @param devices devices concerned, at most {@value #MAX_DEVICES}
- * @param holds validity unless the cause is repeated; null if it lasts until ended explicitly
+ * @param validity period until the alarm expires unless the cause is repeated; null if it lasts until ended explicitly
  * @param group entity of the mission, domain or field, which limits the number of individual alarms; null if none
  * @param extent how many devices or pairs a group cause stands for; null for an individual cause
  */
@@ -24,7 +24,7 @@ public record Cause(
         String identity,
         String text,
         List<AffectedDevice> devices,
-        Duration holds,
+        Duration validity,
         String group,
         Extent extent) {
     /** Maximum number of devices that an alarm names. */
@@ -60,17 +60,17 @@ public record Cause(
     }
 
     /** Creates an individual cause without a group. */
-    public Cause(AlarmKind kind, String subject, String text, List<AffectedDevice> devices, Duration holds) {
-        this(kind, subject, subject, text, devices, holds, null, null);
+    public Cause(AlarmKind kind, String subject, String text, List<AffectedDevice> devices, Duration validity) {
+        this(kind, subject, subject, text, devices, validity, null, null);
     }
 
     public Cause inGroup(String newGroup) {
-        return new Cause(kind, subject, identity, text, devices, holds, newGroup, extent);
+        return new Cause(kind, subject, identity, text, devices, validity, newGroup, extent);
     }
 
     /** @param newIdentity of {@link FiwareScope#identity(String, String)}, of the types and the subject */
     public Cause identifiedBy(String newIdentity) {
-        return new Cause(kind, subject, newIdentity, text, devices, holds, group, extent);
+        return new Cause(kind, subject, newIdentity, text, devices, validity, group, extent);
     }
 
     /** Creates a group cause that lasts until it is ended explicitly. */
@@ -87,6 +87,6 @@ public record Cause(
     }
 
     Long until(long now) {
-        return holds == null ? null : Long.valueOf(now + holds.toMillis());
+        return validity == null ? null : Long.valueOf(now + validity.toMillis());
     }
 }

@@ -19,7 +19,7 @@ import io.furrow.model.ngsi.EntityBuilder;
  */
 final class ContextProjection {
     /** Averages older than this are discarded. */
-    static final Duration FIELD_HOLDS = Duration.ofHours(1);
+    static final Duration MAX_FIELD_AGE = Duration.ofHours(1);
 
     private static final Duration FIELDS_POLL_INTERVAL = Duration.ofMinutes(1);
 
@@ -120,7 +120,7 @@ final class ContextProjection {
     }
 
     private void forgetOldFields(long now) {
-        for (FieldState field : tables.fields().where(each -> each.known() + FIELD_HOLDS.toMillis() <= now)) {
+        for (FieldState field : tables.fields().where(each -> each.known() + MAX_FIELD_AGE.toMillis() <= now)) {
             tables.fields().put(field.field(), null);
             markDomainsOutdated(field);
         }

@@ -9,7 +9,6 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 /** Writes credentials of devices as CSV (RFC 4180), for spreadsheets and programs that set up many devices. */
 public final class CredentialCsv {
-    /** Media type of the answer. */
     public static final String TYPE = "text/csv";
 
     private static final List<String> COLUMNS =

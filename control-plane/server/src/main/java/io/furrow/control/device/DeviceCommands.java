@@ -112,7 +112,7 @@ public final class DeviceCommands implements CommandSender {
                 .handle((answer, failure) -> {
                     try {
                         if (failure != null) {
-                            throw unavailable(failure instanceof CompletionException ? failure.getCause() : failure);
+                            throw unavailable(FailureText.unwrap(failure));
                         }
                         check(order, answer);
                         return null;

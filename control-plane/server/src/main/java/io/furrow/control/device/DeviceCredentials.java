@@ -79,11 +79,11 @@ public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
                 .put("generation", device.generation());
         ArrayNode sent = json.putArray("attributes");
         attributes.forEach(each -> {
-            ObjectNode one = each.toJson();
+            ObjectNode attribute = each.toJson();
             if (each.unit() != null) {
-                one.put("unit", each.unit());
+                attribute.put("unit", each.unit());
             }
-            sent.add(one);
+            sent.add(attribute);
         });
         return json.put("example", example(topic + "attrs", login, attributes));
     }

@@ -4,7 +4,6 @@ import java.util.List;
 
 /** Gives the domain manager access to the missions of a domain. */
 public interface DomainMissions {
-    /** Names of all missions of a domain. */
     List<String> in(String domain);
 
     /** Names of those that are starting, running or stopping. */

@@ -51,12 +51,12 @@ public record DeviceHealth(
     public record NewestReport(Long lastSeen, Long heard, Long deviceTime, Double battery, boolean off) {}
 
     /** Creates the health of a device that has not reported yet. */
-    static DeviceHealth unheard(DesiredDevice device, long now) {
+    static DeviceHealth unreported(DesiredDevice device, long now) {
         return new DeviceHealth(
                 Device.of(device, device.type()), false, now, new NewestReport(null, null, null, null, false));
     }
 
-    DeviceHealth heard(Heartbeat heartbeat, long now) {
+    DeviceHealth reported(Heartbeat heartbeat, long now) {
         Double battery = heartbeat.battery() == null ? report.battery : heartbeat.battery();
         return new DeviceHealth(
                 device.typed(heartbeat.type()),

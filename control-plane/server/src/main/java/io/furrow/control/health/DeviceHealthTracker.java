@@ -42,7 +42,6 @@ final class DeviceHealthTracker {
         this.publisher = publisher;
     }
 
-    /** Processes a heartbeat of the device of a key. */
     void take(String key, Heartbeat heartbeat, long now) {
         if (heartbeat.isPulse()) {
             silence.reported(heartbeat.heard());
@@ -53,13 +52,13 @@ final class DeviceHealthTracker {
             return; // the device was stopped meanwhile
         }
         DeviceHealth stored = health.get(key);
-        DeviceHealth existing = stored == null ? DeviceHealth.unheard(device.get(), now) : stored.of(device.get());
+        DeviceHealth existing = stored == null ? DeviceHealth.unreported(device.get(), now) : stored.of(device.get());
         long newest = heard(existing, now);
         if (heartbeat.heard() < newest) {
             return; // another detector has a newer report
         }
-        DeviceHealth heard = existing.silent() && heartbeat.silent() ? existing : existing.heard(heartbeat, now);
-        DeviceHealth next = heartbeat.silent() && !heard.silent() ? heard.silent(now) : heard;
+        DeviceHealth reported = existing.silent() && heartbeat.silent() ? existing : existing.reported(heartbeat, now);
+        DeviceHealth next = heartbeat.silent() && !reported.silent() ? reported.silent(now) : reported;
         store(key, next);
         watch(key, next, device.get());
         if (!heartbeat.silent()) {
@@ -87,7 +86,7 @@ final class DeviceHealthTracker {
     private void check(DesiredDevice device, long now) {
         String key = device.version().key();
         DeviceHealth stored = health.get(key);
-        DeviceHealth existing = stored == null ? DeviceHealth.unheard(device, now) : stored.of(device);
+        DeviceHealth existing = stored == null ? DeviceHealth.unreported(device, now) : stored.of(device);
         long silentSince = Math.max(device.version().from(), heard(existing, now));
         boolean silent = now - Math.max(silentSince, startedAt) > options.silentAfter(device) + TIMEOUT.toMillis();
         DeviceHealth next = silent && !existing.report().off() && !existing.silent() ? existing.silent(now) : existing;

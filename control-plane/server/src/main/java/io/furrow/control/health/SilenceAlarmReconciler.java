@@ -249,8 +249,8 @@ final class SilenceAlarmReconciler {
         boolean wasRaised = alarms.isRaised(AlarmKind.SILENT_FARM, Topics.RAW);
         double expectedInterval = all.expectedPerMs == 0 ? 0 : 1 / all.expectedPerMs;
         double minQuiet = Math.max(FARM_QUIET.toMillis(), expectedInterval);
-        boolean unheard = wasRaised && lastReport == 0; // since this process began to read
-        boolean quiet = unheard || now - Math.max(lastReport, startedAt) > minQuiet;
+        boolean unreported = wasRaised && lastReport == 0; // since this process began to read
+        boolean quiet = unreported || now - Math.max(lastReport, startedAt) > minQuiet;
         if (quiet || !wasRaised) {
             resumed = null;
         } else if (resumed == null) {

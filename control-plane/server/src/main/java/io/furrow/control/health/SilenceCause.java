@@ -54,9 +54,9 @@ public record SilenceCause(String code, String text, long time) {
             return Optional.of(new SilenceCause("not-registered", "the IoT Agent does not know it", 0));
         }
         List<SilenceCause> observed = new ArrayList<>();
-        RefusedLogin refused = connection.refusedLogin();
-        if (refused != null && (connection.loggedIn() == null || refused.last() > connection.loggedIn())) {
-            observed.add(refusal(refused));
+        RefusedLogin refusedLogin = connection.refusedLogin();
+        if (refusedLogin != null && (connection.loggedIn() == null || refusedLogin.last() > connection.loggedIn())) {
+            observed.add(refusal(refusedLogin));
         }
         if (connection.unreadablePayload() != null) {
             UnreadablePayload unreadable = connection.unreadablePayload();
@@ -77,13 +77,13 @@ public record SilenceCause(String code, String text, long time) {
                 .or(() -> Optional.ofNullable(login(connection, heard)));
     }
 
-    private static SilenceCause refusal(RefusedLogin refused) {
-        boolean unknown = refused.reason().equals(DeviceConnection.UNKNOWN_USER);
+    private static SilenceCause refusal(RefusedLogin refusedLogin) {
+        boolean unknown = refusedLogin.reason().equals(DeviceConnection.UNKNOWN_USER);
         String text = unknown
                 ? "its user %s does not exist or no longer, and was refused %s"
-                        .formatted(refused.user(), times(refused.count(), refused.last()))
-                : "its password was refused " + times(refused.count(), refused.last());
-        return new SilenceCause(refused.reason(), text, refused.last());
+                        .formatted(refusedLogin.user(), times(refusedLogin.count(), refusedLogin.last()))
+                : "its password was refused " + times(refusedLogin.count(), refusedLogin.last());
+        return new SilenceCause(refusedLogin.reason(), text, refusedLogin.last());
     }
 
     private static SilenceCause login(DeviceConnection connection, Long heard) {

@@ -35,16 +35,14 @@ final class SilenceDetector {
     private final MonitoredDevices desired;
     private final HeartbeatListener listener;
     private final Map<String, TrackedDevice> devices = new HashMap<>();
-    private long lookedUp;
+    private long refreshedAt;
     private long lastTick;
 
-    /** Receives the heartbeats. */
     interface HeartbeatListener {
         /** @param key of {@code service.devices} */
         void emit(String key, Heartbeat heartbeat);
     }
 
-    /** Mutable state of one device. */
     private static final class TrackedDevice {
         /** Null until the device reports. */
         private Heartbeat newest;
@@ -154,8 +152,8 @@ final class SilenceDetector {
     void passTime(long now) {
         boolean paused = now - lastTick > MAX_TICK.toMillis();
         lastTick = now;
-        if (now - lookedUp >= LOOKUP_INTERVAL.toMillis()) {
-            lookedUp = now;
+        if (now - refreshedAt >= LOOKUP_INTERVAL.toMillis()) {
+            refreshedAt = now;
             devices.entrySet().removeIf(entry -> !isDesiredStill(entry.getKey(), entry.getValue()));
         }
         if (!paused) {

@@ -45,7 +45,6 @@ final class DeduplicationProcessor extends ContextualProcessor<String, byte[], S
         }
     }
 
-    /** @param store of the positions */
     DeduplicationProcessor(String store) {
         this.store = store;
     }

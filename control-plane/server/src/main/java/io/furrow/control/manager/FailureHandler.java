@@ -20,6 +20,8 @@ import org.apache.kafka.streams.errors.ProductionExceptionHandler;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.kafka.KafkaClients;
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RequestSummary;
 import io.furrow.model.event.DeadLetter;
@@ -40,7 +42,7 @@ public final class FailureHandler
     @Override
     public DeserializationExceptionHandler.Response handleError(
             ErrorHandlerContext context, ConsumerRecord<byte[], byte[]> record, Exception failure) {
-        String source = record.topic() + "-" + record.partition() + "@" + record.offset();
+        String source = KafkaClients.position(record);
         LOG.error("{} cannot be deserialized and is a dead letter", source, failure);
         return DeserializationExceptionHandler.Response.resume(List.of(deadLetter(
                 record.topic(),
@@ -73,7 +75,7 @@ public final class FailureHandler
     }
 
     @Override
-    @SuppressWarnings("rawtypes") // as it is declared
+    @SuppressWarnings("rawtypes") // the interface declares the raw type
     public ProductionExceptionHandler.Response handleSerializationError(
             ErrorHandlerContext context,
             ProducerRecord record,
@@ -120,11 +122,11 @@ public final class FailureHandler
 
     private static ProducerRecord<byte[], byte[]> answer(String topic, ErrorHandlerContext context) {
         RequestSummary summary = RequestSummary.of(context.sourceRawValue());
-        io.furrow.model.control.CommandResult refusal = summary.refusal(
+        CommandResult rejection = summary.refusal(
                 ErrorCode.INTERNAL_ERROR,
                 "the manager failed at it; its log says why, and the request is a dead letter");
         byte[] key = summary.requestId() == null ? null : summary.requestId().getBytes(StandardCharsets.UTF_8);
-        byte[] value = refusal.to(summary.requestId()).toBytes();
+        byte[] value = rejection.to(summary.requestId()).toBytes();
         return new ProducerRecord<>(topic, null, context.timestamp(), key, value);
     }
 

@@ -15,7 +15,6 @@ final class GlobalStoreProcessor extends ContextualProcessor<String, byte[], Voi
     private final String name;
     private KeyValueStore<String, byte[]> store;
 
-    /** @param name of the store */
     GlobalStoreProcessor(String name) {
         this.name = name;
     }

@@ -27,7 +27,6 @@ public record ManagerTopic<C>(String name, String topic, Function<byte[], Parsed
     public static final ManagerTopic<AlarmCommand> ALARM =
             new ManagerTopic<>("alarm", Topics.ALARM_MANAGER, Requests::alarm);
 
-    /** Whether a topic is that of a manager. */
     static boolean isManager(String topic) {
         return Stream.of(DOMAIN, MISSION, REPLAY, ALARM)
                 .anyMatch(each -> each.topic().equals(topic));
@@ -37,7 +36,6 @@ public record ManagerTopic<C>(String name, String topic, Function<byte[], Parsed
         return reader.apply(value);
     }
 
-    /** Returns the name of the store of answered request ids. */
     public String answers() {
         return name + "-responses";
     }

@@ -107,7 +107,6 @@ public final class ManagerTopology {
         send(records, () -> new EventProcessor(observerFactory, writesUnreadable), nodes, stores.stream());
     }
 
-    /** Names of a processor node and of its sink. */
     public record Nodes(String processor, String output) {}
 
     private static void send(

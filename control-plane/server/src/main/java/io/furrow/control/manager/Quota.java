@@ -11,7 +11,6 @@ import io.furrow.model.control.RejectedException;
 public record Quota(Table<Long> used, long bytes) {
     private static final String USED = "used-bytes";
 
-    /** @throws RejectedException if the quota would be exceeded */
     public void require(long further) throws RejectedException {
         if (further > 0 && inUse() + further > bytes) {
             throw new RejectedException(

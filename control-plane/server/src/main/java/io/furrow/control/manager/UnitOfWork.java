@@ -82,7 +82,6 @@ public final class UnitOfWork implements EventPublisher {
         return context.currentSystemTimeMs();
     }
 
-    /** Returns the raw values of a store. */
     public Table<byte[]> table(String store) {
         return stores.computeIfAbsent(store, name -> new BufferedStore(context.getStateStore(name)));
     }

@@ -143,7 +143,7 @@ record DeviceAssignments(
         if (existing.device().device() == null) {
             throw new RejectedException(
                     ErrorCode.NO_CREDENTIALS,
-                    "device '%s' has a login of its own, which is not known here; list it as an object with a 'type' to give it one"
+                    "device '%s' has its own login, which the control plane does not know; list the device as an object with a 'type' to give it credentials"
                             .formatted(id));
         }
         DesiredDevice rotated =
@@ -154,7 +154,6 @@ record DeviceAssignments(
         return rotated.generation();
     }
 
-    /** Deletes the records of its devices. */
     void forget(Mission mission) {
         tables.pending().put(mission.mission(), null);
         forget(mission, Set.of());

@@ -14,7 +14,6 @@ import io.furrow.model.event.FiwareScope;
  * @param devicesPerStep maximum number of devices written in one transaction
  */
 public record MissionSettings(Duration timeout, FiwareScope scope, boolean simulatedByDefault, int devicesPerStep) {
-    /** Default of {@code timeout}. */
     public static final Duration START_TIMEOUT = Duration.ofMinutes(1);
 
     private static final int DEVICES_PER_STEP = 500;

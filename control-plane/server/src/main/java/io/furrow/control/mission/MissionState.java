@@ -20,7 +20,6 @@ public enum MissionState implements Coded {
         return this == STARTING || this == RUNNING || this == STOPPING;
     }
 
-    /** Whether the transition is allowed. */
     public boolean canBecome(MissionState next) {
         return switch (this) {
             case CREATED -> next == CREATED || next == STARTING || next == STOPPED || next == FAILED;

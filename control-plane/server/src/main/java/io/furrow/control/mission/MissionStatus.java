@@ -60,7 +60,6 @@ public record MissionStatus(
                 null);
     }
 
-    /** The mission waits for its start date. */
     MissionStatus scheduled(Mission mission, long now) {
         return next(MissionState.CREATED, now, mission.sequence())
                 .progress(0, 0)

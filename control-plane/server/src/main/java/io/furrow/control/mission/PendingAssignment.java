@@ -7,7 +7,6 @@ package io.furrow.control.mission;
  * @param time start or end of the request for the devices, epoch ms
  */
 record PendingAssignment(String mission, Kind kind, int next, long time) {
-    /** Kind of the written state. */
     enum Kind {
         /** The devices are desired to run. */
         START,

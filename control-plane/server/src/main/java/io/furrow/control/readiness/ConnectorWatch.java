@@ -154,7 +154,6 @@ public final class ConnectorWatch implements AutoCloseable {
         }
     }
 
-    /** Returns the status of Connect and of each connector. */
     public List<ComponentStatus> statuses() {
         Instant last = lastAnswer;
         boolean up = last != null && last.plus(INTERVAL.multipliedBy(3)).isAfter(clock.instant());

@@ -66,7 +66,7 @@ public final class HealthServer implements AutoCloseable {
      * @param host address to listen on
      * @param port 0 for a free one
      * @param allowed hosts and origins besides its own
-     * @throws IOException if the port is taken
+     * @throws IOException if the port is in use
      */
     public static HealthServer start(String host, int port, AllowedNames allowed, Pages pages) throws IOException {
         HealthServer health = new HealthServer(host, port, allowed, pages);
@@ -82,7 +82,6 @@ public final class HealthServer implements AutoCloseable {
         return health;
     }
 
-    /** Returns the address on which it listens. */
     public URI uri() {
         return URI.create("http://" + connector.getHost() + ":" + connector.getLocalPort());
     }

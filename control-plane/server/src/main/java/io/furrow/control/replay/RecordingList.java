@@ -22,7 +22,6 @@ final class RecordingList {
     /** When each mission was last read, epoch ms. */
     private final Map<String, Long> polled = new HashMap<>();
 
-    /** The recorded missions. */
     interface Store {
         /** Returns the names that commands accept. */
         List<String> names() throws IOException;

@@ -112,7 +112,6 @@ public final class RecordingWatch implements AutoCloseable {
         }
     }
 
-    /** Returns the status for a health page. */
     public ComponentStatus status() {
         return worker.status();
     }

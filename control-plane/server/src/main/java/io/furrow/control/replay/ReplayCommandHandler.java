@@ -152,7 +152,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         if (from >= to || to <= 0 || from >= LAST_TIME) {
             throw new RejectedException(
                     ErrorCode.WRONG_MEMBER,
-                    "'from' must be before the end of what is played: it is %s, and that is %s"
+                    "'from' must be before the end of the played range: 'from' is %s, the end is %s"
                             .formatted(Instant.ofEpochMilli(from), Instant.ofEpochMilli(to)));
         }
         return plan.between(Math.max(0, from), Math.min(to, LAST_TIME));

@@ -25,21 +25,21 @@ final class ReplayGroup {
     private static final long DELAY = 1000;
 
     private final List<DesiredReplay> members;
-    /** Any member: the desired state is the same for all. */
-    private final DesiredReplay one;
+    /** Any member, because the desired state is the same for all. */
+    private final DesiredReplay representative;
 
     /** @param members at least one */
     ReplayGroup(List<DesiredReplay> members) {
         this.members = members;
-        this.one = members.get(0);
+        this.representative = members.get(0);
     }
 
     /** Returns the members of a new group, which starts at the beginning of their common range. */
     static List<DesiredReplay> started(List<DesiredReplay> members, String group, long now) {
-        DesiredReplay one = members.get(0);
-        Long startAt = one.plan().startAt();
+        DesiredReplay representative = members.get(0);
+        Long startAt = representative.plan().startAt();
         long at = Math.max(now + START_DELAY, startAt == null ? 0 : startAt);
-        Clock clock = new Clock(at, one.from(one.plan().from()));
+        Clock clock = new Clock(at, representative.from(representative.plan().from()));
         return members.stream().map(each -> each.following(group, clock)).toList();
     }
 
@@ -51,10 +51,10 @@ final class ReplayGroup {
         } else if (steering instanceof Speed speed && speed.speed() == ReplayCommand.MAX) {
             throw wrong("'speed' must be a number from 0.1 to 1000: a group follows a clock");
         } else if (steering instanceof Seek seek && !isWithin(seek.to().toEpochMilli())) {
-            throw wrong("'to' must be at least %s and before %s, as what the group plays"
-                    .formatted(time(one.from(one.plan().from())), time(one.to())));
+            throw wrong("'to' must be at least %s and before %s, the range that the group plays"
+                    .formatted(time(representative.from(representative.plan().from())), time(representative.to())));
         } else if (steering instanceof Loop loop) {
-            checkRange(one, loop.range());
+            checkRange(representative, loop.range());
         }
     }
 
@@ -69,12 +69,12 @@ final class ReplayGroup {
         long to = replay.plan().to();
         if (range != null && (range.from() >= to || range.to() <= from)) {
             throw wrong(
-                    "'from' and 'to' must overlap what the group plays, from %s to %s".formatted(time(from), time(to)));
+                    "'from' and 'to' must overlap the range that the group plays, from %s to %s".formatted(time(from), time(to)));
         }
     }
 
     private boolean isWithin(long time) {
-        return time >= one.from(one.plan().from()) && time < one.to();
+        return time >= representative.from(representative.plan().from()) && time < representative.to();
     }
 
     private static Instant time(long millis) {
@@ -95,13 +95,13 @@ final class ReplayGroup {
             return looped(loop.range(), now, sequence);
         }
         return switch (((Simple) steering).what()) {
-            case STOP -> all(each -> each.desired(ReplayStatus.State.STOPPED, sequence), one.clock());
+            case STOP -> all(each -> each.desired(ReplayStatus.State.STOPPED, sequence), representative.clock());
             case PAUSE ->
-                all(each -> each.desired(ReplayStatus.State.PAUSED, sequence), new Clock(now, one.position(now)));
+                all(each -> each.desired(ReplayStatus.State.PAUSED, sequence), new Clock(now, representative.position(now)));
             case RESUME ->
                 all(
                         each -> each.desired(ReplayStatus.State.RUNNING, sequence),
-                        new Clock(soon(now), one.clock().shows()));
+                        new Clock(soon(now), representative.clock().shows()));
         };
     }
 
@@ -113,19 +113,19 @@ final class ReplayGroup {
     private List<DesiredReplay> looped(Range range, long now, long sequence) {
         List<DesiredReplay> within = all(each -> each.within(range, sequence), continued(now));
         ReplayGroup next = new ReplayGroup(within);
-        return range == null || next.isWithin(one.position(now))
+        return range == null || next.isWithin(representative.position(now))
                 ? within
-                : next.jumped(next.one.from(next.one.plan().from()), now, sequence);
+                : next.jumped(next.representative.from(next.representative.plan().from()), now, sequence);
     }
 
-    /** Returns a clock that continues from the current position; one that has not started yet keeps its start. */
+    /** Returns a clock that continues from the current position; a clock that has not started yet retains its start. */
     private Clock continued(long now) {
-        return new Clock(Math.max(now, one.clock().at()), one.position(now));
+        return new Clock(Math.max(now, representative.clock().at()), representative.position(now));
     }
 
     /** Returns a time shortly after now, but not before the start of the group. */
     private long soon(long now) {
-        Long startAt = one.plan().startAt();
+        Long startAt = representative.plan().startAt();
         return Math.max(now + DELAY, startAt == null ? 0 : startAt);
     }
 

@@ -25,7 +25,6 @@ record ReplayReports(Table<ReportedReplay> reports) {
         reports.put(replay, null);
     }
 
-    /** Returns the last report; null if there is none. */
     ReportedReplay get(DesiredReplay replay) {
         return reports.get(replay.replay());
     }

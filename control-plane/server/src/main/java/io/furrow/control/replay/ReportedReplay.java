@@ -15,18 +15,18 @@ record ReportedReplay(String replay, long sequence, ReplayStatus.State state, Lo
     /** @param before null if there is no previous report @param now epoch ms */
     static ReportedReplay of(String replay, ReplayStatus report, ReportedReplay before, long now) {
         ReplayStatus.Progress progress = report.progress();
-        boolean spans = progress != null && progress.to() > 0;
+        boolean hasExtent = progress != null && progress.to() > 0;
         boolean atEnd = report.state() == ReplayStatus.State.ENDED && report.settled();
-        boolean again = before != null && before.ended != null && before.sequence == report.sequence();
+        boolean repeated = before != null && before.ended != null && before.sequence == report.sequence();
         return new ReportedReplay(
                 replay,
                 report.sequence(),
                 report.state(),
-                spans ? Long.valueOf(progress.from()) : before == null ? null : before.first,
-                spans
+                hasExtent ? Long.valueOf(progress.from()) : before == null ? null : before.first,
+                hasExtent
                         ? Long.valueOf(Math.max(progress.to(), progress.position()))
                         : before == null ? null : before.last,
-                !atEnd ? null : again ? before.ended : Long.valueOf(now));
+                !atEnd ? null : repeated ? before.ended : Long.valueOf(now));
     }
 
     /** Whether the desired state was applied and the replay is over. @param desired sequence of the desired state */

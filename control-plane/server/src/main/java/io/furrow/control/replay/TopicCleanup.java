@@ -265,7 +265,6 @@ public final class TopicCleanup implements AutoCloseable {
         }
     }
 
-    /** Returns the status for a health page. */
     public ComponentStatus status() {
         return worker.status();
     }

@@ -86,7 +86,6 @@ public final class AlarmsResource {
         return Integer.parseInt(limit);
     }
 
-    /** Returns the rank of a severity; unknown ones are last. */
     private static int severity(JsonNode alarm) {
         return Coded.find(Severity.values(), alarm.path("severity").asText())
                 .map(Severity::ordinal)

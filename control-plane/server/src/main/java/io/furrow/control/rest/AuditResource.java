@@ -57,7 +57,7 @@ public final class AuditResource {
             throw new ProblemException(
                     ErrorCode.WRONG_MEMBER, "'limit' must be a whole number from 1 to " + StateView.AUDITED);
         }
-        ProblemException.refuseIf(
+        ProblemException.rejectIf(
                 before != null && !before.matches("[0-9]{1,18}"),
                 ErrorCode.WRONG_MEMBER,
                 "'before' must be the position of an entry, a whole number from 0");

@@ -4,7 +4,6 @@ import java.io.IOException;
 import java.io.InputStream;
 import java.util.List;
 import java.util.Optional;
-import java.util.concurrent.CompletionException;
 import java.util.concurrent.CompletionStage;
 import java.util.concurrent.RejectedExecutionException;
 import java.util.regex.Pattern;
@@ -42,6 +41,7 @@ import io.furrow.model.control.Role;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/devices}: desired state, status and health of devices, and commands to them. */
@@ -105,7 +105,6 @@ public final class DevicesResource {
         return secret(dependencies.credentials().of(device));
     }
 
-    /** Returns the credentials as a file for spreadsheets. */
     @GET
     @RolesAllowed(Role.ADMINS)
     @Path("{device}/credentials")
@@ -170,7 +169,7 @@ public final class DevicesResource {
         if (device == null) {
             throw new ProblemException(
                     ErrorCode.NO_CREDENTIALS,
-                    "device '%s' has a login of its own, which is not known here; list it as an object with a 'type' to give it one"
+                    "device '%s' has its own login, which the control plane does not know; list the device as an object with a 'type' to give it credentials"
                             .formatted(name.id()));
         }
         requireSecret(dependencies.credentials());
@@ -185,7 +184,7 @@ public final class DevicesResource {
     }
 
     static void requireSecret(DeviceCredentials credentials) {
-        ProblemException.refuseIf(
+        ProblemException.rejectIf(
                 credentials == null,
                 ErrorCode.NO_CREDENTIALS,
                 "this control plane does not know the secret of the farm; start it with --farm-secret");
@@ -233,7 +232,7 @@ public final class DevicesResource {
                             202, answer.put(DEVICE, sentCommand.device()).put("command", sentCommand.command()))
                     .build();
         }
-        Throwable cause = failure instanceof CompletionException ? failure.getCause() : failure;
+        Throwable cause = FailureText.unwrap(failure);
         audit(sentCommand.user(), sentCommand.command(), sentCommand.about(), cause.getMessage());
         if (cause instanceof RejectedExecutionException) {
             throw ProblemException.overloaded();
@@ -250,22 +249,22 @@ public final class DevicesResource {
     }
 
     private static void check(ObjectNode members, String command, String type) {
-        ProblemException.refuseIf(
+        ProblemException.rejectIf(
                 !members.has("command"), ErrorCode.MISSING_MEMBER, "the request needs a member 'command'");
-        ProblemException.refuseIf(
+        ProblemException.rejectIf(
                 !members.get("command").isTextual() || !COMMAND.matcher(command).matches(),
                 ErrorCode.WRONG_MEMBER,
                 "'command' must be 1 to 64 of A-Z a-z 0-9 _ - that begin with a letter");
-        ProblemException.refuseIf(
+        ProblemException.rejectIf(
                 members.hasNonNull("type") && !members.get("type").isTextual(),
                 ErrorCode.WRONG_MEMBER,
                 "'type' must be a text");
         boolean hasValue = members.hasNonNull("value") && !members.get("value").equals(NO_VALUE);
-        ProblemException.refuseIf(
+        ProblemException.rejectIf(
                 hasValue && DeviceCommands.isRobot(type),
                 ErrorCode.WRONG_MEMBER,
                 "a robot gets commands in its attribute 'cmd', which has no room for a 'value'; leave it out");
-        ProblemException.refuseIf(
+        ProblemException.rejectIf(
                 type.isEmpty(),
                 ErrorCode.MISSING_MEMBER,
                 "the device reports by itself: the request needs a member 'type' with the type of its entity");

@@ -116,7 +116,7 @@ public final class FieldsResource {
     @POST
     public Response add(@Context ContainerRequestContext request, @QueryParam("domain") String domain, InputStream body)
             throws IOException {
-        ProblemException.refuseIf(
+        ProblemException.rejectIf(
                 domain != null && !TopicName.isLegal(domain),
                 ErrorCode.WRONG_MEMBER,
                 "'domain' must be 1 to 64 of A-Z a-z 0-9 _ -");

@@ -1,7 +1,6 @@
 package io.furrow.control.rest;
 
 import java.util.Locale;
-import java.util.concurrent.CompletionException;
 
 import jakarta.ws.rs.WebApplicationException;
 import jakarta.ws.rs.core.Response;
@@ -10,6 +9,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.model.text.FailureText;
 
 /** Maps every exception to JSON with {@code error} and {@code reason}. */
 public final class JsonExceptionMapper implements ExceptionMapper<Throwable> {
@@ -17,8 +17,7 @@ public final class JsonExceptionMapper implements ExceptionMapper<Throwable> {
 
     @Override
     public Response toResponse(Throwable failure) {
-        Throwable cause =
-                failure instanceof CompletionException && failure.getCause() != null ? failure.getCause() : failure;
+        Throwable cause = FailureText.unwrap(failure);
         if (cause instanceof ProblemException problem) {
             return problem.response();
         }
@@ -37,11 +36,11 @@ public final class JsonExceptionMapper implements ExceptionMapper<Throwable> {
 
     private static String sentence(Response.StatusType status) {
         return switch (status.getStatusCode()) {
-            case 404 -> "there is nothing here; /openapi.json has what there is";
-            case 405 -> "this method is not for this path; /openapi.json has those that are";
-            case 406 -> "the answer has none of the media types asked for; most are application/json only";
+            case 404 -> "there is no such path; /openapi.json lists all paths";
+            case 405 -> "the path does not support this method; /openapi.json lists its methods";
+            case 406 -> "the answer is not available in a requested media type; most answers are application/json only";
             case 415 -> "a body must be application/json";
-            default -> "the request was refused: " + status.getReasonPhrase();
+            default -> "the request was rejected: " + status.getReasonPhrase();
         };
     }
 }

@@ -31,7 +31,6 @@ final class JsonResponses {
         return Response.status(status).type(MediaType.APPLICATION_JSON_TYPE).entity(NgsiJson.write(json));
     }
 
-    /** Returns the answer of a manager. */
     static Response of(CommandResult answer) {
         return answer.error()
                 .map(error -> ProblemException.response(error, answer.json()))

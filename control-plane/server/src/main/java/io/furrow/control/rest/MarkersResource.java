@@ -36,6 +36,7 @@ import io.furrow.mission.marker.RejectedMarkerException;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.text.FailureText;
 
 /** {@code /api/missions/{mission}/markers}: notes at moments of a recorded mission, stored with its recording. */
 @Path("/api/missions/{mission}/markers")
@@ -123,8 +124,7 @@ public final class MarkersResource {
 
     /** Audits a change and throws its failure. @param failure null if there is none */
     private void audit(Change change, String result, Throwable failure) {
-        Throwable cause =
-                failure instanceof CompletionException && failure.getCause() != null ? failure.getCause() : failure;
+        Throwable cause = FailureText.unwrap(failure);
         ProblemException problem = cause instanceof ProblemException existing ? existing : null;
         ObjectNode about = NgsiJson.object().put(MISSION, change.mission()).put(MARKER, change.marker());
         managers.audit(new AuditEntry(

@@ -87,7 +87,6 @@ public final class MissionsResource {
         return DevicesResource.secret(credentialsOf(request, mission));
     }
 
-    /** Returns the credentials as a file for spreadsheets. */
     @GET
     @RolesAllowed(Role.ADMINS)
     @Path("{mission}/credentials")
@@ -141,14 +140,12 @@ public final class MissionsResource {
         return manager.command(request, "stop", named(mission));
     }
 
-    /** Adds the status of a mission. */
     private ObjectNode withStatus(ObjectNode desired) {
         view.find(Topics.MISSIONS_STATUS, desired.path(MISSION).asText())
                 .ifPresent(status -> desired.set("status", status));
         return desired;
     }
 
-    /** Adds the device list of a mission. */
     private ObjectNode withDevices(ObjectNode mission) {
         if (!mission.has(DEVICES)) {
             ArrayNode devices = mission.putArray(DEVICES);

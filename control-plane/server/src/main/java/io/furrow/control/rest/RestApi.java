@@ -226,14 +226,13 @@ public final class RestApi implements AutoCloseable {
     /** Answers requests that the HTTP server itself rejects, such as ambiguous paths. */
     private static boolean reject(Request request, Response response, Callback callback) {
         String reason = HttpStatus.getMessage(response.getStatus());
-        CommandResult refusal = CommandResult.ofError(
-                reason.toLowerCase(Locale.ROOT).replace(' ', '-'), "the HTTP server refuses the request: " + reason);
+        CommandResult rejection = CommandResult.ofError(
+                reason.toLowerCase(Locale.ROOT).replace(' ', '-'), "the HTTP server rejects the request: " + reason);
         response.getHeaders().put(HttpHeader.CONTENT_TYPE, MediaType.APPLICATION_JSON);
-        response.write(true, ByteBuffer.wrap(refusal.toBytes()), callback);
+        response.write(true, ByteBuffer.wrap(rejection.toBytes()), callback);
         return true;
     }
 
-    /** Returns the address on which it listens. */
     public URI uri() {
         ServerConnector connector = (ServerConnector) server.getConnectors()[0];
         String scheme = connector.getConnectionFactory(SslConnectionFactory.class) == null ? "http" : "https";
@@ -245,7 +244,6 @@ public final class RestApi implements AutoCloseable {
         return metrics.page();
     }
 
-    /** Whether the topics were read. */
     public boolean isReady() {
         return view.isComplete();
     }

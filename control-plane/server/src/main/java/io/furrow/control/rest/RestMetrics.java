@@ -90,9 +90,9 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
                                 count.getKey().topic(),
                                 "status",
                                 count.getKey().status())));
-        page.counter("requests", "Requests to the REST API that were answered.", counted(Count::requests, 1));
+        page.counter("requests", "Requests to the REST API that were answered.", points(Count::requests, 1));
         page.counter(
-                "request_seconds", "Total seconds between requests and their answers.", counted(Count::nanos, 1e9));
+                "request_seconds", "Total seconds between requests and their answers.", points(Count::nanos, 1e9));
         page.gauge("awaited", "Requests that wait for the answer of a manager.", answers.pending());
         page.gauge("view_complete", "1 if the topics were read to their ends.", view.isComplete() ? 1 : 0);
         if (view.isComplete()) {
@@ -103,10 +103,10 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
         return page.write();
     }
 
-    private Stream<Point> counted(Function<Count, LongAdder> what, double unit) {
+    private Stream<Point> points(Function<Count, LongAdder> counter, double unit) {
         return counts.entrySet().stream().map(count -> {
             Route route = count.getKey();
-            double sum = what.apply(count.getValue()).sum() / unit;
+            double sum = counter.apply(count.getValue()).sum() / unit;
             return new Point(
                     sum, "method", route.method(), "path", route.path(), "status", Integer.toString(route.status()));
         });

@@ -47,7 +47,6 @@ public final class TemplatesResource {
         this.manager = new Manager(managers, Topics.MISSION_MANAGER);
     }
 
-    /** Lists all versions. */
     @GET
     public Response list() {
         return JsonResponses.ok(view.all(Topics.TEMPLATES));

@@ -51,7 +51,7 @@ class AlarmCommandHandlerTest extends AlarmHandlerFixture {
                 .returns("ann", alarm -> alarm.handling().acknowledgedBy());
         assertRejected(ErrorCode.WRONG_STATE, acknowledge("silent-device-1"));
         handler.answer(
-                new AlarmCommand.Close("silent-device-1", "bob"), NOW + AlarmStateMachine.CAUSE_LASTS.toMillis());
+                new AlarmCommand.Close("silent-device-1", "bob"), NOW + AlarmStateMachine.ACTIVE_TIMEOUT.toMillis());
         assertThat(alarm("silent-device-1"))
                 .returns("closed by bob", alarm -> alarm.handling().reason())
                 .returns("ann", alarm -> alarm.handling().acknowledgedBy());
@@ -96,7 +96,7 @@ class AlarmCommandHandlerTest extends AlarmHandlerFixture {
     @Test
     void rejectsClosingAnActiveCause() throws Exception {
         handler.raise(silent("urn:t:1"), NOW);
-        long later = NOW + AlarmStateMachine.CAUSE_LASTS.toMillis() - 1;
+        long later = NOW + AlarmStateMachine.ACTIVE_TIMEOUT.toMillis() - 1;
         assertThatThrownBy(() -> handler.answer(new AlarmCommand.Close("silent-device-1", null), later))
                 .isInstanceOf(RejectedException.class)
                 .hasMessage("alarm 'silent-device-1' closes when its cause is over: it is silent (seen 59 s ago)."
@@ -106,8 +106,8 @@ class AlarmCommandHandlerTest extends AlarmHandlerFixture {
                 .isInstanceOf(RejectedException.class);
         assertThat(alarm("silent-device-1").state()).isEqualTo(AlarmState.OPEN);
         handler.answer(
-                new AlarmCommand.Close("silent-device-1", null), later + AlarmStateMachine.CAUSE_LASTS.toMillis());
-        handler.raise(silent("urn:t:1"), later + AlarmStateMachine.CAUSE_LASTS.toMillis());
+                new AlarmCommand.Close("silent-device-1", null), later + AlarmStateMachine.ACTIVE_TIMEOUT.toMillis());
+        handler.raise(silent("urn:t:1"), later + AlarmStateMachine.ACTIVE_TIMEOUT.toMillis());
         assertThat(publisher.compacted(Topics.ALARMS)).hasSize(2);
     }
 

@@ -34,18 +34,18 @@ class AlarmPropertyTest {
     void staysConsistentUnderRandomEvents(TestInfo test, TestReporter reporter) {
         long seed = System.nanoTime();
         reporter.publishEntry(test.getDisplayName(), "seed " + seed);
-        int refused = 0;
+        int rejected = 0;
         int closed = 0;
         int crowded = 0;
         for (int i = 0; i < FARMS; i++) {
             Walk walk = new Walk(new Random(seed + i), "seed " + (seed + i));
             walk.run();
-            refused += walk.refused;
+            rejected += walk.rejected;
             closed += walk.closed.size();
             crowded += walk.crowded;
         }
         assertThat(crowded).as("causes without an alarm").isGreaterThan(FARMS);
-        assertThat(refused).isBetween(FARMS, FARMS * STEPS);
+        assertThat(rejected).isBetween(FARMS, FARMS * STEPS);
         assertThat(closed).isGreaterThan(FARMS);
     }
 
@@ -55,18 +55,18 @@ class AlarmPropertyTest {
         private final MapTable<AlarmTables.Mute> mutes = MapTable.of(AlarmTables.Mute.class);
         private final CapturingPublisher publisher = new CapturingPublisher();
         private final MapTable<AlarmLimit.Group> groups = MapTable.of(AlarmLimit.Group.class);
-        private final MapTable<AlarmLimit.Overflow> counted = MapTable.of(AlarmLimit.Overflow.class);
+        private final MapTable<AlarmLimit.Overflow> overflows = MapTable.of(AlarmLimit.Overflow.class);
         private final AlarmCommandHandler handler = new AlarmCommandHandler(
-                new AlarmTables(alarms, current, mutes, groups, counted),
+                new AlarmTables(alarms, current, mutes, groups, overflows),
                 new Sequence(MapTable.of(Long.class)),
                 publisher);
-        private final Map<String, Long> lasting = new HashMap<>();
+        private final Map<String, Long> validUntil = new HashMap<>();
         private final Set<String> closed = new HashSet<>();
         private final Map<String, AlarmState> before = new HashMap<>();
         private final Random random;
         private final String label;
         private long now = 1_000_000;
-        private int refused;
+        private int rejected;
         private int crowded;
 
         Walk(Random random, String label) {
@@ -101,7 +101,7 @@ class AlarmPropertyTest {
                 case 2 -> {
                     AlarmKind kind = kind();
                     String subject = subject();
-                    lasting.remove(Cause.key(kind, subject));
+                    validUntil.remove(Cause.key(kind, subject));
                     handler.end(kind, subject, "it is over", now);
                 }
                 case 3 -> {
@@ -115,7 +115,7 @@ class AlarmPropertyTest {
         private void raise(AlarmKind kind, int number) {
             for (int i = 0; i < number; i++) {
                 Cause cause = cause(kind);
-                lasting.put(cause.key(), cause.holds() == null ? Long.MAX_VALUE : cause.until(now));
+                validUntil.put(cause.key(), cause.validity() == null ? Long.MAX_VALUE : cause.until(now));
                 handler.raise(cause, now);
             }
             crowded += counted.all().size();
@@ -127,7 +127,7 @@ class AlarmPropertyTest {
             try {
                 handler.answer(command(), now);
             } catch (RejectedException e) {
-                refused++;
+                rejected++;
                 assertThat(content()).as(label).isEqualTo(content);
                 assertThat(publisher.all()).as(label).hasSize(written);
             }
@@ -149,9 +149,9 @@ class AlarmPropertyTest {
         }
 
         private Cause cause(AlarmKind kind) {
-            Duration holds = random.nextBoolean() ? null : Duration.ofSeconds(1 + random.nextInt(60));
+            Duration validity = random.nextBoolean() ? null : Duration.ofSeconds(1 + random.nextInt(60));
             Cause cause =
-                    new Cause(kind, subject(), "look", List.of(new Cause.AffectedDevice("x", null, null, null)), holds);
+                    new Cause(kind, subject(), "look", List.of(new Cause.AffectedDevice("x", null, null, null)), validity);
             return AlarmLimit.KINDS.contains(kind) ? cause.inGroup("g") : cause;
         }
 
@@ -228,7 +228,7 @@ class AlarmPropertyTest {
                     closedBefore.add(alarm.key());
                 }
             });
-            lasting.forEach((key, until) -> {
+            validUntil.forEach((key, until) -> {
                 boolean existing = current.get(key) != null || counted.get(key) != null;
                 assertThat(existing || closedBefore.contains(key) || until <= now)
                         .as(label + key)

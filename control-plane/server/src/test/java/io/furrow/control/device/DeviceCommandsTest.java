@@ -26,7 +26,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.catchThrowable;
 
 class DeviceCommandsTest {
-    private final List<String> heard = new ArrayList<>();
+    private final List<String> received = new ArrayList<>();
     private int status = 204;
     private String answer = "";
     private volatile String authorization;
@@ -38,7 +38,7 @@ class DeviceCommandsTest {
     void updatesTheAttributeOfTheCommand() throws Exception {
         commands().send("urn:ngsi-ld:Thermometer:m-1", "Thermometer", "restart", "now");
 
-        assertThat(heard)
+        assertThat(received)
                 .containsExactly(
                         "PATCH /v2/entities/urn%3Angsi-ld%3AThermometer%3Am-1/attrs?type=Thermometer farm /north"
                                 + " {\"restart\":{\"type\":\"command\",\"value\":\"now\"}}");
@@ -54,7 +54,7 @@ class DeviceCommandsTest {
                 .send(new DeviceCommands.Order("t1", "Thermometer", "on", json))
                 .join();
 
-        assertThat(heard)
+        assertThat(received)
                 .singleElement()
                 .asString()
                 .endsWith("{\"on\":{\"type\":\"command\",\"value\":" + value + "}}");
@@ -74,7 +74,7 @@ class DeviceCommandsTest {
                 "200,<html>log in</html>,",
                 "503,{\"error\":\"busy\"},"
             })
-    void distinguishesRejectionsFromOutages(int answered, String body, Integer refused) {
+    void distinguishesRejectionsFromOutages(int answered, String body, Integer rejected) {
         status = answered;
         answer = body == null ? "" : body;
 
@@ -82,7 +82,7 @@ class DeviceCommandsTest {
 
         assertThat(failure).isInstanceOf(IOException.class);
         assertThat(failure instanceof RejectedCommandException existing ? existing.status() : null)
-                .isEqualTo(refused);
+                .isEqualTo(rejected);
     }
 
     @Test
@@ -91,7 +91,7 @@ class DeviceCommandsTest {
 
         commands().send("urn:ngsi-ld:Robot:m-1", "ROBOT", "Stop", "");
 
-        assertThat(heard)
+        assertThat(received)
                 .hasSize(2)
                 .containsOnly("POST /v2/entities/urn%3Angsi-ld%3ARobot%3Am-1/attrs?options=forcedUpdate farm /north"
                         + " {\"cmd\":{\"type\":\"String\",\"value\":\"Stop\"},"
@@ -148,7 +148,7 @@ class DeviceCommandsTest {
 
     private void report(HttpExchange exchange) throws IOException {
         authorization = exchange.getRequestHeaders().getFirst("Authorization");
-        heard.add("%s %s %s %s %s"
+        received.add("%s %s %s %s %s"
                 .formatted(
                         exchange.getRequestMethod(),
                         exchange.getRequestURI(),

@@ -58,10 +58,10 @@ class DeviceHealthTrackerTest {
     @Test
     void reportsWhyADeviceIsSilent() {
         addDesired("m", START);
-        connection = refused(12);
+        connection = refusedConnection(12);
         tracker.passTime(START);
         tracker.passTime(START + LONG_ENOUGH + 10_000);
-        connection = refused(13);
+        connection = refusedConnection(13);
         tracker.passTime(START + LONG_ENOUGH + 30_000);
 
         assertThat(alarms())
@@ -76,7 +76,7 @@ class DeviceHealthTrackerTest {
                 .allMatch(text -> text.endsWith("(the IoT Agent does not know it)"));
     }
 
-    private static DeviceConnection refused(long count) {
+    private static DeviceConnection refusedConnection(long count) {
         var refused = new RefusedLogin(count, START + 1000, DeviceConnection.WRONG_PASSWORD, "furrow.d.m.d.1.0");
         return new DeviceConnection(START, null, refused, null, null, true);
     }

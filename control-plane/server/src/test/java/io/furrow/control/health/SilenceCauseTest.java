@@ -66,13 +66,13 @@ class SilenceCauseTest {
 
     @Test
     void findsTheBestReasonForADeviceThatHasNotReportedYet() {
-        assertThat(unheard(null, null)).isEqualTo("it has not reported yet");
-        assertThat(unheard(null, "not provisioned: why")).isEqualTo("not provisioned: why");
-        assertThat(unheard(connection(null, false), "not provisioned: why")).isEqualTo("not provisioned: why");
-        assertThat(unheard(connection(null, true), "not provisioned: why")).startsWith("it has not connected");
-        assertThat(unheard(connection(START + 1000, true), null)).startsWith("it connected at " + AT + "1Z");
-        assertThat(unheard(connection(START - 1, true), null))
-                .as("what it sent before, it sent to an earlier run")
+        assertThat(unreported(null, null)).isEqualTo("it has not reported yet");
+        assertThat(unreported(null, "not provisioned: why")).isEqualTo("not provisioned: why");
+        assertThat(unreported(connection(null, false), "not provisioned: why")).isEqualTo("not provisioned: why");
+        assertThat(unreported(connection(null, true), "not provisioned: why")).startsWith("it has not connected");
+        assertThat(unreported(connection(START + 1000, true), null)).startsWith("it connected at " + AT + "1Z");
+        assertThat(unreported(connection(START - 1, true), null))
+                .as("sent to an earlier run")
                 .isEqualTo("it has not reported yet");
     }
 
@@ -80,7 +80,7 @@ class SilenceCauseTest {
         return new DeviceConnection(START, loggedIn, null, null, null, registered);
     }
 
-    private static String unheard(DeviceConnection connection, String failure) {
+    private static String unreported(DeviceConnection connection, String failure) {
         return SilenceCause.ofUnheard(connection, failure, START).text();
     }
 

@@ -46,15 +46,15 @@ class SilencePropertyTest {
         long seed = System.nanoTime();
         reporter.publishEntry(test.getDisplayName(), "seed " + seed);
         Map<AlarmKind, Integer> raised = new TreeMap<>();
-        int refused = 0;
+        int rejected = 0;
         for (int i = 0; i < FARMS; i++) {
             Walk walk = new Walk(new Random(seed + i), "seed " + (seed + i) + " ");
             walk.run();
-            refused += walk.refused;
+            rejected += walk.rejected;
             walk.raised.forEach((kind, number) -> raised.merge(kind, number, Integer::sum));
         }
         assertThat(raised).containsOnlyKeys(AlarmKind.SILENT_DEVICE, AlarmKind.SILENT_MISSION, AlarmKind.SILENT_FARM);
-        assertThat(refused).as("an alarm that lasts is not closed by hand").isPositive();
+        assertThat(rejected).as("an active cause cannot be closed manually").isPositive();
     }
 
     private static final class Walk {
@@ -62,13 +62,13 @@ class SilencePropertyTest {
         private final MapTable<DeviceHealth> health = MapTable.of(DeviceHealth.class);
         private final CapturingPublisher publisher = new CapturingPublisher();
         private final AlarmCommandHandler alarms = AlarmHandlerFixture.writingTo(publisher);
-        private final Set<String> talking = new HashSet<>();
+        private final Set<String> reporting = new HashSet<>();
         private final Map<AlarmKind, Integer> raised = new TreeMap<>();
         private final Random random;
         private final String label;
         private DeviceHealthTracker tracker = tracker();
         private long now = 1_700_000_000_000L;
-        private int refused;
+        private int rejected;
 
         Walk(Random random, String label) {
             this.random = random;
@@ -78,7 +78,7 @@ class SilencePropertyTest {
         void run() {
             for (int i = 0; i < 30; i++) {
                 addDesired(i, "m" + i % 3);
-                talking.add(key(i));
+                reporting.add(key(i));
             }
             for (int i = 0; i < STEPS; i++) {
                 step();
@@ -89,12 +89,12 @@ class SilencePropertyTest {
 
         private void step() {
             switch (random.nextInt(9)) {
-                case 0, 1 -> talking.remove(key(random.nextInt(30)));
-                case 2 -> talking.add(key(random.nextInt(30)));
-                case 3 -> talking.removeIf(key -> random.nextInt(4) > 0);
+                case 0, 1 -> reporting.remove(key(random.nextInt(30)));
+                case 2 -> reporting.add(key(random.nextInt(30)));
+                case 3 -> reporting.removeIf(key -> random.nextInt(4) > 0);
                 case 4 ->
-                    desired.all().forEach(each -> talking.add(version(each).key()));
-                case 5 -> talking.clear();
+                    desired.all().forEach(each -> reporting.add(version(each).key()));
+                case 5 -> reporting.clear();
                 case 6 -> request();
                 case 7 -> {
                     int device = random.nextInt(30);
@@ -124,7 +124,7 @@ class SilencePropertyTest {
                 Alarm one = open.get(random.nextInt(open.size()));
                 alarms.answer(new AlarmCommand.Close(one.alarm(), "ann"), now);
             } catch (RejectedException e) {
-                refused++;
+                rejected++;
             }
         }
 
@@ -133,9 +133,9 @@ class SilencePropertyTest {
             for (int second = 0; second < 300; second += 5) {
                 now += 5000;
                 if (second % 10 == 0) {
-                    talking.forEach(key ->
+                    reporting.forEach(key ->
                             tracker.take(key, new Heartbeat(id(key), "T", false, now, now, null, null, false), now));
-                    if (!talking.isEmpty()) {
+                    if (!reporting.isEmpty()) {
                         tracker.take(Heartbeat.PULSE_KEY, Heartbeat.pulse(now), now);
                     }
                 }
@@ -175,7 +175,7 @@ class SilencePropertyTest {
                             .isGreaterThanOrEqualTo(alarm.extent().total());
                 }
             }
-            boolean nothing = talking.isEmpty()
+            boolean nothing = reporting.isEmpty()
                     && silent.values().stream().mapToLong(each -> each).sum() >= 3
                     && 2 * silent.values().stream().mapToLong(each -> each).sum()
                             >= health.all().size();
@@ -185,7 +185,7 @@ class SilencePropertyTest {
                         .filteredOn(alarm -> alarm.inhibitedBy() == null)
                         .extracting(Alarm::kind)
                         .containsExactly(AlarmKind.SILENT_FARM);
-            } else if (!talking.isEmpty()) {
+            } else if (!reporting.isEmpty()) {
                 assertThat(open).as(label).extracting(Alarm::kind).doesNotContain(AlarmKind.SILENT_FARM);
             }
         }

@@ -17,7 +17,7 @@ class DeduplicationProcessorTest {
     private static final String STORE = "positions";
 
     private final MockProcessorContext<String, byte[]> context = new MockProcessorContext<>(new Properties());
-    private final DeduplicationProcessor takeOnce = new DeduplicationProcessor(STORE);
+    private final DeduplicationProcessor processor = new DeduplicationProcessor(STORE);
 
     @BeforeEach
     void open() {
@@ -25,7 +25,7 @@ class DeduplicationProcessorTest {
                 StoreTable.builder(STORE).withLoggingDisabled().build();
         store.init(context.getStateStoreContext(), store);
         context.addStateStore(store);
-        takeOnce.init(context);
+        processor.init(context);
     }
 
     @Test
@@ -36,10 +36,10 @@ class DeduplicationProcessorTest {
         read(0, 1000);
         read(1, 900);
         read(2, 1100);
-        assertThat(taken()).containsExactly(1000L, 900L, 1100L);
+        assertThat(processed()).containsExactly(1000L, 900L, 1100L);
 
         read(3, 1000);
-        assertThat(taken()).hasSize(4);
+        assertThat(processed()).hasSize(4);
     }
 
     @Test
@@ -47,16 +47,16 @@ class DeduplicationProcessorTest {
         read(5, 1000);
         read(0, 2000);
         read(1, 2000);
-        assertThat(taken()).containsExactly(1000L, 2000L, 2000L);
+        assertThat(processed()).containsExactly(1000L, 2000L, 2000L);
     }
 
     private void read(long offset, long timestamp) {
         Record<String, byte[]> request = new Record<>("", new byte[0], timestamp);
         new RecordOrigin(Topics.DOMAIN_MANAGER, 0, offset).addTo(request);
-        takeOnce.process(request);
+        processor.process(request);
     }
 
-    private List<Long> taken() {
+    private List<Long> processed() {
         return context.forwarded().stream()
                 .map(forward -> forward.record().timestamp())
                 .toList();

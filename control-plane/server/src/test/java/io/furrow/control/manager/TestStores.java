@@ -26,12 +26,10 @@ public final class TestStores {
         }
     }
 
-    /** Returns the unit of work for handlers. */
     public UnitOfWork unitOfWork() {
         return unitOfWork;
     }
 
-    /** Returns the written records. */
     public CapturingPublisher publisher() {
         return publisher;
     }
@@ -49,7 +47,6 @@ public final class TestStores {
         return result;
     }
 
-    /** Returns the content of a store. */
     public <T> List<T> all(Table<T> records) {
         List<T> all = new ArrayList<>();
         records.forEach(all::add);

@@ -72,7 +72,7 @@ class CredentialsTest {
         stop();
         farm.request(new MissionCommand.Delete("m"));
         assertThat(farm.publisher.compacted(Topics.DEVICES)).isEmpty();
-        refused(DEVICE, ErrorCode.UNKNOWN_DEVICE);
+        rejects(DEVICE, ErrorCode.UNKNOWN_DEVICE);
 
         start();
         assertThat(farm.device(DEVICE).generation()).isEqualTo(1);
@@ -94,8 +94,8 @@ class CredentialsTest {
     void rejectsUnknownDevicesAndThoseWithTheirOwnLogin() throws Exception {
         farm.start("other", "north", DeviceGroup.entity("urn:robot"));
 
-        refused("urn:nosuch", ErrorCode.UNKNOWN_DEVICE);
-        refused("urn:robot", ErrorCode.NO_CREDENTIALS);
+        rejects("urn:nosuch", ErrorCode.UNKNOWN_DEVICE);
+        rejects("urn:robot", ErrorCode.NO_CREDENTIALS);
     }
 
     private void start() throws RejectedException {
@@ -111,12 +111,12 @@ class CredentialsTest {
         return farm.request(new MissionCommand.RotateCredentials(device)).json().toString();
     }
 
-    private void refused(String device, ErrorCode code) {
+    private void rejects(String device, ErrorCode code) {
         String before = farm.content();
         assertThatThrownBy(() -> rotate(device))
                 .isInstanceOfSatisfying(
                         RejectedException.class,
-                        refusal -> assertThat(refusal.code()).isEqualTo(code))
+                        rejection -> assertThat(rejection.code()).isEqualTo(code))
                 .hasMessageContaining("'" + device + "'");
         assertThat(farm.content()).isEqualTo(before);
     }

@@ -26,11 +26,11 @@ class DomainDeletionTest {
     @Test
     void rejectsDeletingADomainWithRunningMissionsUnlessForced() throws Exception {
         farm.start("m", "north", group("Camera", 1));
-        farm.refused(ErrorCode.MISSIONS_RUNNING, () -> farm.request(new DomainCommand.Delete("north", false)));
+        farm.rejects(ErrorCode.MISSIONS_RUNNING, () -> farm.request(new DomainCommand.Delete("north", false)));
 
         farm.request(new DomainCommand.Delete("north", true));
         assertThat(farm.publisher.compacted(Topics.DOMAINS)).isEmpty();
-        farm.refused(ErrorCode.UNKNOWN_DOMAIN, () -> farm.request(new DomainCommand.Delete("north", true)));
+        farm.rejects(ErrorCode.UNKNOWN_DOMAIN, () -> farm.request(new DomainCommand.Delete("north", true)));
     }
 
     @Test

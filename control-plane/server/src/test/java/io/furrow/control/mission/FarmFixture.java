@@ -119,7 +119,6 @@ final class FarmFixture {
         return new DeviceGroup(null, null, type, count, null, null, false, instance.objectNode());
     }
 
-    /** Simulated devices. */
     static DeviceGroup group(String type, int count) {
         return new DeviceGroup(null, null, type, count, null, null, true, instance.objectNode());
     }
@@ -192,7 +191,6 @@ final class FarmFixture {
         return !pending.isEmpty();
     }
 
-    /** Returns the content of all stores. */
     String content() {
         return stores.content();
     }
@@ -202,10 +200,10 @@ final class FarmFixture {
     }
 
     /** Expects a rejection that changes nothing. */
-    void refused(ErrorCode code, ThrowingCallable what) {
+    void rejects(ErrorCode code, ThrowingCallable call) {
         String before = content();
         int written = publisher.all().size();
-        assertThatThrownBy(what)
+        assertThatThrownBy(call)
                 .isInstanceOfSatisfying(
                         RejectedException.class, e -> assertThat(e.code()).isEqualTo(code));
         assertThat(content()).isEqualTo(before);

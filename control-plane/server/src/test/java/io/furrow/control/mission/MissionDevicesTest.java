@@ -138,9 +138,9 @@ class MissionDevicesTest {
                 "m",
                 new MissionDevices(List.of(
                         new DeviceGroup(null, null, "Camera", 2, "robots", null, true, instance.objectNode())))));
-        farm.refused(ErrorCode.WRONG_MEMBER, () -> farm.request(add("robots", "Robot", 1)));
-        farm.refused(ErrorCode.WRONG_MEMBER, () -> farm.request(add("more", "Robot", DeviceGroup.MAX)));
-        farm.refused(
+        farm.rejects(ErrorCode.WRONG_MEMBER, () -> farm.request(add("robots", "Robot", 1)));
+        farm.rejects(ErrorCode.WRONG_MEMBER, () -> farm.request(add("more", "Robot", DeviceGroup.MAX)));
+        farm.rejects(
                 ErrorCode.UNKNOWN_MISSION,
                 () -> farm.request(new MissionCommand.AddDevices("other", MissionDevices.NONE)));
 
@@ -148,7 +148,7 @@ class MissionDevicesTest {
         assertThat(farm.publisher.compacted(Topics.MISSION_DEVICES)).containsOnlyKeys("m.0", "m.1");
         farm.request(new MissionCommand.Start("m", null, new MissionPlan.Unspecified(), null, null));
         assertThat(farm.device("urn:ngsi-ld:Camera:m-2").version().carriedBy()).isEqualTo("urn:ngsi-ld:Robot:m-2");
-        farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.request(add("late", "Robot", 1)));
+        farm.rejects(ErrorCode.MISSION_RUNNING, () -> farm.request(add("late", "Robot", 1)));
     }
 
     private static MissionCommand add(String name, String type, int count) {
@@ -168,7 +168,7 @@ class MissionDevicesTest {
         for (int bytes = 0; bytes + 500_100 < Limits.MISSION_BYTES; bytes += 500_100) {
             farm.request(more);
         }
-        farm.refused(ErrorCode.TOO_LARGE, () -> farm.request(more));
+        farm.rejects(ErrorCode.TOO_LARGE, () -> farm.request(more));
 
         ObjectNode area = instance.objectNode().put("type", "Polygon").put("note", "x".repeat(800_000));
         area.putArray("coordinates");
@@ -183,7 +183,7 @@ class MissionDevicesTest {
             }
         }
         assertThat(domains).isBetween(30, 40);
-        farm.refused(ErrorCode.QUOTA_EXCEEDED, () -> farm.start("big", "north", group("Camera", 10_000)));
+        farm.rejects(ErrorCode.QUOTA_EXCEEDED, () -> farm.start("big", "north", group("Camera", 10_000)));
         farm.request(new DomainCommand.Delete("d0", false));
         farm.request(new DomainCommand.Create("d0", new DomainDetails(null, null, area, null)));
         for (int i = 0; i < 20; i++) {

@@ -247,28 +247,28 @@ class MissionLifeTest {
         farm.domain("south");
         farm.start("m", "north", group("Camera", 1), DeviceGroup.entity("urn:robot"));
 
-        farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.start("m", "north"));
-        farm.refused(ErrorCode.UNKNOWN_MISSION, () -> farm.request(new MissionCommand.Stop("other")));
-        farm.refused(ErrorCode.UNKNOWN_MISSION, () -> farm.request(new MissionCommand.Delete("other")));
-        farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.request(new MissionCommand.Delete("m")));
-        farm.refused(ErrorCode.UNKNOWN_DOMAIN, () -> farm.start("other", "east"));
-        farm.refused(ErrorCode.DEVICE_TAKEN, () -> farm.start("other", "south", DeviceGroup.entity("urn:robot")));
-        farm.refused(
+        farm.rejects(ErrorCode.MISSION_RUNNING, () -> farm.start("m", "north"));
+        farm.rejects(ErrorCode.UNKNOWN_MISSION, () -> farm.request(new MissionCommand.Stop("other")));
+        farm.rejects(ErrorCode.UNKNOWN_MISSION, () -> farm.request(new MissionCommand.Delete("other")));
+        farm.rejects(ErrorCode.MISSION_RUNNING, () -> farm.request(new MissionCommand.Delete("m")));
+        farm.rejects(ErrorCode.UNKNOWN_DOMAIN, () -> farm.start("other", "east"));
+        farm.rejects(ErrorCode.DEVICE_TAKEN, () -> farm.start("other", "south", DeviceGroup.entity("urn:robot")));
+        farm.rejects(
                 ErrorCode.DEVICE_TAKEN,
                 () -> farm.start(
                         "other", "south", group("Camera", 1), DeviceGroup.entity("urn:ngsi-ld:Camera:other-1")));
-        farm.refused(
+        farm.rejects(
                 ErrorCode.UNKNOWN_TEMPLATE,
                 () -> farm.request(new MissionCommand.Start(
                         "other", "north", new MissionPlan.FromTemplate("nosuch", 0), null, null)));
-        farm.refused(
+        farm.rejects(
                 ErrorCode.MISSION_EXISTS,
                 () -> farm.request(new MissionCommand.Create("m", "north", new MissionPlan.Unspecified())));
 
         farm.request(new MissionCommand.Stop("m"));
-        farm.refused(ErrorCode.MISSION_NOT_RUNNING, () -> farm.request(new MissionCommand.Stop("m")));
+        farm.rejects(ErrorCode.MISSION_NOT_RUNNING, () -> farm.request(new MissionCommand.Stop("m")));
         farm.hostAll();
-        farm.refused(ErrorCode.NAME_TAKEN, () -> farm.start("m", "south"));
+        farm.rejects(ErrorCode.NAME_TAKEN, () -> farm.start("m", "south"));
         farm.start("other", "south", DeviceGroup.entity("urn:robot"));
     }
 }

@@ -36,11 +36,11 @@ class MissionPropertyTest {
     @Test
     void staysConsistentUnderRandomEvents() throws Exception {
         long seed = Long.getLong("furrow.mission.seed", System.nanoTime());
-        int refused = 0;
+        int rejected = 0;
         for (int i = 0; i < FARMS; i++) {
-            refused += new Walk(new Random(seed + i), "seed " + seed + " farm " + i).run();
+            rejected += new Walk(new Random(seed + i), "seed " + seed + " farm " + i).run();
         }
-        assertThat(refused).isBetween(FARMS, FARMS * STEPS);
+        assertThat(rejected).isBetween(FARMS, FARMS * STEPS);
     }
 
     /** A farm with random events. */
@@ -48,7 +48,7 @@ class MissionPropertyTest {
         private final FarmFixture farm;
         private final Random random;
         private final String label;
-        private int refused;
+        private int rejected;
 
         Walk(Random random, String label) {
             this.random = random;
@@ -66,7 +66,7 @@ class MissionPropertyTest {
             }
             checkEverythingSettles();
             checkSequences();
-            return refused;
+            return rejected;
         }
 
         private void step() {
@@ -82,14 +82,14 @@ class MissionPropertyTest {
                     default -> reportOne();
                 }
             } catch (RejectedException e) {
-                refused++;
+                rejected++;
                 assertThat(farm.content()).as(label + ": " + e.getMessage()).isEqualTo(content);
                 assertThat(farm.publisher.all()).as(label).hasSize(written);
             }
         }
 
         private DomainCommand domainCommand() {
-            String domain = one(DOMAINS);
+            String domain = pick(DOMAINS);
             return switch (random.nextInt(5)) {
                 case 0 -> new DomainCommand.Delete(domain, random.nextBoolean());
                 case 1 -> new DomainCommand.Change(domain, new DomainDetails("N" + farm.now, null, null, null));
@@ -98,16 +98,16 @@ class MissionPropertyTest {
         }
 
         private MissionCommand missionCommand() {
-            String mission = one(NAMES);
+            String mission = pick(NAMES);
             return switch (random.nextInt(7)) {
                 case 6 -> new MissionCommand.AddDevices(mission, added());
-                case 0 -> new MissionCommand.Create(mission, one(DOMAINS), plan());
+                case 0 -> new MissionCommand.Create(mission, pick(DOMAINS), plan());
                 case 1 -> new MissionCommand.Delete(mission);
                 case 2 -> new MissionCommand.Stop(mission);
                 default ->
                     new MissionCommand.Start(
                             mission,
-                            random.nextInt(3) == 0 ? null : one(DOMAINS),
+                            random.nextInt(3) == 0 ? null : pick(DOMAINS),
                             plan(),
                             random.nextInt(4) == 0 ? Instant.ofEpochMilli(farm.now + random.nextInt(50_000)) : null,
                             random.nextInt(3) == 0 ? Duration.ofMillis(1 + random.nextInt(200_000)) : null);
@@ -175,7 +175,7 @@ class MissionPropertyTest {
                         .isEqualTo(farm.missions.get(status.mission()).sequence());
             }
             assertThat(before.values().stream().filter(status -> farm.status(status.mission()) == null))
-                    .as("deleted though active in a domain that there is, " + label)
+                    .as("deleted while active in an existing domain, " + label)
                     .noneMatch(status -> status.state().isActive() && farm.domains.contains(status.domain()));
             assertThat(farm.all(farm.statuses)).as(label).allMatch(status -> farm.domains.contains(status.domain()));
         }
@@ -284,7 +284,7 @@ class MissionPropertyTest {
             }
         }
 
-        private <T> T one(List<T> all) {
+        private <T> T pick(List<T> all) {
             return all.get(random.nextInt(all.size()));
         }
     }

@@ -51,7 +51,7 @@ class TemplateStoreTest {
                 .isEqualTo(3);
 
         farm.request(new MissionCommand.DeleteTemplate("thesis-demo", 0));
-        farm.refused(
+        farm.rejects(
                 ErrorCode.UNKNOWN_TEMPLATE, () -> farm.request(new MissionCommand.DeleteTemplate("thesis-demo", 0)));
         farm.run(farm.missionHandler.templates()::installBuiltIn);
         assertThat(farm.publisher.compacted(Topics.TEMPLATES)).isEmpty();

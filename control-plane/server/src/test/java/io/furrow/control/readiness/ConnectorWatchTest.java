@@ -38,8 +38,8 @@ class ConnectorWatchTest {
 
     @AutoClose
     private final StubServer connect = new StubServer(exchange -> {
-        boolean isAsked = exchange.getRequestURI().toString().equals("/connectors?expand=status");
-        StubServer.answer(exchange, isAsked ? 200 : 404, answer.get());
+        boolean isStatusRequest = exchange.getRequestURI().toString().equals("/connectors?expand=status");
+        StubServer.answer(exchange, isStatusRequest ? 200 : 404, answer.get());
     });
 
     @BeforeEach
@@ -104,11 +104,11 @@ class ConnectorWatchTest {
     @Test
     void showsNoClassNames() throws Exception {
         Readiness readiness = new Readiness(Clock.systemUTC());
-        URI nowhere = URI.create("http://127.0.0.1:1/");
-        ConnectorWatch unavailable = new ConnectorWatch(nowhere, producer, Clock.systemUTC());
+        URI unreachable = URI.create("http://127.0.0.1:1/");
+        ConnectorWatch unavailable = new ConnectorWatch(unreachable, producer, Clock.systemUTC());
         unavailable.poll();
         readiness.showAll(unavailable::statuses);
-        try (Probe probe = Probe.http("contextBroker", nowhere);
+        try (Probe probe = Probe.http("contextBroker", unreachable);
                 SupervisedWorker worker = new SupervisedWorker("worker", Clock.systemUTC())
                         .start(
                                 self -> {

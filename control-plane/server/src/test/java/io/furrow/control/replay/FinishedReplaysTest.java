@@ -55,7 +55,7 @@ class FinishedReplaysTest {
         status(ReplayStatus.State.ENDED, false, 60);
         assertThat(finished.finishedBy(1000)).isEmpty();
         status(ReplayStatus.State.ENDED, true, 100);
-        assertThat(finished.finishedBy(1000)).as("still wanted").isEmpty();
+        assertThat(finished.finishedBy(1000)).as("still desired").isEmpty();
         take(Topics.REPLAYS, NAME, null, 110);
         assertThat(finished.finishedBy(99)).as("within the grace period").isEmpty();
         assertThat(finished.finishedBy(100)).containsExactly(new Replay(NAME, TOPIC));

@@ -32,7 +32,6 @@ public final class ApiClient {
     private final URI base;
     private final String token;
 
-    /** @param token null for none */
     ApiClient(URI base, String token) throws IOException {
         this.base = base;
         this.token = token;

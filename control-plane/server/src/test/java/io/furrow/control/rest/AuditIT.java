@@ -11,8 +11,6 @@ import java.util.stream.IntStream;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
@@ -20,6 +18,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInstance;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.control.rest.view.AuditHistory;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.model.topic.Topics;
@@ -42,7 +41,7 @@ class AuditIT {
     void start(@TempDir Path directory) throws Exception {
         running = new RunningApi(directory);
         try (KafkaProducer<String, byte[]> producer =
-                new KafkaProducer<>(running.settings().client(), new StringSerializer(), new ByteArraySerializer())) {
+                KafkaClients.producer(running.settings().client())) {
             for (int i = 0; i < ENTRIES; i++) {
                 producer.send(new ProducerRecord<>(Topics.AUDIT, entry(i)));
             }
@@ -104,7 +103,7 @@ class AuditIT {
     @Test
     void rejectsAnInvalidPosition() throws Exception {
         for (String before : List.of("-1", "noon", "1.5", "9999999999999999999")) {
-            running.refused("GET", "/api/audit?before=" + before, null, 400, "wrong-member");
+            running.rejects("GET", "/api/audit?before=" + before, null, 400, "wrong-member");
         }
         assertThat(page("/api/audit?before=0").times()).isEmpty();
         assertThat(page("/api/audit?before=0").next()).isNull();

@@ -28,7 +28,7 @@ interface DeviceRoutes extends RestApiRoutes {
         String id = "urn:ngsi-ld:Thermometer:hoeing-1";
         checkAmbiguousId(id);
         assertThat(running().get("/api/devices?mission=hoeing&domain=south")).hasSize(4);
-        assertThat(running().get("/api/devices/" + id).path("wanted").asText()).isEqualTo("running");
+        assertThat(device(id).path("wanted").asText()).isEqualTo("running");
 
         checkConnection(id);
         checkCredentials(id);
@@ -39,7 +39,7 @@ interface DeviceRoutes extends RestApiRoutes {
     }
 
     private void checkConnection(String id) throws Exception {
-        assertThat(running().get("/api/devices/" + id).has("connection")).isFalse();
+        assertThat(device(id).has("connection")).isFalse();
         DeviceConnection connection = new DeviceConnection(
                 1000L,
                 null,
@@ -51,8 +51,8 @@ interface DeviceRoutes extends RestApiRoutes {
         String key = running().settings().missions().scope().identity(id);
         running().write(Topics.DEVICES_CONNECTION, key, connection.toBytes());
 
-        await().until(() -> running().get("/api/devices/" + id).has("connection"));
-        JsonNode shown = running().get("/api/devices/" + id).path("connection");
+        await().until(() -> device(id).has("connection"));
+        JsonNode shown = device(id).path("connection");
         assertThat(shown.at("/refusedLogin/count").asInt()).isEqualTo(12);
         assertThat(shown.at("/unreadablePayload/payload").asText()).isEqualTo("{");
         assertThat(shown.path("registered").asBoolean()).isTrue();
@@ -68,42 +68,36 @@ interface DeviceRoutes extends RestApiRoutes {
         byte[] device = new DeviceVersion(id, other.service(), other.servicePath(), "", "", 0, null, 1, null).toBytes();
         running().write(Topics.DEVICES, other.identity(id), device);
 
-        await().untilAsserted(() -> running().refused("GET", "/api/devices/" + id, null, 409, "ambiguous-device"));
-        running().refused("GET", "/api/devices/" + id + "/credentials", null, 409, "ambiguous-device");
-        running().refused("POST", "/api/devices/" + id + "/credentials", null, 409, "ambiguous-device");
-        running()
-                .refused(
-                        "POST",
-                        "/api/devices/" + id + "/commands",
-                        "{\"command\":\"on\",\"type\":\"T\"}",
-                        409,
-                        "ambiguous-device");
+        await().untilAsserted(() -> running().rejects("GET", "/api/devices/" + id, null, 409, "ambiguous-device"));
+        running().rejects("GET", "/api/devices/" + id + "/credentials", null, 409, "ambiguous-device");
+        running().rejects("POST", "/api/devices/" + id + "/credentials", null, 409, "ambiguous-device");
+        rejectsCommand(id, "{\"command\":\"on\",\"type\":\"T\"}", 409, "ambiguous-device");
         String named = "?service=other&servicePath=/north";
-        assertThat(running().get("/api/devices/" + id + named).path("mission").asText())
+        assertThat(device(id + named).path("mission").asText())
                 .isEmpty();
-        running().refused("POST", "/api/devices/" + id + "/credentials" + named, null, 404, "no-credentials");
+        running().rejects("POST", "/api/devices/" + id + "/credentials" + named, null, 404, "no-credentials");
         client().send("POST", "/api/devices/" + id + "/commands" + named, "{\"command\":\"on\",\"type\":\"Pump\"}");
         assertThat(running().broker().last()).contains("/attrs?type=Pump");
         assertThat(running().broker().scope()).isEqualTo("other /north");
         FiwareScope usual = running().settings().missions().scope();
         String scoped = "?service=" + usual.service() + "&servicePath=" + usual.servicePath();
-        assertThat(running().get("/api/devices/" + id + scoped).path("mission").asText())
+        assertThat(device(id + scoped).path("mission").asText())
                 .isEqualTo("hoeing");
-        running().refused("GET", "/api/devices/" + id + scoped + "&type=Pump", null, 404, "unknown-device");
+        running().rejects("GET", "/api/devices/" + id + scoped + "&type=Pump", null, 404, "unknown-device");
 
         running().write(Topics.DEVICES, other.identity(id), null);
         await().untilAsserted(() -> assertThat(
-                        running().get("/api/devices/" + id).path("mission").asText())
+                        device(id).path("mission").asText())
                 .isEqualTo("hoeing"));
     }
 
     private void checkCredentials(String id) throws Exception {
-        JsonNode credentials = running().get("/api/devices/" + id + "/credentials");
+        JsonNode credentials = device(id + "/credentials");
         assertThat(credentials.path("apiKey").asText()).isEqualTo(RunningApi.SECRET.apiKey("hoeing"));
         assertThat(credentials.path("password").asText())
                 .isEqualTo(RunningApi.SECRET.device("hoeing", id).password());
         assertThat(credentials.path("generation").asInt()).isZero();
-        running().refused("GET", "/api/devices/urn:own:1/credentials", null, 404, "no-credentials");
+        running().rejects("GET", "/api/devices/urn:own:1/credentials", null, 404, "no-credentials");
         JsonNode real = running().get("/api/missions/hoeing/credentials");
         assertThat(real.findValuesAsText("device")).containsExactly("robot-1");
         assertThat(real.at("/0/measures").asText())
@@ -123,20 +117,20 @@ interface DeviceRoutes extends RestApiRoutes {
                     .asString()
                     .contains("{\"device\":\"robot-1\"");
         }
-        running().refused("GET", "/api/missions/nosuch/credentials", null, 404, "unknown-mission");
+        running().rejects("GET", "/api/missions/nosuch/credentials", null, 404, "unknown-mission");
     }
 
     private void checkRotation(String id) throws Exception {
         JsonNode rotated = client().ask("POST", "/api/devices/" + id + "/credentials", null);
         assertThat(rotated.path("password").asText())
                 .isEqualTo(RunningApi.SECRET.device("hoeing", id, 1).password());
-        assertThat(running().get("/api/devices/" + id + "/credentials")).isEqualTo(rotated);
-        assertThat(running().get("/api/devices/" + id).path("generation").asInt())
+        assertThat(device(id + "/credentials")).isEqualTo(rotated);
+        assertThat(device(id).path("generation").asInt())
                 .isEqualTo(1);
         assertThat(running().get("/api/missions/hoeing").at("/status/devices").asInt())
                 .isEqualTo(4);
-        running().refused("POST", "/api/devices/urn:own:1/credentials", null, 404, "no-credentials");
-        running().refused("POST", "/api/devices/nosuch/credentials", null, 404, "unknown-device");
+        running().rejects("POST", "/api/devices/urn:own:1/credentials", null, 404, "no-credentials");
+        running().rejects("POST", "/api/devices/nosuch/credentials", null, 404, "unknown-device");
     }
 
     private void checkCommands(String id) throws Exception {
@@ -165,29 +159,17 @@ interface DeviceRoutes extends RestApiRoutes {
 
     private void checkRejectedCommands(String id) throws Exception {
         for (int[] status : new int[][] {{400, 400}, {404, 404}, {409, 409}, {422, 422}, {403, 502}, {500, 502}}) {
-            running().broker().refuse(status[0]);
-            running()
-                    .refused(
-                            "POST",
-                            "/api/devices/" + id + "/commands",
-                            "{\"command\":\"on\"}",
-                            status[1],
-                            "context-broker");
+            running().broker().answerWith(status[0]);
+            rejectsCommand(id, "{\"command\":\"on\"}", status[1], "context-broker");
         }
-        running().broker().refuse(204);
-        running()
-                .refused(
-                        "POST",
-                        "/api/devices/robot-1/commands",
-                        "{\"command\":\"Stop\",\"value\":1}",
-                        400,
-                        "wrong-member");
-        running().refused("POST", "/api/devices/" + id + "/commands", "{\"command\":true}", 400, "wrong-member");
-        running().refused("POST", "/api/devices/" + id + "/commands", "{\"value\":1}", 400, "missing-member");
-        running().refused("POST", "/api/devices/" + id + "/commands", "{\"command\":\"a b\"}", 400, "wrong-member");
-        running().refused("POST", "/api/devices/urn:own:1/commands", "{\"command\":\"on\"}", 400, "missing-member");
-        running().refused("GET", "/api/devices/nosuch", null, 404, "unknown-device");
-        running().refused("POST", "/api/devices/nosuch/commands", "{\"command\":\"on\"}", 404, "unknown-device");
+        running().broker().answerWith(204);
+        rejectsCommand("robot-1", "{\"command\":\"Stop\",\"value\":1}", 400, "wrong-member");
+        rejectsCommand(id, "{\"command\":true}", 400, "wrong-member");
+        rejectsCommand(id, "{\"value\":1}", 400, "missing-member");
+        rejectsCommand(id, "{\"command\":\"a b\"}", 400, "wrong-member");
+        rejectsCommand("urn:own:1", "{\"command\":\"on\"}", 400, "missing-member");
+        running().rejects("GET", "/api/devices/nosuch", null, 404, "unknown-device");
+        rejectsCommand("nosuch", "{\"command\":\"on\"}", 404, "unknown-device");
     }
 
     private void checkAudit(String id) throws Exception {
@@ -205,5 +187,13 @@ interface DeviceRoutes extends RestApiRoutes {
                 .anyMatch(entry -> entry.path("error").asText().equals("context-broker"))
                 .anyMatch(entry -> entry.path("command").asText().equals("start")
                         && entry.at("/about/mission").asText().equals("hoeing")));
+    }
+
+    private JsonNode device(String path) throws Exception {
+        return running().get("/api/devices/" + path);
+    }
+
+    private void rejectsCommand(String device, String body, int status, String error) throws Exception {
+        running().rejects("POST", "/api/devices/" + device + "/commands", body, status, error);
     }
 }

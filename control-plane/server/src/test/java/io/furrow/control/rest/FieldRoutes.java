@@ -20,14 +20,14 @@ interface FieldRoutes extends RestApiRoutes {
                 """.formatted(square);
 
         JsonNode first = client().ask("POST", "/api/fields?domain=north", file);
-        JsonNode again = client().ask("POST", "/api/fields?domain=north", file);
+        JsonNode repeated = client().ask("POST", "/api/fields?domain=north", file);
 
         assertThat(first.path("imported").asInt()).isEqualTo(1);
         assertThat(first.at("/fields/0/change").asText()).isEqualTo("added");
         assertThat(first.at("/refused/0/id").asText()).isEqualTo("b");
         assertThat(first.at("/refused/0/reason").asText()).contains("Point");
-        assertThat(again.path("imported").asInt()).isZero();
-        assertThat(again.path("unchanged").asInt()).isEqualTo(1);
+        assertThat(repeated.path("imported").asInt()).isZero();
+        assertThat(repeated.path("unchanged").asInt()).isEqualTo(1);
         JsonNode fields = running().get("/api/fields");
         assertThat(fields.path("type").asText()).isEqualTo("FeatureCollection");
         assertThat(fields.path("features")).hasSize(1);
@@ -70,11 +70,11 @@ interface FieldRoutes extends RestApiRoutes {
             "{\"name\":\"x\",\"validTo\":1}", "{\"validTo\":\"soon\"}", "{\"validTo\":null}",
             "{\"name\":7}"
         }) {
-            running().refused("PATCH", "/api/fields/a", body, 400, "wrong-member");
+            running().rejects("PATCH", "/api/fields/a", body, 400, "wrong-member");
         }
-        running().refused("PATCH", "/api/fields/z", "{\"name\":\"x\"}", 404, "unknown-field");
-        running().refused("DELETE", "/api/fields/z", null, 404, "unknown-field");
-        running().refused("PATCH", "/api/fields/a", "{\"validTo\":1}", 409, "wrong-state");
+        running().rejects("PATCH", "/api/fields/z", "{\"name\":\"x\"}", 404, "unknown-field");
+        running().rejects("DELETE", "/api/fields/z", null, 404, "unknown-field");
+        running().rejects("PATCH", "/api/fields/a", "{\"validTo\":1}", 409, "wrong-state");
         String now = Instant.now().toString();
         assertThat(client().ask("PATCH", "/api/fields/a", "{\"validTo\":\"%s\"}".formatted(now))
                         .path("status")
@@ -86,9 +86,9 @@ interface FieldRoutes extends RestApiRoutes {
                         .asInt())
                 .isEqualTo(4);
 
-        running().refused("POST", "/api/fields", "{\"type\":\"Feature", 400, "unusable-file");
-        running().refused("POST", "/api/fields?domain=a.b", file, 400, "wrong-member");
-        running().refused("POST", "/api/fields", " ".repeat(FieldsResource.MAX_BYTES + 1), 413, "too-large");
+        running().rejects("POST", "/api/fields", "{\"type\":\"Feature", 400, "unusable-file");
+        running().rejects("POST", "/api/fields?domain=a.b", file, 400, "wrong-member");
+        running().rejects("POST", "/api/fields", " ".repeat(FieldsResource.MAX_BYTES + 1), 413, "too-large");
         await().untilAsserted(
                         () -> assertThat(running().get("/api/audit?limit=1000").findValuesAsText("command"))
                                 .contains("import-fields", "rename-field", "end-field", "delete-field"));

@@ -54,19 +54,19 @@ class MarkersIT {
 
     @Test
     void storesMarkersOfAMission() throws Exception {
-        HttpResponse<byte[]> made =
+        HttpResponse<byte[]> created =
                 add("{\"time\":\"2026-03-01T08:00:00Z\",\"note\":\"The robot turns too early\"}", "k-1");
-        assertThat(made.statusCode()).isEqualTo(201);
-        JsonNode marker = olga.json(made);
+        assertThat(created.statusCode()).isEqualTo(201);
+        JsonNode marker = olga.json(created);
         String id = marker.path("id").asText();
-        assertThat(made.headers().firstValue("Location")).contains(api.uri() + MARKERS + "/" + id);
+        assertThat(created.headers().firstValue("Location")).contains(api.uri() + MARKERS + "/" + id);
         assertThat(marker.path("author").asText()).isEqualTo("olga");
         assertThat(marker.path("time").asLong()).isEqualTo(1_772_352_000_000L);
         assertThat(add("{\"time\":1700000000000,\"note\":\"before\"}", "k-2").statusCode())
                 .isEqualTo(201);
 
-        HttpResponse<byte[]> again = add("{\"time\":1772352000000,\"note\":\"The robot turns too early\"}", "k-1");
-        assertThat(olga.json(again)).as("a request that is repeated").isEqualTo(marker);
+        HttpResponse<byte[]> repeated = add("{\"time\":1772352000000,\"note\":\"The robot turns too early\"}", "k-1");
+        assertThat(olga.json(repeated)).as("a repeated request").isEqualTo(marker);
         assertThat(olga.get(MARKERS).findValuesAsText("note")).containsExactly("before", "The robot turns too early");
         assertThat(olga.get("/api/missions/other/markers")).isEmpty();
 

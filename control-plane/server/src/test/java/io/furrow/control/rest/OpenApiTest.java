@@ -37,7 +37,6 @@ class OpenApiTest {
         assertThat(OpenApiDocument.read().operations()).isEqualTo(routes);
     }
 
-    /** Validates each schema against the meta-schema. */
     @Test
     void hasValidSchemas() throws Exception {
         var meta = JsonSchemaFactory.getInstance(SpecVersion.VersionFlag.V202012)
@@ -137,7 +136,6 @@ class OpenApiTest {
         resource.getChildResources().forEach(child -> addRoles(child, path, roles));
     }
 
-    /** Returns all classes of the package with a path. */
     private static List<Class<?>> resources() throws Exception {
         var folder = Path.of(RestApi.class.getResource("RestApi.class").toURI()).getParent();
         List<Class<?>> types = new ArrayList<>();

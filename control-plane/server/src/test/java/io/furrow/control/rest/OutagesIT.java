@@ -127,11 +127,11 @@ class OutagesIT {
 
     @Test
     void showsAnUnavailableContextBroker() throws Exception {
-        broker.refuse(500);
+        broker.answerWith(500);
         await().atMost(TIMEOUT).until(() -> status("ready").equals("degraded"));
         assertThat(part("contextBroker").path("detail").asText()).contains("answers 500");
         assertThat(get("/ready").statusCode()).isEqualTo(200);
-        broker.refuse(204);
+        broker.answerWith(204);
         await().atMost(TIMEOUT).until(() -> status("ready").equals("ready"));
         assertThat(get("/nothing").statusCode()).isEqualTo(404);
         assertThat(new String(get("/metrics").body())).contains("furrow_control_view_complete 1");

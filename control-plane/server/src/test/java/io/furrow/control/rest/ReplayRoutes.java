@@ -11,8 +11,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 interface ReplayRoutes extends RestApiRoutes {
     @Test
     default void controlsAReplay() throws Exception {
-        JsonNode made = client().ask("POST", "/api/replays", "{\"mission\":\"hoeing\",\"speed\":\"max\"}");
-        String replay = "/api/replays/" + made.path("replay").asText();
+        JsonNode created = client().ask("POST", "/api/replays", "{\"mission\":\"hoeing\",\"speed\":\"max\"}");
+        String replay = "/api/replays/" + created.path("replay").asText();
         assertThat(running().get(replay).path("wanted").asText()).isEqualTo("running");
         assertThat(client().ask("POST", replay + "/pause", null).path("status").asText())
                 .isEqualTo("paused");
@@ -22,22 +22,22 @@ interface ReplayRoutes extends RestApiRoutes {
         assertThat(client().status("POST", replay + "/speed", "{\"speed\":2}")).isEqualTo(200);
         assertThat(client().status("POST", replay + "/resume", null)).isEqualTo(200);
         assertThat(running().get("/api/replays").findValuesAsText("replay"))
-                .contains(made.path("replay").asText());
-        running().refused("POST", replay + "/step", "{}", 409, "wrong-state");
-        running().refused("POST", replay + "/dance", null, 404, "not-found");
+                .contains(created.path("replay").asText());
+        running().rejects("POST", replay + "/step", "{}", 409, "wrong-state");
+        running().rejects("POST", replay + "/dance", null, 404, "not-found");
         assertThat(client().status("DELETE", replay, null)).isEqualTo(200);
-        running().refused("GET", "/api/replays/hoeing.00000000", null, 404, "unknown-replay");
+        running().rejects("GET", "/api/replays/hoeing.00000000", null, 404, "unknown-replay");
     }
 
     @Test
     default void controlsAReplayWithAllOptions() throws Exception {
-        HttpResponse<byte[]> made = client().send("POST", "/api/replays", """
+        HttpResponse<byte[]> created = client().send("POST", "/api/replays", """
                 {"mission": "ridging", "topic": "data.show.replay.0000cafe", "from": 0, "to": 9000, "range": {"from": 1000, "to": 2000},
                  "maxGap": "PT5S", "stamps": "now", "startAt": 1700000000000, "analytics": ["presence"], "source": {"file": "a.jsonl"}}
                 """);
-        assertThat(made.statusCode()).as(new String(made.body())).isEqualTo(201);
+        assertThat(created.statusCode()).as(new String(created.body())).isEqualTo(201);
         String replay = "/api/replays/ridging.0000cafe";
-        assertThat(made.headers().firstValue("Location"))
+        assertThat(created.headers().firstValue("Location"))
                 .contains(running().api().uri() + replay);
         assertThat(running().get(replay).at("/range/to").asLong()).isEqualTo(2000);
         assertThat(running().get(replay).path("stamps").asText()).isEqualTo("now");
@@ -49,7 +49,7 @@ interface ReplayRoutes extends RestApiRoutes {
         assertThat(client().status("POST", replay + "/loop", null)).isEqualTo(200);
         assertThat(running().get(replay).has("range")).isFalse();
         running()
-                .refused(
+                .rejects(
                         "POST",
                         "/api/replays",
                         "{\"mission\":\"ridging\",\"topic\":\"data.show.replay.0000cafe\"}",
@@ -57,26 +57,26 @@ interface ReplayRoutes extends RestApiRoutes {
                         "replay-exists");
         assertThat(client().status("GET", replay + "/events", null)).isEqualTo(200);
         assertThat(client().status("GET", "/api/replays/events", null)).isEqualTo(200);
-        running().refused("GET", "/api/replays/ridging.00000000/events", null, 404, "unknown-replay");
+        running().rejects("GET", "/api/replays/ridging.00000000/events", null, 404, "unknown-replay");
         assertThat(running().get("/api/recordings")).isEmpty();
     }
 
     @Test
     default void controlsAGroupOfReplays() throws Exception {
-        HttpResponse<byte[]> made = client().send(
+        HttpResponse<byte[]> created = client().send(
                         "POST", "/api/replays", "{\"missions\":[\"sowing\",\"rolling\"],\"from\":1000,\"to\":900000}");
-        assertThat(made.statusCode()).as(new String(made.body())).isEqualTo(201);
+        assertThat(created.statusCode()).as(new String(created.body())).isEqualTo(201);
         String group =
-                "/api/replays/groups/" + client().json(made).path("group").asText();
-        assertThat(made.headers().firstValue("Location"))
+                "/api/replays/groups/" + client().json(created).path("group").asText();
+        assertThat(created.headers().firstValue("Location"))
                 .contains(running().api().uri() + group);
         assertThat(running().get(group).findValuesAsText("mission")).containsExactly("rolling", "sowing");
 
         assertThat(client().status("POST", group + "/pause", null)).isEqualTo(200);
         assertThat(client().status("POST", group + "/seek", "{\"to\":5000}")).isEqualTo(200);
         assertThat(running().get(group).get(0).at("/clock/shows").asLong()).isEqualTo(5000);
-        running().refused("POST", group + "/step", "{}", 409, "wrong-state");
-        running().refused("GET", "/api/replays/groups/0a1b2c3d", null, 404, "unknown-replay");
+        running().rejects("POST", group + "/step", "{}", 409, "wrong-state");
+        running().rejects("GET", "/api/replays/groups/0a1b2c3d", null, 404, "unknown-replay");
         assertThat(client().status("DELETE", group, null)).isEqualTo(200);
         assertThat(running().get(group).findValuesAsText("wanted")).containsExactly("stopped", "stopped");
     }

@@ -67,23 +67,23 @@ class RestApiAccessIT {
     /** An early rejection is sent after the body was read, else the connection and the next request would fail. */
     @Test
     void answersTheNextRequestAfterAnUnusedBody() throws Exception {
-        for (String refused :
+        for (String rejected :
                 List.of("POST /api/fields?domain=a.b", "POST /api/nosuch", "DELETE /api/domains/nosuch")) {
             URI uri = running.api().uri();
             try (Socket socket = new Socket(uri.getHost(), uri.getPort())) {
                 socket.setSoTimeout(200);
-                String head = refused
+                String head = rejected
                         + " HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 9\r\n\r\n";
                 socket.getOutputStream().write(head.getBytes(US_ASCII));
                 assertThatThrownBy(() -> socket.getInputStream().read())
-                        .as(refused)
+                        .as(rejected)
                         .isInstanceOf(SocketTimeoutException.class);
                 socket.setSoTimeout((int) RunningApi.TIMEOUT.toMillis());
                 String next = "{\"a\": 1 }GET /health HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
                 socket.getOutputStream().write(next.getBytes(US_ASCII));
 
                 assertThat(new String(socket.getInputStream().readAllBytes(), US_ASCII))
-                        .as(refused)
+                        .as(rejected)
                         .startsWith("HTTP/1.1 4")
                         .contains("HTTP/1.1 200");
             }
@@ -92,12 +92,12 @@ class RestApiAccessIT {
 
     @Test
     void explainsRejections() throws Exception {
-        running.refused("POST", "/api/domains", "{\"domain\":", 400, "not-json");
-        running.refused("POST", "/api/domains", "[]", 400, "not-a-request");
-        running.refused("POST", "/api/domains", "{\"domain\":\"\\ud800\"}", 400, "not-json");
-        running.refused("POST", "/api/domains", "{}", 400, "missing-member");
-        running.refused("POST", "/api/domains", "{\"domain\":\"x\",\"name\":7}", 400, "wrong-member");
-        running.refused("GET", "/api/audit?limit=0", null, 400, "wrong-member");
+        running.rejects("POST", "/api/domains", "{\"domain\":", 400, "not-json");
+        running.rejects("POST", "/api/domains", "[]", 400, "not-a-request");
+        running.rejects("POST", "/api/domains", "{\"domain\":\"\\ud800\"}", 400, "not-json");
+        running.rejects("POST", "/api/domains", "{}", 400, "missing-member");
+        running.rejects("POST", "/api/domains", "{\"domain\":\"x\",\"name\":7}", 400, "wrong-member");
+        running.rejects("GET", "/api/audit?limit=0", null, 400, "wrong-member");
         assertThat(client.error("GET", "/api/nosuch", null, false)).isEqualTo("404 not-found");
         assertThat(client.error("PUT", "/api/domains", "{}", false)).isEqualTo("405 method-not-allowed");
         assertThat(client.error("POST", "/api/domains", "{}", "Content-Type", "text/plain"))
@@ -125,18 +125,18 @@ class RestApiAccessIT {
                 .withTokens(tokens)
                 .withAllowed(new AllowedNames(List.of("farm.example.org"), List.of()));
         try (RestApi other = RestApi.start(running.settings(), settings, new Readiness(Clock.systemUTC()))) {
-            ApiClient nobody = new ApiClient(other.uri(), null);
+            ApiClient anonymous = new ApiClient(other.uri(), null);
             ApiClient ann = new ApiClient(other.uri(), "a-token-of-sixteen-signs");
-            await().until(() -> nobody.status("GET", "/ready", null) == 200);
+            await().until(() -> anonymous.status("GET", "/ready", null) == 200);
             for (String path :
                     new String[] {"/api/domains", "//api/domains", "/api/../api/domains", "/api;x/domains"}) {
-                assertThat(nobody.raw(path, "localhost")).as(path).containsAnyOf(" 401 ", " 400 ");
+                assertThat(anonymous.raw(path, "localhost")).as(path).containsAnyOf(" 401 ", " 400 ");
             }
-            assertThat(nobody.raw("/api/domains", "farm.example.org")).contains(" 401 ");
-            assertThat(nobody.raw("/api/domains", "evil.example")).contains(" 403 ", "foreign-host");
+            assertThat(anonymous.raw("/api/domains", "farm.example.org")).contains(" 401 ");
+            assertThat(anonymous.raw("/api/domains", "evil.example")).contains(" 403 ", "foreign-host");
             assertThat(ann.error("GET", "/api/domains", null, "Origin", "https://evil.example"))
                     .isEqualTo("403 foreign-origin");
-            assertThat(nobody.error("GET", "/api/domains", null)).isEqualTo("401 unauthorized");
+            assertThat(anonymous.error("GET", "/api/domains", null)).isEqualTo("401 unauthorized");
             assertThat(client.error(
                             new ApiClient(other.uri(), "another-token-of-signs").send("GET", "/api/domains", null)))
                     .isEqualTo("401 unauthorized");

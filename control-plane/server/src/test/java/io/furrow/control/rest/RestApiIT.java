@@ -57,24 +57,24 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
         assertThat(client.status("HEAD", "/api/replays/events", null)).isEqualTo(200);
         assertThat(client.status("HEAD", "/api/replays/none.1/events", null))
                 .isEqualTo(200); // HEAD does not look the replay up
-        running.refused("GET", "/api/recordings/none/timeline", null, 501, "no-mongodb");
+        running.rejects("GET", "/api/recordings/none/timeline", null, 501, "no-mongodb");
     }
 
     @Test
     void handlesTheLifeCycleOfADomain() throws Exception {
-        HttpResponse<byte[]> made = client.send("POST", "/api/domains", "{\"domain\":\"north\",\"name\":\"North\"}");
-        assertThat(made.statusCode()).isEqualTo(201);
-        assertThat(made.headers().firstValue("Location")).contains(running.api().uri() + "/api/domains/north");
+        HttpResponse<byte[]> created = client.send("POST", "/api/domains", "{\"domain\":\"north\",\"name\":\"North\"}");
+        assertThat(created.statusCode()).isEqualTo(201);
+        assertThat(created.headers().firstValue("Location")).contains(running.api().uri() + "/api/domains/north");
         assertThat(running.get("/api/domains/north").path("name").asText()).isEqualTo("North");
         assertThat(client.status("PATCH", "/api/domains/north", "{\"description\":\"wet\"}"))
                 .isEqualTo(200);
         assertThat(running.get("/api/domains").findValuesAsText("description")).contains("wet");
 
-        running.refused("POST", "/api/domains", "{\"domain\":\"north\"}", 409, "domain-exists");
+        running.rejects("POST", "/api/domains", "{\"domain\":\"north\"}", 409, "domain-exists");
         assertThat(client.status("DELETE", "/api/domains/north", null)).isEqualTo(200);
-        running.refused("GET", "/api/domains/north", null, 404, "unknown-domain");
-        running.refused("DELETE", "/api/domains/north?force=true", null, 404, "unknown-domain");
-        running.refused("PATCH", "/api/domains/north", "{}", 404, "unknown-domain");
+        running.rejects("GET", "/api/domains/north", null, 404, "unknown-domain");
+        running.rejects("DELETE", "/api/domains/north?force=true", null, 404, "unknown-domain");
+        running.rejects("PATCH", "/api/domains/north", "{}", 404, "unknown-domain");
     }
 
     @Test
@@ -93,14 +93,14 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
                 .contains("tilling");
         assertThat(running.get("/api/missions?domain=nosuch")).isEmpty();
 
-        running.refused("POST", "/api/missions/tilling/start", "{}", 409, "mission-running");
-        running.refused("DELETE", "/api/domains/west", null, 409, "missions-running");
+        running.rejects("POST", "/api/missions/tilling/start", "{}", 409, "mission-running");
+        running.rejects("DELETE", "/api/domains/west", null, 409, "missions-running");
         assertThat(client.status("POST", "/api/missions/tilling/stop", null)).isEqualTo(200);
-        running.refused("DELETE", "/api/missions/tilling", null, 409, "mission-running");
-        running.refused("GET", "/api/missions/nosuch", null, 404, "unknown-mission");
-        running.refused("POST", "/api/missions/nosuch/stop", null, 404, "unknown-mission");
-        running.refused("DELETE", "/api/missions/nosuch", null, 404, "unknown-mission");
-        running.refused("POST", "/api/missions", "{\"mission\":\"a.b\",\"domain\":\"west\"}", 400, "illegal-name");
+        running.rejects("DELETE", "/api/missions/tilling", null, 409, "mission-running");
+        running.rejects("GET", "/api/missions/nosuch", null, 404, "unknown-mission");
+        running.rejects("POST", "/api/missions/nosuch/stop", null, 404, "unknown-mission");
+        running.rejects("DELETE", "/api/missions/nosuch", null, 404, "unknown-mission");
+        running.rejects("POST", "/api/missions", "{\"mission\":\"a.b\",\"domain\":\"west\"}", 400, "illegal-name");
     }
 
     @Test
@@ -121,27 +121,27 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
         assertThat(client.status("DELETE", "/api/templates/t@2", null)).isEqualTo(200);
         assertThat(running.get("/api/templates/t").path("version").asInt()).isEqualTo(1);
         assertThat(client.status("DELETE", "/api/templates/t", null)).isEqualTo(200);
-        running.refused("GET", "/api/templates/t", null, 404, "unknown-template");
-        running.refused("DELETE", "/api/templates/t@1", null, 404, "unknown-template");
-        running.refused("DELETE", "/api/templates/t@x", null, 404, "unknown-template");
+        running.rejects("GET", "/api/templates/t", null, 404, "unknown-template");
+        running.rejects("DELETE", "/api/templates/t@1", null, 404, "unknown-template");
+        running.rejects("DELETE", "/api/templates/t@x", null, 404, "unknown-template");
     }
 
     @Test
     void hasNoMarkersWithoutMongoDb() throws Exception {
         String markers = "/api/missions/weeding/markers";
-        running.refused("GET", markers, null, 501, "no-mongodb");
-        running.refused("POST", markers, "{\"time\":5,\"note\":\"n\"}", 501, "no-mongodb");
-        running.refused("DELETE", markers + "/m", null, 501, "no-mongodb");
+        running.rejects("GET", markers, null, 501, "no-mongodb");
+        running.rejects("POST", markers, "{\"time\":5,\"note\":\"n\"}", 501, "no-mongodb");
+        running.rejects("DELETE", markers + "/m", null, 501, "no-mongodb");
     }
 
     @Test
     void executesRequestsWithTheSameKeyOnce() throws Exception {
         String body = "{\"domain\":\"once\"}";
         HttpResponse<byte[]> first = client.send("POST", "/api/domains", body, "Idempotency-Key", "key-1");
-        HttpResponse<byte[]> again = client.send("POST", "/api/domains", body, "Idempotency-Key", "key-1");
+        HttpResponse<byte[]> repeated = client.send("POST", "/api/domains", body, "Idempotency-Key", "key-1");
         assertThat(first.statusCode()).isEqualTo(201);
-        assertThat(again.statusCode()).isEqualTo(201);
-        assertThat(again.body()).isEqualTo(first.body());
+        assertThat(repeated.statusCode()).isEqualTo(201);
+        assertThat(repeated.body()).isEqualTo(first.body());
 
         try (RestApi other = RestApi.start(running.settings(), RestSettings.on(0), new Readiness(Clock.systemUTC()))) {
             ApiClient otherClient = new ApiClient(other.uri(), null);
@@ -179,10 +179,10 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
                     .isEqualTo(200);
         }
         assertThat(running.get("/api/missions/long").path("devices")).hasSize(10_000);
-        running.refused("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 400, "wrong-member");
+        running.rejects("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 400, "wrong-member");
         assertThat(client.status("POST", "/api/missions/long/start", "{}")).isEqualTo(200);
         await().until(() -> running.get("/api/devices?mission=long").size() == 10_000);
-        running.refused("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 409, "mission-running");
+        running.rejects("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 409, "mission-running");
     }
 
     @Test

@@ -8,14 +8,13 @@ import java.time.Duration;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.control.ControlPlane;
 import io.furrow.control.ControlPlaneProcess;
 import io.furrow.control.ControlSettings;
@@ -84,7 +83,7 @@ class RestApiPartsIT {
         try (FarmWatch watch =
                         FarmWatch.start(settings(), WatchOptions.DEFAULT.withCollisionHolds(Duration.ofSeconds(1)));
                 KafkaProducer<String, byte[]> producer =
-                        new KafkaProducer<>(settings().client(), new StringSerializer(), new ByteArraySerializer())) {
+                        KafkaClients.producer(settings().client())) {
             await().atMost(TIMEOUT).until(watch::isHealthy);
             producer.send(new ProducerRecord<>(Topics.COLLISION, "r1-r2", collision("started")));
             await().atMost(TIMEOUT)

@@ -118,9 +118,9 @@ class RolesIT {
 
     @Test
     void servesPublicOperationsWithoutAToken() throws Exception {
-        ApiClient nobody = new ApiClient(api.uri(), null);
+        ApiClient anonymous = new ApiClient(api.uri(), null);
         for (String path : List.of("/health", "/metrics", "/openapi.json")) {
-            assertThat(nobody.status("GET", path, null)).as(path).isEqualTo(200);
+            assertThat(anonymous.status("GET", path, null)).as(path).isEqualTo(200);
         }
     }
 
@@ -149,8 +149,8 @@ class RolesIT {
         assertThat(me("token-that-speaks-1", "", "admin")).contains("400", "wrong-header");
         assertThat(me("token-that-speaks-1", "an na", "admin")).contains("400", "wrong-header");
         assertThat(me("token-that-speaks-1", "anna", "root")).contains("400", "wrong-header");
-        ApiClient itself = new ApiClient(api.uri(), "token-that-speaks-1");
-        assertThat(itself.error("GET", "/api/me", null, false)).isEqualTo("400 wrong-header");
+        ApiClient delegating = new ApiClient(api.uri(), "token-that-speaks-1");
+        assertThat(delegating.error("GET", "/api/me", null, false)).isEqualTo("400 wrong-header");
     }
 
     private String me(String token, String user, String role) throws Exception {

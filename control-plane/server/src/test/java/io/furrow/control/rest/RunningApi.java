@@ -8,9 +8,8 @@ import java.time.Duration;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.control.ControlPlane;
 import io.furrow.control.ControlPlaneProcess;
 import io.furrow.control.ControlSettings;
@@ -70,7 +69,7 @@ public final class RunningApi implements AutoCloseable {
     }
 
     /** Sends a request that is rejected. The answer for an unknown path is not described. */
-    public void refused(String method, String path, String body, int status, String error) throws Exception {
+    public void rejects(String method, String path, String body, int status, String error) throws Exception {
         boolean described = !error.equals("not-found");
         assertThat(client.error(method, path, body, described)).isEqualTo(status + " " + error);
     }
@@ -78,7 +77,7 @@ public final class RunningApi implements AutoCloseable {
     /** Writes a record of another program. */
     void write(String topic, String key, byte[] value) {
         try (KafkaProducer<String, byte[]> producer =
-                new KafkaProducer<>(settings().client(), new StringSerializer(), new ByteArraySerializer())) {
+                KafkaClients.producer(settings().client())) {
             producer.send(new ProducerRecord<>(topic, key, value));
         }
     }

@@ -36,7 +36,7 @@ final class StubContextBroker implements AutoCloseable {
         held = until;
     }
 
-    void refuse(int newStatus) {
+    void answerWith(int newStatus) {
         status = newStatus;
     }
 

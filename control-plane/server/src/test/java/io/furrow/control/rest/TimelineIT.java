@@ -9,10 +9,7 @@ import java.util.Properties;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoClients;
-import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.bson.Document;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
@@ -20,6 +17,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.kafka.Readiness;
@@ -51,7 +49,7 @@ class TimelineIT {
         }
         Properties producing = new Properties();
         producing.putAll(running.settings().client());
-        try (var producer = new KafkaProducer<>(producing, new StringSerializer(), new ByteArraySerializer())) {
+        try (var producer = KafkaClients.producer(producing)) {
             for (String mission : List.of("hoeing", "deleted")) {
                 producer.send(new ProducerRecord<>(
                         Topics.RECORDINGS, mission, new RecordedMission(mission, TIME, TIME + 9_999).toBytes()));
@@ -76,44 +74,44 @@ class TimelineIT {
         running.close();
     }
 
-    private JsonNode counted(String query) throws Exception {
+    private JsonNode counts(String query) throws Exception {
         await().until(() -> client.get(TIMELINE + query).path("complete").asBoolean());
         return client.get(TIMELINE + query);
     }
 
     @Test
     void countsTheEventsOfAMissionByBucket() throws Exception {
-        JsonNode all = counted("?buckets=10");
+        JsonNode all = counts("?buckets=10");
         assertThat(all.path("from").asLong()).isEqualTo(TIME);
         assertThat(all.path("width").asLong()).isEqualTo(1_000);
         assertThat(all.path("counts").toString()).isEqualTo("[2,0,1,0,0,0,0,0,0,1]");
         assertThat(all.path("first").asLong()).isEqualTo(TIME);
         assertThat(all.path("last").asLong()).isEqualTo(TIME + 9_999);
 
-        JsonNode part = counted("?buckets=3&from=2023-11-14T22:13:22Z&to=" + (TIME + 3_500));
+        JsonNode part = counts("?buckets=3&from=2023-11-14T22:13:22Z&to=" + (TIME + 3_500));
         assertThat(part.path("from").asLong()).isEqualTo(TIME + 2_000);
         assertThat(part.path("counts").toString()).isEqualTo("[0,1,0]");
     }
 
     @Test
     void rejectsARangeOutsideOfTheMission() throws Exception {
-        assertRefused("/api/recordings/sowing/timeline", "404 unknown-mission");
-        assertRefused("/api/recordings/deleted/timeline", "404 unknown-mission");
-        assertRefused(TIMELINE + "?buckets=0", "400 wrong-member");
-        assertRefused(TIMELINE + "?buckets=1001", "400 wrong-member");
-        assertRefused(TIMELINE + "?from=noon", "400 wrong-member");
-        assertRefused(TIMELINE + "?from=0&to=144115188076800000&buckets=1", "400 wrong-member");
-        assertRefused(TIMELINE + "?from=0&to=999999999999999&buckets=1", "400 wrong-member");
-        assertRefused(TIMELINE + "?from=" + (TIME + 10_000), "400 wrong-member");
+        assertRejected("/api/recordings/sowing/timeline", "404 unknown-mission");
+        assertRejected("/api/recordings/deleted/timeline", "404 unknown-mission");
+        assertRejected(TIMELINE + "?buckets=0", "400 wrong-member");
+        assertRejected(TIMELINE + "?buckets=1001", "400 wrong-member");
+        assertRejected(TIMELINE + "?from=noon", "400 wrong-member");
+        assertRejected(TIMELINE + "?from=0&to=144115188076800000&buckets=1", "400 wrong-member");
+        assertRejected(TIMELINE + "?from=0&to=999999999999999&buckets=1", "400 wrong-member");
+        assertRejected(TIMELINE + "?from=" + (TIME + 10_000), "400 wrong-member");
         assertThat(running.client().error("GET", TIMELINE, null))
                 .as("without --mongo")
                 .isEqualTo("501 no-mongodb");
 
         mongo.close();
-        assertRefused(TIMELINE + "?buckets=7", "503 mongodb-away");
+        assertRejected(TIMELINE + "?buckets=7", "503 mongodb-away");
     }
 
-    private void assertRefused(String path, String error) throws Exception {
+    private void assertRejected(String path, String error) throws Exception {
         await().untilAsserted(() -> assertThat(client.error("GET", path, null)).isEqualTo(error));
     }
 }

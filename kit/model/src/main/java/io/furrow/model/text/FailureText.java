@@ -35,6 +35,11 @@ public final class FailureText {
         return cause instanceof Error ? words(cause.getClass().getSimpleName()) + ": " + text : text;
     }
 
+    /** Returns the failure of a stage without the exception that wraps it. @param failure null if the stage succeeded */
+    public static Throwable unwrap(Throwable failure) {
+        return failure instanceof CompletionException && failure.getCause() != null ? failure.getCause() : failure;
+    }
+
     /** Returns the description of a printed stack trace: the first line of its deepest cause. */
     public static String ofTrace(String trace) {
         String cause = trace.lines()

@@ -162,12 +162,7 @@ final class AlarmDelivery implements SupervisedWorker.Work, ConsumerRebalanceLis
                 queue.take(StateJson.read(record.value(), Alarm.class), clock.millis());
             }
         } catch (UncheckedIOException e) {
-            LOG.warn(
-                    "record {}-{}@{} is not an alarm and is skipped",
-                    record.topic(),
-                    record.partition(),
-                    record.offset(),
-                    e);
+            LOG.warn("record {} is not an alarm and is skipped", KafkaClients.position(record), e);
         }
     }
 

@@ -62,7 +62,6 @@ final class DeliveryQueue {
      */
     record Update(String alarm, DeliveryState delivered) {}
 
-    /** State of one alarm. */
     private static final class Entry {
         /** Null until the alarm was read. */
         private Alarm newest;
@@ -138,8 +137,8 @@ final class DeliveryQueue {
         if (first) {
             entry.delivered = DeliveryState.attempted(now);
         }
-        boolean again = entry.delivered.sequence() == alarm.sequence();
-        int repeats = again ? entry.delivered.repeats() + 1 : 0;
+        boolean repeated = entry.delivered.sequence() == alarm.sequence();
+        int repeats = repeated ? entry.delivered.repeats() + 1 : 0;
         String id = alarm.alarm() + ":" + alarm.sequence();
         Update attempt = first ? new Update(alarm.alarm(), entry.delivered) : null;
         return new Post(repeats == 0 ? id : id + ":" + repeats, alarm, repeats, attempt);
@@ -219,11 +218,11 @@ final class DeliveryQueue {
         if (suppressed) {
             return false;
         }
-        boolean lasts = alarm.state() == AlarmState.OPEN
+        boolean isRepeatable = alarm.state() == AlarmState.OPEN
                 && existing != null
                 && !existing.refused()
                 && now - existing.time() >= settings.repeatInterval().toMillis();
-        return existing == null || existing.sequence() != alarm.sequence() || lasts;
+        return existing == null || existing.sequence() != alarm.sequence() || isRepeatable;
     }
 
     private Optional<Update> forgetIfDone(String alarm, Entry entry) {

@@ -94,12 +94,7 @@ final class PredictionConsumer implements SupervisedWorker.Work, ConsumerRebalan
         try {
             robots.take(EncounterReport.read(record.value(), KafkaClients.scope(record.headers())), record.timestamp());
         } catch (UnreadableException e) {
-            LOG.warn(
-                    "record {}-{}@{} is not an encounter and is skipped",
-                    record.topic(),
-                    record.partition(),
-                    record.offset(),
-                    e);
+            LOG.warn("record {} is not an encounter and is skipped", KafkaClients.position(record), e);
         }
     }
 
@@ -125,12 +120,7 @@ final class PredictionConsumer implements SupervisedWorker.Work, ConsumerRebalan
                 robots.restore(NgsiJson.read(entry.value()));
             }
         } catch (UnreadableException e) {
-            LOG.debug(
-                    "audit record {}-{}@{} is not JSON and is skipped",
-                    entry.topic(),
-                    entry.partition(),
-                    entry.offset(),
-                    e);
+            LOG.debug("audit record {} is not JSON and is skipped", KafkaClients.position(entry), e);
         }
     }
 

@@ -183,9 +183,9 @@ public final class StopRobots {
         }
     }
 
-    private String put(String key, String what) {
+    private String put(String key, String command) {
         synchronized (handled) {
-            return handled.put(key, what);
+            return handled.put(key, command);
         }
     }
 

@@ -13,8 +13,8 @@ import java.time.Instant;
 import java.time.ZonedDateTime;
 import java.time.format.DateTimeFormatter;
 import java.util.Set;
+import java.util.concurrent.CancellationException;
 import java.util.concurrent.CompletableFuture;
-import java.util.concurrent.CompletionException;
 import java.util.concurrent.TimeUnit;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -182,9 +182,8 @@ public final class Webhook {
     }
 
     private static String reason(Throwable failure) {
-        Throwable cause =
-                failure instanceof CompletionException && failure.getCause() != null ? failure.getCause() : failure;
-        return cause instanceof java.util.concurrent.CancellationException
+        Throwable cause = FailureText.unwrap(failure);
+        return cause instanceof CancellationException
                 ? "no complete response within %d s".formatted(TIMEOUT.toSeconds())
                 : FailureText.of(cause);
     }

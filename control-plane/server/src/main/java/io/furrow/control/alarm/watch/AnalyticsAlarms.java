@@ -20,7 +20,7 @@ import io.furrow.model.control.Fault;
 /** Adds the processors that raise alarms from results of analytics, statuses of missions and faults of Furrow itself. */
 public final class AnalyticsAlarms {
     /** Three times the interval at which faults are repeated. */
-    private static final Duration FAULT_HOLDS = Duration.ofMinutes(3);
+    private static final Duration FAULT_VALIDITY = Duration.ofMinutes(3);
 
     private AnalyticsAlarms() {}
 
@@ -38,12 +38,12 @@ public final class AnalyticsAlarms {
 
     /** @param collisions the records of {@code data.collision}, in a single partition */
     public static void addEncounters(
-            KStream<String, byte[]> collisions, Types types, EncounterAlarmProcessor.AlarmDurations holds) {
+            KStream<String, byte[]> collisions, Types types, EncounterAlarmProcessor.AlarmDurations durations) {
         add(
                 collisions,
                 "encounters",
                 types,
-                (alarms, unit) -> new EncounterAlarmProcessor(alarms, types.of(unit), holds));
+                (alarms, unit) -> new EncounterAlarmProcessor(alarms, types.of(unit), durations));
     }
 
     /** @param temperatures the records of {@code data.temperature}, in a single partition */
@@ -64,7 +64,7 @@ public final class AnalyticsAlarms {
     /** @param faults the records of {@code service.faults}, in a single partition */
     public static void addFaults(KStream<String, byte[]> faults, Types types) {
         add(faults, "faults", types, (alarms, unit) -> (Observer.OfStatuses) (key, value, now) -> alarms.raiseReworded(
-                new Cause(AlarmKind.FAULT, key, Fault.read(value).text(), List.of(), FAULT_HOLDS), now));
+                new Cause(AlarmKind.FAULT, key, Fault.read(value).text(), List.of(), FAULT_VALIDITY), now));
     }
 
     /** @param statuses the records of {@code service.missions.status}, in a single partition */

@@ -24,7 +24,7 @@ import io.furrow.model.result.ClockResult;
  * device once a minute; the alarm ends after three minutes without a report.
  */
 record ClockAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types) implements Observer {
-    private static final Duration HOLDS = Duration.ofMinutes(3);
+    private static final Duration VALIDITY = Duration.ofMinutes(3);
 
     @Override
     public void take(Record<String, byte[]> record, long now) throws UnreadableException {
@@ -48,7 +48,7 @@ record ClockAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> 
         String type = entity.text(ClockResult.DEVICE_TYPE).orElse("");
         String existing = type.isEmpty() ? types.apply(scope.identity(device)) : type;
         List<Cause.AffectedDevice> devices = List.of(Cause.AffectedDevice.of(device, existing, scope));
-        Cause cause = new Cause(AlarmKind.CLOCK_BEHIND, device, text, devices, HOLDS)
+        Cause cause = new Cause(AlarmKind.CLOCK_BEHIND, device, text, devices, VALIDITY)
                 .identifiedBy(scope.identity(type, device));
         alarms.raise(cause.inGroup(AlarmGroup.of(entity.text("Mission").orElse(""), "")), now);
     }

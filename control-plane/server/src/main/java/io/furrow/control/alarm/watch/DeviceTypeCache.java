@@ -12,6 +12,7 @@ import org.apache.kafka.clients.consumer.ConsumerRecords;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.kafka.CommittedReader;
 import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.ngsi.NgsiJson;
@@ -47,12 +48,7 @@ public final class DeviceTypeCache implements SupervisedWorker.Work, Function<St
                 JsonNode json = NgsiJson.read(record.value());
                 return json.path("type").textValue();
             } catch (UnreadableException e) { // the type stays unknown
-                LOG.debug(
-                        "record {}-{}@{} is not JSON and is skipped",
-                        record.topic(),
-                        record.partition(),
-                        record.offset(),
-                        e);
+                LOG.debug("record {} is not JSON and is skipped", KafkaClients.position(record), e);
                 return null;
             }
         }

@@ -19,11 +19,11 @@ import io.furrow.model.ngsi.UnreadableException;
  * the distance threshold have one alarm, not one per report. Records of an ongoing encounter raise it too, if it was
  * closed manually or began before the processor started. The end of a prediction is not reported: it ends when it is
  * not repeated for a while, or when the encounter starts; a pair with a collision has no prediction. A collision that
- * is not repeated for {@link AlarmCommandHandler#COLLISION_HOLDS} ends too, because its last record was lost.
+ * is not repeated for {@link AlarmCommandHandler#COLLISION_VALIDITY} ends too, because its last record was lost.
  *
  * @param types returns the type of a device's entity by tenant, service path and id
  */
-public record EncounterAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types, AlarmDurations holds)
+public record EncounterAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types, AlarmDurations durations)
         implements Observer {
     /**
      * How long alarms last without a record of their encounter.
@@ -43,22 +43,22 @@ public record EncounterAlarmProcessor(AlarmCommandHandler alarms, Function<Strin
         switch (encounter.phase()) {
             case "started" -> {
                 alarms.end(AlarmKind.PREDICTED_ENCOUNTER, pair, "the encounter has started", now);
-                alarms.raiseAgain(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_HOLDS), now);
+                alarms.raiseAgain(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_VALIDITY), now);
             }
             case "ongoing" ->
-                alarms.raiseOrExtend(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_HOLDS), now);
+                alarms.raiseOrExtend(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_VALIDITY), now);
             case "ended" ->
-                alarms.endAt(AlarmKind.COLLISION, pair, now + holds.collision().toMillis());
+                alarms.endAt(AlarmKind.COLLISION, pair, now + durations.collision().toMillis());
             case "predicted" -> {
                 if (!alarms.isRaised(AlarmKind.COLLISION, pair)) {
-                    alarms.raise(cause(AlarmKind.PREDICTED_ENCOUNTER, encounter, holds.prediction()), now);
+                    alarms.raise(cause(AlarmKind.PREDICTED_ENCOUNTER, encounter, durations.prediction()), now);
                 }
             }
             default -> {} // other phases neither raise nor end an alarm
         }
     }
 
-    private Cause cause(AlarmKind kind, EncounterReport encounter, Duration holds) {
+    private Cause cause(AlarmKind kind, EncounterReport encounter, Duration validity) {
         String text = kind == AlarmKind.COLLISION ? "%s and %s are %s apart" : "%s and %s will come within %s";
         List<Cause.AffectedDevice> devices = encounter.members().stream()
                 .map(member -> Cause.AffectedDevice.of(member.id(), encounter.typeOf(member, types), encounter.scope()))
@@ -69,7 +69,7 @@ public record EncounterAlarmProcessor(AlarmCommandHandler alarms, Function<Strin
                         text.formatted(
                                 encounter.first().id(), encounter.second().id(), encounter.meters()),
                         devices,
-                        holds)
+                        validity)
                 .identifiedBy(encounter.identity())
                 .inGroup(AlarmGroup.of(encounter.mission(), ""));
     }

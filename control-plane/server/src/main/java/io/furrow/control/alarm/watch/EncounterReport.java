@@ -71,7 +71,6 @@ public record EncounterReport(
         return first.mission().isEmpty() ? second.mission() : first.mission();
     }
 
-    /** Returns the distance as text with its unit. */
     String meters() {
         return String.format(Locale.ROOT, "%.1f m", Double.isNaN(minDistance) ? distance : minDistance);
     }

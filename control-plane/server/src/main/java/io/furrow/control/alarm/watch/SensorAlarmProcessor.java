@@ -54,7 +54,7 @@ final class SensorAlarmProcessor implements Observer {
             return;
         }
         streaks.put(streak.field(), streak); // also without suspects, because a late, earlier window must not count
-        Duration holds = Duration.ofMillis((window.windowEnd() - window.windowStart()) * WINDOWS);
+        Duration validity = Duration.ofMillis((window.windowEnd() - window.windowStart()) * WINDOWS);
         for (FieldWindow.Suspect suspect : window.suspects()) {
             String id = suspect.id();
             String identity = scope.identity(suspect.type(), id);
@@ -62,7 +62,7 @@ final class SensorAlarmProcessor implements Observer {
                 String text = "%s deviates from the other sensors in field %s".formatted(id, window.field());
                 String type = suspect.type().isEmpty() ? types.apply(scope.identity(id)) : suspect.type();
                 Cause.AffectedDevice device = Cause.AffectedDevice.of(id, type, scope);
-                Duration atLeast = holds.compareTo(MIN) < 0 ? MIN : holds;
+                Duration atLeast = validity.compareTo(MIN) < 0 ? MIN : validity;
                 Cause cause =
                         new Cause(AlarmKind.SUSPECT_SENSOR, id, text, List.of(device), atLeast).identifiedBy(identity);
                 alarms.raise(cause.inGroup(AlarmGroup.ofField(window.field())), now);

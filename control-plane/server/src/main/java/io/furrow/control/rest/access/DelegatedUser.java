@@ -34,7 +34,7 @@ final class DelegatedUser {
             throw new ProblemException(
                     403,
                     "not-for-users",
-                    "the token of '%s' speaks for nobody else; only one whose line in the file of tokens ends with 'for-users' may send %s and %s"
+                    "the token of '%s' may not act for other users; only a token whose line in the token file ends with 'for-users' may send %s and %s"
                             .formatted(token.name(), USER, ROLE));
         }
         Optional<Role> userRole = role == null ? Optional.empty() : Role.of(role);

@@ -27,7 +27,7 @@ public final class ProblemException extends RuntimeException {
         this(statusOf(code.code()), code.code(), reason);
     }
 
-    public static void refuseIf(boolean isWrong, ErrorCode code, String reason) {
+    public static void rejectIf(boolean isWrong, ErrorCode code, String reason) {
         if (isWrong) {
             throw new ProblemException(code, reason);
         }

@@ -36,7 +36,6 @@ public final class TlsListener {
         context.setIncludeProtocols("TLSv1.3", "TLSv1.2");
     }
 
-    /** @throws IOException as {@link CertificateFiles#read} */
     public static TlsListener open(CertificateFiles files) throws IOException {
         return new TlsListener(ReloadedFile.open(files.all(), files::read, LOG::warn));
     }

@@ -38,7 +38,6 @@ public final class TokenFilter implements ContainerRequestFilter {
         this.tokens = tokens;
     }
 
-    /** @throws IOException as {@link ApiToken#read} */
     public static TokenFilter read(Path file) throws IOException {
         return new TokenFilter(ReloadedFile.open(List.of(file), () -> ApiToken.read(file), LOG::warn));
     }

@@ -4,7 +4,6 @@ import java.io.UncheckedIOException;
 import java.time.Duration;
 import java.util.Properties;
 import java.util.concurrent.CompletableFuture;
-import java.util.concurrent.CompletionException;
 import java.util.concurrent.CompletionStage;
 import java.util.concurrent.Executor;
 import java.util.concurrent.TimeUnit;
@@ -129,18 +128,17 @@ public final class CommandClient implements AutoCloseable {
         if (failure == null) {
             return answer;
         }
-        Throwable cause =
-                failure instanceof CompletionException && failure.getCause() != null ? failure.getCause() : failure;
+        Throwable cause = FailureText.unwrap(failure);
         if (cause instanceof ProblemException problem) {
             throw problem;
         }
-        ProblemException.refuseIf(
+        ProblemException.rejectIf(
                 cause instanceof RecordTooLargeException,
                 ErrorCode.TOO_LARGE,
-                "the request is larger than Kafka takes");
+                "the request is larger than Kafka accepts");
         String why = cause instanceof TimeoutException
                 ? "no manager answered within " + timeout.toMillis() + " ms"
-                : "Kafka does not take requests (" + FailureText.of(cause) + ")";
+                : "Kafka does not accept requests (" + FailureText.of(cause) + ")";
         throw new ProblemException(
                 503,
                 "not-answered",

@@ -34,8 +34,8 @@ public final class EventTiles implements AutoCloseable {
 
     private final Counter counter;
     private final Clock clock;
-    private final Map<Tile, CompletableFuture<Counted>> waiting = new HashMap<>();
-    private final Map<Tile, Counted> cached = BoundedMap.byAccess(MAX_CACHED);
+    private final Map<Tile, CompletableFuture<TileCounts>> waiting = new HashMap<>();
+    private final Map<Tile, TileCounts> cached = BoundedMap.byAccess(MAX_CACHED);
     private final ThreadPoolExecutor counting = DaemonThreads.single("control-plane-timelines", MAX_WAITING);
 
     /** @param index the tile begins at the event time {@code index * BUCKETS * width} */
@@ -54,9 +54,8 @@ public final class EventTiles implements AutoCloseable {
      * @param last newest known event of the mission at that time, epoch ms
      * @param at when it was counted, epoch ms
      */
-    record Counted(long[] counts, long last, long at) {}
+    record TileCounts(long[] counts, long last, long at) {}
 
-    /** Queries MongoDB. */
     interface Counter extends AutoCloseable {
         Optional<long[]> count(String mission, long from, long width, int buckets) throws RecordingException;
 
@@ -74,10 +73,10 @@ public final class EventTiles implements AutoCloseable {
         return settings.mongo() == null
                 ? null
                 : new EventTiles(
-                        new Opened(EventDensity.open(settings.mongo(), settings.database())), Clock.systemUTC());
+                        new MongoCounter(EventDensity.open(settings.mongo(), settings.database())), Clock.systemUTC());
     }
 
-    private record Opened(EventDensity density) implements Counter {
+    private record MongoCounter(EventDensity density) implements Counter {
         @Override
         public Optional<long[]> count(String mission, long from, long width, int buckets) throws RecordingException {
             return density.count(mission, from, width, buckets);
@@ -96,17 +95,17 @@ public final class EventTiles implements AutoCloseable {
      * @param last newest known event of the mission, epoch ms
      * @return fails with a {@link ProblemException}
      */
-    CompletableFuture<Counted> count(Tile tile, long last) {
+    CompletableFuture<TileCounts> count(Tile tile, long last) {
         synchronized (cached) {
-            Counted existing = cached.get(tile);
+            TileCounts existing = cached.get(tile);
             if (existing != null && isFresh(tile, existing, last)) {
                 return CompletableFuture.completedFuture(existing);
             }
-            CompletableFuture<Counted> requested = waiting.get(tile);
+            CompletableFuture<TileCounts> requested = waiting.get(tile);
             if (requested != null) {
                 return requested;
             }
-            CompletableFuture<Counted> answer = new CompletableFuture<>();
+            CompletableFuture<TileCounts> answer = new CompletableFuture<>();
             try {
                 counting.execute(() -> count(tile, last, answer));
                 waiting.put(tile, answer);
@@ -117,16 +116,16 @@ public final class EventTiles implements AutoCloseable {
         }
     }
 
-    private boolean isFresh(Tile tile, Counted existing, long last) {
+    private boolean isFresh(Tile tile, TileCounts existing, long last) {
         boolean complete = existing.last() == last || tile.to() <= existing.last() - LATENESS_MS;
         return complete && clock.millis() - existing.at() < FRESH_MS;
     }
 
-    private void count(Tile tile, long last, CompletableFuture<Counted> answer) {
+    private void count(Tile tile, long last, CompletableFuture<TileCounts> answer) {
         try {
             long startedAt = clock.millis();
-            Counted counted = counter.count(tile.mission(), tile.from(), tile.width(), BUCKETS)
-                    .map(counts -> new Counted(counts, last, startedAt))
+            TileCounts counted = counter.count(tile.mission(), tile.from(), tile.width(), BUCKETS)
+                    .map(counts -> new TileCounts(counts, last, startedAt))
                     .orElseThrow(() -> unknown(tile.mission()));
             synchronized (cached) {
                 cached.put(tile, counted);
@@ -140,7 +139,7 @@ public final class EventTiles implements AutoCloseable {
         }
     }
 
-    private void fail(Tile tile, CompletableFuture<Counted> answer, RuntimeException failure) {
+    private void fail(Tile tile, CompletableFuture<TileCounts> answer, RuntimeException failure) {
         synchronized (cached) {
             waiting.remove(tile);
         }

@@ -101,14 +101,14 @@ public record MissionTimeline(String mission, Extent extent, long from, long wid
      */
     public CompletionStage<ObjectNode> count(EventTiles events, Executor executor) {
         List<EventTiles.Tile> tiles = tiles();
-        List<CompletableFuture<EventTiles.Counted>> answers =
+        List<CompletableFuture<EventTiles.TileCounts>> answers =
                 tiles.stream().map(tile -> events.count(tile, extent.last())).toList();
         return CompletableFuture.allOf(answers.toArray(CompletableFuture[]::new))
                 .completeOnTimeout(null, TIMEOUT_MS, TimeUnit.MILLISECONDS)
                 .thenApplyAsync(counted -> json(tiles, answers), executor);
     }
 
-    private ObjectNode json(List<EventTiles.Tile> tiles, List<CompletableFuture<EventTiles.Counted>> answers) {
+    private ObjectNode json(List<EventTiles.Tile> tiles, List<CompletableFuture<EventTiles.TileCounts>> answers) {
         ObjectNode json = NgsiJson.object()
                 .put("mission", mission)
                 .put("first", extent.first())
@@ -118,14 +118,14 @@ public record MissionTimeline(String mission, Extent extent, long from, long wid
         ArrayNode counts = json.putArray("counts");
         boolean complete = true;
         for (int i = 0; i < tiles.size(); i++) {
-            EventTiles.Counted counted = answers.get(i).getNow(null);
+            EventTiles.TileCounts counted = answers.get(i).getNow(null);
             complete &= counted != null;
             add(tiles.get(i), counted, counts);
         }
         return json.put("complete", complete);
     }
 
-    private void add(EventTiles.Tile tile, EventTiles.Counted counted, ArrayNode counts) {
+    private void add(EventTiles.Tile tile, EventTiles.TileCounts counted, ArrayNode counts) {
         for (int bucket = 0; bucket < EventTiles.BUCKETS; bucket++) {
             long begin = tile.from() + bucket * width;
             if (begin >= from && begin < from + buckets * width) {

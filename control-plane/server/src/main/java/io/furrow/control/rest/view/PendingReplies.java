@@ -82,9 +82,9 @@ public final class PendingReplies {
     /** Caches an answer. @param fingerprint of the request; null if unknown */
     void cache(Key key, String fingerprint, byte[] value, CommandResult answer) {
         String error = answer.error().orElse("");
-        boolean isLasting =
+        boolean isPermanent =
                 !error.equals(ErrorCode.REQUEST_ID_REUSED.code()) && !error.equals(ErrorCode.OVERLOADED.code());
-        if (isLasting) {
+        if (isPermanent) {
             Map<Key, CachedReply> newest = newest(key);
             synchronized (newest) {
                 newest.put(key, new CachedReply(fingerprint, value));

@@ -54,13 +54,13 @@ final class ReadYourWritesBarrier {
         }
     }
 
-    private static boolean isVisible(HeldResponse one, ToLongFunction<TopicPartition> position) {
-        if (!one.ends().isDone()) {
+    private static boolean isVisible(HeldResponse response, ToLongFunction<TopicPartition> position) {
+        if (!response.ends().isDone()) {
             return false;
         }
         try {
             Map<TopicPartition, Long> ends = new HashMap<>();
-            one.ends().get().forEach((partition, end) -> ends.put(partition, end.offset()));
+            response.ends().get().forEach((partition, end) -> ends.put(partition, end.offset()));
             return reached(ends, position);
         } catch (ExecutionException e) {
             throw new KafkaException("the ends of the control plane's topics are not known", e.getCause());

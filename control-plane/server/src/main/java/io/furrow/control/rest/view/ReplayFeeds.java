@@ -77,7 +77,6 @@ public final class ReplayFeeds implements StateView.Listener, AutoCloseable {
         }
     }
 
-    /** Returns the number of connected clients. */
     int size() {
         return feeds.size();
     }

@@ -53,7 +53,6 @@ public final class StateView {
         void completed();
     }
 
-    /** An entry of the audit topic. */
     private record Audited(long offset, byte[] value) {}
 
     /**
@@ -63,7 +62,6 @@ public final class StateView {
      */
     public record AuditPage(List<AuditedEntry> entries, boolean isWhole) {}
 
-    /** A record of a topic. */
     public record Entry(String key, ObjectNode value) {}
 
     /** Clears the view; it cannot be read until {@link #complete()}. */

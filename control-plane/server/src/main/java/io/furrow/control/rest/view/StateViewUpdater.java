@@ -156,16 +156,16 @@ public final class StateViewUpdater implements AutoCloseable {
         managers.forEach(each -> since.put(each, System.currentTimeMillis() - answerRetention.toMillis()));
         Map<TopicPartition, OffsetAndTimestamp> found = from.offsetsForTimes(since);
         Map<TopicPartition, Long> ends = from.endOffsets(all);
-        Map<TopicPartition, Long> beginnings = from.beginningOffsets(audit);
+        Map<TopicPartition, Long> beginOffsets = from.beginningOffsets(audit);
         for (TopicPartition each : managers) {
             from.seek(
                     each,
                     found.get(each) == null ? ends.get(each) : found.get(each).offset());
         }
         for (TopicPartition each : audit) { // twice the offsets, because every transaction also has a marker
-            long start = Math.max(beginnings.get(each), ends.get(each) - 2L * StateView.AUDITED);
+            long start = Math.max(beginOffsets.get(each), ends.get(each) - 2L * StateView.AUDITED);
             from.seek(each, start);
-            view.auditFrom(start == beginnings.get(each));
+            view.auditFrom(start == beginOffsets.get(each));
         }
         return all;
     }
@@ -226,7 +226,7 @@ public final class StateViewUpdater implements AutoCloseable {
                 view.audit(record.offset(), value);
             }
         } catch (UnreadableException e) { // managers and hosts never write this
-            LOG.debug("{}-{}@{} is not JSON", record.topic(), record.partition(), record.offset(), e);
+            LOG.debug("{} is not JSON", KafkaClients.position(record), e);
         }
     }
 

@@ -203,9 +203,9 @@ class DeliveryPropertyTest {
                 Alarm existing = received.get(alarm.alarm());
                 boolean suppressed = alarm.isMuted(now) || alarm.inhibitedBy() != null;
                 if (alarm.state() == AlarmState.CLOSED) {
-                    boolean closedUnheard =
+                    boolean closedUndelivered =
                             existing == null && (suppressed || alarm.handling().mutedUntil() != null);
-                    assertThat(closedUnheard || existing != null && existing.state() == AlarmState.CLOSED)
+                    assertThat(closedUndelivered || existing != null && existing.state() == AlarmState.CLOSED)
                             .as(label + alarm)
                             .isTrue();
                 } else if (!suppressed) {

@@ -75,8 +75,8 @@ class EventTilesTest {
     @Test
     void countsATileOnceForConcurrentRequests() throws Exception {
         counter.open = new CountDownLatch(1);
-        CompletableFuture<EventTiles.Counted> one = tiles.count(FIRST, HOUR);
-        CompletableFuture<EventTiles.Counted> other = tiles.count(FIRST, HOUR);
+        CompletableFuture<EventTiles.TileCounts> one = tiles.count(FIRST, HOUR);
+        CompletableFuture<EventTiles.TileCounts> other = tiles.count(FIRST, HOUR);
         counter.open.countDown();
         one.get(10, TimeUnit.SECONDS);
 
@@ -93,13 +93,13 @@ class EventTilesTest {
         assertThat(counter.requested).as("the newest event was in the tile").hasSize(2);
 
         count(FIRST, end + 60_000);
-        assertThat(counter.requested).as("a late one may have come since").hasSize(3);
+        assertThat(counter.requested).as("a late event may have arrived").hasSize(3);
         count(FIRST, end + 120_000);
-        assertThat(counter.requested).as("nothing comes that late").hasSize(3);
+        assertThat(counter.requested).as("no later events expected").hasSize(3);
 
         clock.pass(Duration.ofMinutes(10));
         count(FIRST, end + 120_000);
-        assertThat(counter.requested).as("what is older than ten minutes").hasSize(4);
+        assertThat(counter.requested).as("older than ten minutes").hasSize(4);
     }
 
     @Test

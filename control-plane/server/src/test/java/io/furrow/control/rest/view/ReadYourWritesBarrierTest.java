@@ -22,36 +22,36 @@ class ReadYourWritesBarrierTest {
     private static final TopicPartition MISSIONS = new TopicPartition(Topics.MISSIONS, 0);
 
     private final PendingReplies answers = new PendingReplies();
-    private final ReadYourWritesBarrier gate = new ReadYourWritesBarrier(answers);
+    private final ReadYourWritesBarrier barrier = new ReadYourWritesBarrier(answers);
     private final Map<TopicPartition, Long> positions = new HashMap<>(Map.of(MISSIONS, 4L));
     private final KafkaFutureImpl<Map<TopicPartition, ListOffsetsResultInfo>> ends = new KafkaFutureImpl<>();
 
     @Test
     void holdsAnAnswerUntilTheViewHasCaughtUp() {
         CompletableFuture<CommandResult> waiting = held("r-1", ends);
-        gate.release(positions::get);
+        barrier.release(positions::get);
         assertThat(waiting).isNotDone();
 
         ends.complete(Map.of(MISSIONS, new ListOffsetsResultInfo(5, 0, Optional.empty())));
-        gate.release(positions::get);
+        barrier.release(positions::get);
         assertThat(waiting).isNotDone();
 
         positions.put(MISSIONS, 5L);
-        gate.release(positions::get);
+        barrier.release(positions::get);
         assertThat(waiting)
                 .isCompletedWithValueMatching(answer -> answer.status().equals("created"));
-        assertThat(gate.isEmpty()).isTrue();
+        assertThat(barrier.isEmpty()).isTrue();
     }
 
     @Test
     void releasesAnswersInOrder() {
         CompletableFuture<CommandResult> first = held("r-1", ends);
         CompletableFuture<CommandResult> second = held("r-2", KafkaFuture.completedFuture(Map.of()));
-        gate.release(positions::get);
+        barrier.release(positions::get);
         assertThat(second).isNotDone();
 
         ends.complete(Map.of());
-        gate.release(positions::get);
+        barrier.release(positions::get);
         assertThat(first).isDone();
         assertThat(second).isDone();
     }
@@ -61,7 +61,7 @@ class ReadYourWritesBarrierTest {
         held("r-1", ends);
         ends.completeExceptionally(new KafkaException("away"));
 
-        assertThatThrownBy(() -> gate.release(positions::get))
+        assertThatThrownBy(() -> barrier.release(positions::get))
                 .isInstanceOf(KafkaException.class)
                 .hasMessageContaining("are not known");
     }
@@ -71,7 +71,7 @@ class ReadYourWritesBarrierTest {
         PendingReplies.Key key = new PendingReplies.Key(Topics.MISSION_MANAGER, id);
         CompletableFuture<CommandResult> waiting = new CompletableFuture<>();
         answers.await(key, new PendingReplies.PendingRequest("", waiting));
-        gate.hold(Map.of(key, CommandResult.of("created")), future);
+        barrier.hold(Map.of(key, CommandResult.of("created")), future);
         return waiting;
     }
 }

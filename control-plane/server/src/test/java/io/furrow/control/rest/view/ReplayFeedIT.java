@@ -14,8 +14,6 @@ import java.util.List;
 
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
@@ -24,6 +22,7 @@ import org.junit.jupiter.api.TestInstance;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.control.rest.ApiClient;
 import io.furrow.control.rest.RunningApi;
 import io.furrow.model.control.ReplayStatus;
@@ -48,7 +47,7 @@ class ReplayFeedIT {
     void start(@TempDir Path directory) throws Exception {
         running = new RunningApi(directory);
         client = running.client();
-        player = new KafkaProducer<>(running.settings().client(), new StringSerializer(), new ByteArraySerializer());
+        player = KafkaClients.producer(running.settings().client());
     }
 
     @AfterAll
@@ -113,7 +112,7 @@ class ReplayFeedIT {
             assertThat(one.readLine()).isEmpty();
             assertThat(one.readLine()).as("the end").isNull();
             until(all, "event: over");
-            running.refused("GET", "/api/replays/" + replay + "/events", null, 404, "unknown-replay");
+            running.rejects("GET", "/api/replays/" + replay + "/events", null, 404, "unknown-replay");
         }
     }
 

@@ -18,7 +18,7 @@ import static org.awaitility.Awaitility.await;
 
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
 @Tag("full")
-class RefusedRequestsIT {
+class RejectedRequestsIT {
     @AutoClose
     private RunningApi running;
 
