@@ -16,49 +16,22 @@ zip=
 usage() {
     cat <<USAGE
 Usage: ./furrow soak connect-3.9 [OPTION VALUE]…
-Fetches Kafka and Connect once, some 60 MB, starts a broker and a distributed worker of that version with the packaged plugin, and
-sends a notification to the source; the sink must write its entity to a receiver.
+Fetches Kafka and Connect once (some 60 MB), starts a broker and a distributed worker of that version with the packaged plugin, and
+sends a notification to the source. The sink must write its entity to a receiver.
 
   --version V  Version of Kafka and Connect. Default: $version.
-  --zip FILE   The plugin. Default: the one that is built from here.
+  --zip FILE   The plugin. Default: built from this checkout.
 USAGE
 }
 
-while (($# > 0)); do
-    case $1 in
-        -h | --help) usage && exit 0 ;;
-        --version) version=${2-} ;;
-        --zip) zip=${2-} ;;
-        *) fail "connect-3.9 knows no option $1. See: ./furrow soak connect-3.9 --help" ;;
-    esac
-    (($# > 1)) || fail "$1 needs a value. See: ./furrow soak connect-3.9 --help"
-    shift 2
-done
+read_options "version zip" "$@"
 [[ $version =~ ^[0-9]+\.[0-9]+\.[0-9]+$ ]] || fail "--version must be like 3.9.2, not '$version'."
-command -v curl >/dev/null || fail "No curl found, which talks to the worker. Install curl."
+command -v curl >/dev/null || fail "curl is missing, which calls the worker. Install curl."
 
-run=$(mktemp -d "${TMPDIR:-/tmp}/furrow-connect.XXXXXX")
-logs=$home/target/soak/connect-3.9
+prepare
 libs=$home/target/soak/kafka-$version
 classes=$run/conf:$libs/*
-
-clean_up() {
-    local code=$?
-    trap - EXIT INT TERM
-    stop_own
-    rm -rf "$run"
-    case $code in
-        0) ;;
-        130 | 143) echo "connect-3.9: interrupted" ;;
-        *) printf 'connect-3.9: failed; logs: %s\n' "$logs" ;;
-    esac
-    exit "$code"
-}
-trap clean_up EXIT
-trap 'exit 130' INT
-trap 'exit 143' TERM
-rm -rf "$logs"
-mkdir -p "$logs" "$run/conf" "$run/plugins"
+mkdir "$run/conf" "$run/plugins"
 
 fetch() {
     [[ -f $libs/complete ]] && return
@@ -74,7 +47,7 @@ fetch() {
 </project>
 POM
     (cd "$home" && ./mvnw -B -ntp -q -f "$run/pom.xml" org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies \
-        -DincludeScope=runtime -DoutputDirectory="$libs") >"$logs/fetch.log" 2>&1 || fail "Kafka $version could not be fetched: $logs/fetch.log"
+        -DincludeScope=runtime -DoutputDirectory="$libs") >"$logs/fetch.log" 2>&1 || fail "Cannot fetch Kafka $version: $logs/fetch.log"
     touch "$libs/complete"
 }
 
@@ -85,8 +58,8 @@ build() {
     zip=$(ls -t "$home"/ngsi-connector/target/furrow-ngsi-connector-*.zip | head -n 1)
 }
 
-# The access rule needs what Connect has brought since version 4.
-guards() { ((${version%%.*} >= 4)); }
+# The access rule needs Connect 4 or later.
+has_access_rule() { ((${version%%.*} >= 4)); }
 
 start_worker() {
     local port
@@ -110,7 +83,7 @@ status.storage.partitions=1
 scheduled.rebalance.max.delay.ms=0
 exactly.once.source.support=enabled
 PROPERTIES
-    if guards; then
+    if has_access_rule; then
         echo "rest.extension.classes=io.furrow.http.connect.AccessExtension" >>"$run/worker.properties"
     fi
     "$java" -Xmx512m -cp "$classes" org.apache.kafka.connect.cli.ConnectDistributed "$run/worker.properties" >"$logs/worker.log" 2>&1 &
@@ -122,7 +95,7 @@ runs() { curl -fsS "http://$rest/connectors/$1/status" | grep -q '"tasks":\[{"id
 
 create() {
     curl -fsS -X PUT "http://$rest/connectors/$1/config" -H 'Content-Type: application/json' -d "$2" >>"$logs/rest.log" ||
-        fail "The worker refused the connector $1; logs: $logs"
+        fail "The worker rejected the connector $1; logs: $logs"
     until_true 60 "The task of $1" runs "$1"
 }
 
@@ -145,10 +118,10 @@ say "starting Connect $version with $(basename "$zip")"
 start_worker
 curl -fsS "http://$rest/" | grep -q "\"version\":\"$version\"" || fail "The worker is not of version $version."
 
-if guards; then
-    [[ $(curl -s -o "$logs/refused.json" -w '%{http_code}' -H 'Host: evil.example' "http://$rest/connectors") == 403 ]] ||
-        fail "The worker answered under a foreign host; logs: $logs"
-    say "the worker refuses a foreign host"
+if has_access_rule; then
+    [[ $(curl -s -o "$logs/rejected.json" -w '%{http_code}' -H 'Host: evil.example' "http://$rest/connectors") == 403 ]] ||
+        fail "The worker accepted a foreign Host header; logs: $logs"
+    say "the worker rejects a foreign Host header"
 fi
 
 free_port && listen=$port
@@ -163,8 +136,8 @@ create ngsi-sink '{"connector.class": "io.furrow.connect.sink.NgsiSinkConnector"
 say "both connectors run"
 curl -fsS -X POST "http://127.0.0.1:$listen/v2/notify" -H 'Content-Type: application/json' -d '{
     "id": "urn:ngsi-ld:Thermometer:1", "type": "Thermometer", "Temperature": {"type": "Float", "value": 21.5}}' ||
-    fail "The source refused the notification; logs: $logs"
+    fail "The source rejected the notification; logs: $logs"
 until_true 60 "The entity at the receiver" grep -q '^POST /v2/op/update .*urn:ngsi-ld:Thermometer:1.*21.5' "$logs/received.log"
-say "the entity went through source and sink"
+say "the entity has passed source and sink"
 runs ngsi-source && runs ngsi-sink || fail "A task has failed; logs: $logs"
 echo "connect-3.9: passed on Kafka and Connect $version"

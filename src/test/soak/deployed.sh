@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The archive's programs as separate processes, as docker/compose.yaml starts them: a mission, its results, its replay.
+# Runs the archive's programs as separate processes, as docker/compose.yaml starts them: a mission, its results, its replay.
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -10,37 +10,25 @@ java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 # shellcheck source=parts/flink.sh
 . "$soak/parts/flink.sh"
 
-if (($# > 0)); then
+usage() {
     cat <<USAGE
 Usage: ./furrow soak deployed
-Unpacks suite/distribution/target/furrow-*.tar.gz, which ./mvnw package -Prelease -DskipTests makes, and runs what its docker/compose.yaml
-says without containers: Kafka, two Connect workers, Mosquitto, a Flink cluster, the jobs by flink run, two control planes, simulated
-devices, the dashboard. Of a load, while both workers, a task manager and a control plane are killed, and two jobs are stopped with a savepoint and submitted again, nothing may be lost, and nothing be there twice
-but where the task manager was killed. Commands, options, connectors and settings are those of the file, with other hosts, ports and folders.
-Stand-ins take the places of Orion, the IoT Agent and MongoDB, a folder that of HDFS. Both workers have the journal on one disk. A proxy sends again
-what was not answered, which Orion does not do: what is missing in the end was answered. FLINK_HOME names a Flink $flink_version;
-without it one is fetched once, some 315 MB.
+Unpacks suite/distribution/target/furrow-*.tar.gz (built by ./mvnw package -Prelease -DskipTests) and runs the services of its
+docker/compose.yaml without containers: Kafka, two Connect workers, Mosquitto, a Flink cluster, the jobs by flink run, two control planes,
+simulated devices, the dashboard. Commands, options, connectors and settings are those of the file, with other hosts, ports and folders.
+Stand-ins replace Orion, the IoT Agent and MongoDB, a folder replaces HDFS. Both workers share the disk of the journal.
+Under a load, both workers, a task manager and a control plane are killed, and two jobs are stopped with a savepoint and submitted again. No
+message may be lost, and none duplicated except after the kill of the task manager. A proxy retries unanswered notifications, which Orion
+does not do, so that any missing message was acknowledged. Uses the Flink $flink_version of FLINK_HOME, or fetches one once (some 315 MB).
 USAGE
-    exit 0
-fi
-command -v python3 >/dev/null || fail "No Python 3 found."
-[[ -x /usr/sbin/mosquitto ]] || command -v mosquitto >/dev/null || fail "No Mosquitto found. Install the packages mosquitto and mosquitto-clients."
-
-run=$(mktemp -d "${TMPDIR:-/tmp}/furrow-deployed.XXXXXX")
-logs=$home/target/soak/deployed
-rm -rf "$logs" && mkdir -p "$logs" "$run/secrets" "$run/accounts" "$run/mosquitto-data" "$run/mosquitto-log"
-
-clean_up() {
-    local code=$?
-    trap - EXIT INT TERM
-    stop_own
-    rm -rf "$run" "${making:-}"
-    ((code == 0)) || printf 'deployed: failed; logs: %s\n' "$logs"
-    exit "$code"
 }
-trap clean_up EXIT
-trap 'exit 130' INT
-trap 'exit 143' TERM
+
+read_options "" "$@"
+command -v python3 >/dev/null || fail "Python 3 is missing. Install python3."
+[[ -x /usr/sbin/mosquitto ]] || command -v mosquitto >/dev/null || fail "Mosquitto is missing. Install the packages mosquitto and mosquitto-clients."
+
+prepare
+mkdir "$run/secrets" "$run/accounts" "$run/mosquitto-data" "$run/mosquitto-log"
 
 tar xzf "$home"/suite/distribution/target/furrow-*.tar.gz -C "$run"
 archive=$(echo "$run"/furrow-*)
@@ -56,7 +44,7 @@ for name in kafka controller mqtt orion agent mongo notify retries worker1 worke
     declare "$name=$port"
 done
 
-# Other hosts, ports and folders in what stands in the compose file and beside it.
+# Replaces hosts, ports and folders in the compose file and the files beside it.
 here() {
     sed -e "s|kafka:9092|127.0.0.1:$kafka|g; s|://:9092|://127.0.0.1:$kafka|g; s|kafka:9093|127.0.0.1:$controller|g; s|://:9093|://127.0.0.1:$controller|g" \
         -e "s|mosquitto:1883|127.0.0.1:$mqtt|g; s|orion:1026|127.0.0.1:$orion|g; s|iot-agent:4041|127.0.0.1:$agent|g" \
@@ -68,14 +56,14 @@ here() {
         -e "s|/var/lib/furrow/journal|$run/journal|g; s|/var/lib/kafka/data|$run/kafka|g; s#/connectors/\(ngsi-[a-z]*\.json\)#$run/\1#g"
 }
 
-# words SERVICE PART: into the array of that name.
+# words SERVICE PART: reads a part of the service into the array words.
 words() {
     local text
     text=$("$java" -Xmx128m -cp "$test_path:$snakeyaml" io.furrow.deployment.ComposeCommand "$archive/docker/compose.yaml" "$run/.env" "$1" "$2" | here)
     mapfile -t words <<<"$text"
 }
 
-# start NAME COMMAND…: in the background, ours.
+# start NAME COMMAND…: starts a command in the background, to be stopped at the end.
 start() {
     local name=$1
     shift
@@ -94,7 +82,7 @@ here <"$archive/docker/mosquitto/mosquitto.conf" | sed "s|listener 1883|listener
 XDG_CONFIG_HOME=$run PATH=$PATH:/usr/sbin start mosquitto "$archive/docker/mosquitto/run" "$run/mosquitto.conf" "$run/accounts"
 
 words kafka environment
-# As the image of Kafka does.
+# The image of Kafka derives its properties in the same way.
 printf '%s\n' "${words[@]}" | sed -n 's/^KAFKA_\([A-Z_]*\)=/\1=/p' | while IFS='=' read -r name value; do
     name=${name,,}
     printf '%s=%s\n' "${name//_/.}" "$value"
@@ -154,20 +142,20 @@ export FLINK_HOME CHECKPOINTS=$run/checkpoints
 submit() {
     words "job-$1" command
     words[0]=$archive/docker/flink/submit
-    "${words[@]}" >"$logs/job-$1.log" 2>&1 || fail "$1 was not submitted: $logs/job-$1.log"
+    "${words[@]}" >"$logs/job-$1.log" 2>&1 || fail "Cannot submit $1: $logs/job-$1.log"
 }
 for job in ingest temperature collision presence replay; do submit "$job"; done
 
-# upgrade JOB: as docs/install-three.md says.
+# upgrade JOB: follows docs/install-three.md.
 upgrade() {
     local id savepoint
     id=$("$FLINK_HOME/bin/flink" list | sed -n "s/.* : \([0-9a-f]*\) : $1 (RUNNING).*/\1/p")
-    "$FLINK_HOME/bin/flink" stop --savepointPath "file://$CHECKPOINTS/$1" "$id" >"$logs/stop-$1.log" 2>&1 || fail "$1 was not stopped: $logs/stop-$1.log"
+    "$FLINK_HOME/bin/flink" stop --savepointPath "file://$CHECKPOINTS/$1" "$id" >"$logs/stop-$1.log" 2>&1 || fail "Cannot stop $1: $logs/stop-$1.log"
     savepoint=$(sed -n 's/.*Savepoint completed. Path: //p' "$logs/stop-$1.log")
     submit "$1"
     id=$(sed -n 's/.*submitted with JobID \([0-9a-f]*\).*/\1/p' "$logs/job-$1.log")
     until_true 60 "$1 from its savepoint ${savepoint:?}" restored "$id" "$savepoint"
-    say "$1 goes on from its savepoint"
+    say "$1 restored from its savepoint"
 }
 
 # restored ID SAVEPOINT
@@ -178,34 +166,34 @@ export FURROW_API=http://127.0.0.1:$control FURROW_TOKEN_FILE=$run/secrets/api-t
 furrow() { FURROW_OPTS="-Xms64m -Xmx256m" "$archive/bin/furrow" "$@"; }
 demo=$home/simulators/devices/src/main/resources/io/furrow/simulators/demo
 python3 -c 'import json,sys; print(json.dumps(json.load(open(sys.argv[1]))["templates"][0]["devices"]))' "$demo/missions.json" >"$run/devices.json"
-furrow fields import "$demo/fields.geojson" --kafka "127.0.0.1:$kafka" --domain farm --valid-from 2020-01-01T00:00:00Z >"$logs/fields.log" 2>&1 || fail "Fields were not imported: $logs/fields.log"
+furrow fields import "$demo/fields.geojson" --kafka "127.0.0.1:$kafka" --domain farm --valid-from 2020-01-01T00:00:00Z >"$logs/fields.log" 2>&1 || fail "Cannot import the fields: $logs/fields.log"
 furrow domain create farm >"$logs/mission.log"
 furrow mission start mine --domain farm --devices "$run/devices.json" >>"$logs/mission.log"
 timeout 180 "$archive/bin/furrow" mission watch mine --until running >>"$logs/mission.log" || fail "The mission does not run: $logs/mission.log"
 
-# found TYPE: whether the context broker has results of that type, all the way back from the jobs.
+# found TYPE: whether results of that type have reached the context broker.
 found() { curl -fs -H 'fiware-service: farm' "http://127.0.0.1:$orion/v2/entities?type=$1&limit=1" | grep -q '"id"'; }
 until_true 180 "An average in the context broker" found Analytics:FieldTemperature
 say "averages are in the context broker"
 until_true 180 "An encounter in the context broker" found Analytics:Collision
 say "encounters too"
 
-# created DOMAIN: also where an answer was lost on the way.
+# created DOMAIN: also true if the answer to an earlier attempt was lost.
 created() { furrow domain create "$1" || furrow domain list | grep -q "$1"; }
 
-# kill_worker NUMBER: and starts it again.
+# kill_worker NUMBER: kills a worker and restarts it.
 kill_worker() {
     local killed=worker_$1
     kill -9 "${!killed}" && start_worker "$1"
 }
 
-# source_worker: the number of the one with the source's task.
+# source_worker: prints the number of the worker that runs the task of the source.
 source_worker() {
     curl -fs "http://127.0.0.1:$worker1/connectors/ngsi-source/status" |
         python3 -c 'import json,sys; print(1 if json.load(sys.stdin)["tasks"][0]["worker_id"].endswith(":" + sys.argv[1]) else 2)' "$worker1"
 }
 
-# measured DEVICES: whether all of so many has arrived. sending MESSAGES: whether so many are being sent now.
+# measured DEVICES: whether the point with that many devices is complete. sending MESSAGES: whether a point of that many messages is being sent.
 measured() { grep -q "\"devices\":$1," "$logs/load.jsonl"; }
 sending() { tail -n 1 "$logs/load.log" | grep -q "[1-9][0-9]* of $1 sent"; }
 
@@ -214,10 +202,10 @@ sed -n 's/^MQTT_PASSWORD=//p' "$run/.env" >"$run/secrets/mqtt"
 start load env FURROW_OPTS="-Xms256m -Xmx512m" "$archive/bin/furrow" bench evaluate --against "127.0.0.1:$kafka" --orion "http://127.0.0.1:$orion" --iot-agent "http://127.0.0.1:$agent" \
     --mqtt "tcp://127.0.0.1:$mqtt" --mqtt-user iot-agent --mqtt-password-file "$run/secrets/mqtt" --sweeps DEVICES --seconds 30 --no-knee --results "$logs/load.jsonl" --report "$logs/load"
 load=$!
-until_true 180 "What one device sent" measured 1
+until_true 180 "The messages of one device" measured 1
 kill -9 "$task_manager" && start_task_manager
 say "task manager killed"
-until_true 180 "What 10 devices sent" measured 10
+until_true 180 "The messages of 10 devices" measured 10
 kill -9 "$control_plane"
 kill_worker "$((3 - $(source_worker)))"
 say "a control plane and the worker without the source killed"
@@ -231,12 +219,12 @@ until_true 180 "A load of 100 or 125 devices" sending '\(15000\|18750\)'
 kill_worker "$(source_worker)"
 say "the worker with the source killed"
 wait "$load" || fail "The load failed: $logs/load.log"
-# The jobs are at-least-once: where the task manager was killed, they write again what came after the last checkpoint.
-python3 - "$logs/load.jsonl" <<'CHECK' || fail "Not all that was sent arrived, or some of it twice: $logs/load.log"
+# The jobs are at-least-once: after the kill of the task manager they repeat the output since the last checkpoint.
+python3 - "$logs/load.jsonl" <<'CHECK' || fail "Messages were lost or duplicated: $logs/load.log"
 import json, sys
 points = [json.loads(line) for line in open(sys.argv[1])]
 for point in points:
-    print("%4d devices  sent %d  delivered %d  again %d" % (point["point"]["devices"], point["sent"], point["delivered"], point["duplicated"]))
+    print("%4d devices  sent %d  delivered %d  duplicated %d" % (point["point"]["devices"], point["sent"], point["delivered"], point["duplicated"]))
 sys.exit(0 if len(points) == 6 and all(point["delivered"] == point["sent"] and (point["duplicated"] == 0 or point["point"]["devices"] == 10) for point in points) else 1)
 CHECK
 
@@ -249,9 +237,9 @@ tail -n 1 "$logs/replay.log"
 say "metrics"
 pages=$run/metrics.txt
 for ((port = metrics; port < metrics + 10; port++)); do curl -fs "http://127.0.0.1:$port/metrics" || true; done >"$pages"
-for port in "$notify" "$health2" "$dashboard"; do curl -fs "http://127.0.0.1:$port/metrics" >>"$pages" || fail "Nothing on port $port has /metrics."; done
+for port in "$notify" "$health2" "$dashboard"; do curl -fs "http://127.0.0.1:$port/metrics" >>"$pages" || fail "No server answers /metrics on port $port."; done
 cp "$pages" "$logs/metrics.txt"
 for metric in $(grep -ohE '\b(flink|furrow)_[A-Za-z_]+' "$archive/docker/grafana/dashboards/furrow.json" "$archive/docker/prometheus/alerts.yml" | sort -u); do
-    grep -q "^$metric[{ ]" "$pages" || fail "No page of metrics has $metric, which the dashboard of Grafana or an alert names: $logs/metrics.txt"
+    grep -q "^$metric[{ ]" "$pages" || fail "The dashboard of Grafana or an alert uses $metric, which no server exports: $logs/metrics.txt"
 done
 echo "deployed: passed"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs the job jars on a standalone Flink cluster, stops them with a savepoint and goes on from it.
+# Runs the job jars on a standalone Flink cluster, stops them with a savepoint and restores them from it.
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -23,60 +23,31 @@ window=5
 usage() {
     cat <<USAGE
 Usage: ./furrow soak flink-run [OPTION VALUE]…
-Runs every job with flink run on a standalone Flink $flink_version beside a Kafka broker, both started for this: ingest, normalize,
-presence, temperature twice (blue and green) and collision twice (two thresholds). While numbered events come in, stops all
-with a savepoint and goes on from it. Then everything that the jobs wrote must be there once, and green must be as blue. FLINK_HOME names a distribution; without it one is fetched once, some 315 MB.
+Starts a Kafka broker and a standalone Flink $flink_version, and runs every job with flink run: ingest, normalize, presence,
+temperature twice (blue and green) and collision twice (two thresholds). While numbered events are written, stops all jobs with a
+savepoint and restores them from it. Each result must then be there once, and green must equal blue. Uses the Flink of FLINK_HOME,
+or fetches one once (some 315 MB).
 
-  --seconds N              How long events come in, at least 90 s. Default: $seconds.
+  --seconds N              Duration of the events, at least 90 s. Default: $seconds.
   --parallelism N          Subtasks before the savepoint, 1 or 2. Default: $parallelism.
-  --restore-parallelism N  Subtasks after it, 1 or 2. Default: as before.
+  --restore-parallelism N  Subtasks after the savepoint, 1 or 2. Default: the same.
   --delivery MODE          at-least-once or exactly-once. Default: $delivery.
 USAGE
 }
 
-while (($# > 0)); do
-    case $1 in
-        -h | --help) usage && exit 0 ;;
-        --seconds) seconds=${2-} ;;
-        --parallelism) parallelism=${2-} ;;
-        --restore-parallelism) restore_parallelism=${2-} ;;
-        --delivery) delivery=${2-} ;;
-        *) fail "flink-run knows no option $1. See: ./furrow soak flink-run --help" ;;
-    esac
-    (($# > 1)) || fail "$1 needs a value. See: ./furrow soak flink-run --help"
-    shift 2
-done
+read_options "seconds parallelism restore-parallelism delivery" "$@"
 restore_parallelism=${restore_parallelism:-$parallelism}
-[[ $seconds =~ ^[0-9]+$ && $seconds -ge 90 ]] || fail "--seconds must be a whole number from 90, not '$seconds'."
+check_numbers 90 seconds
 [[ $parallelism =~ ^[12]$ && $restore_parallelism =~ ^[12]$ ]] || fail "The parallelism must be 1 or 2: the cluster has 14 slots for seven jobs."
-[[ $delivery == at-least-once || $delivery == exactly-once ]] || fail "--delivery must be at-least-once or exactly-once, not '$delivery'."
-command -v curl >/dev/null || fail "No curl found, which asks Flink whether it is ready. Install curl."
+check_choice delivery at-least-once exactly-once
+command -v curl >/dev/null || fail "curl is missing, which probes Flink. Install curl."
 
-run=$(mktemp -d "${TMPDIR:-/tmp}/furrow-flink-run.XXXXXX")
-logs=$home/target/soak/flink-run
+prepare
 classes=$home/src/target/test-classes:$home/suite/launcher/target/furrow/lib/*
-# An instance is a job, or a job and what its name adds.
+# An instance is named after its job, with a suffix for a second one.
 instances=(ingest normalize presence temperature temperature-green collision collision-wide)
 ids=()
 savepoints=()
-
-clean_up() {
-    local code=$?
-    trap - EXIT INT TERM
-    stop_own
-    rm -rf "$run" "${making:-}"
-    case $code in
-        0) ;;
-        130 | 143) echo "flink-run: interrupted" ;;
-        *) printf 'flink-run: failed; logs: %s\n' "$logs" ;;
-    esac
-    exit "$code"
-}
-trap clean_up EXIT
-trap 'exit 130' INT
-trap 'exit 143' TERM
-rm -rf "$logs"
-mkdir -p "$logs"
 
 jar_of() {
     local module=analytics
@@ -84,7 +55,7 @@ jar_of() {
     ls "$home/$module/target/furrow-$module"-*-job.jar
 }
 
-# Each job explains itself where Flink is not.
+# Each job has a --help that works without Flink.
 check_help() {
     for name in ingest normalize presence temperature collision; do
         "$java" -jar "$(jar_of "$name")" "$name" --help >"$logs/$name.help" 2>&1 || fail "$name --help fails: $logs/$name.help"
@@ -92,15 +63,15 @@ check_help() {
     done
 }
 
-# A wrong option is answered with a sentence.
-check_refusals() {
+# An unknown option is reported without a stack trace.
+check_unknown_option() {
     for name in ingest normalize presence temperature collision; do
-        ! "$FLINK_HOME/bin/flink" run -d "$(jar_of "$name")" "$name" --no-such-option >"$logs/$name.refusal" 2>&1 ||
-            fail "flink run of $name with a wrong option ends with 0."
-        grep -q "Unknown option: '--no-such-option'" "$logs/$name.refusal" && grep -q "^See: .* $name --help" "$logs/$name.refusal" &&
-            ! grep -q $'^\tat ' "$logs/$name.refusal" || fail "flink run of $name with a wrong option: $logs/$name.refusal"
-        ! "$java" -jar "$(jar_of "$name")" "$name" --no-such-option >"$logs/$name.refusal" 2>&1 && ! grep -q $'^\tat ' "$logs/$name.refusal" ||
-            fail "$name with a wrong option, without Flink: $logs/$name.refusal"
+        ! "$FLINK_HOME/bin/flink" run -d "$(jar_of "$name")" "$name" --no-such-option >"$logs/$name.error" 2>&1 ||
+            fail "flink run of $name with an unknown option ends with 0."
+        grep -q "Unknown option: '--no-such-option'" "$logs/$name.error" && grep -q "^See: .* $name --help" "$logs/$name.error" &&
+            ! grep -q $'^\tat ' "$logs/$name.error" || fail "flink run of $name with an unknown option: $logs/$name.error"
+        ! "$java" -jar "$(jar_of "$name")" "$name" --no-such-option >"$logs/$name.error" 2>&1 && ! grep -q $'^\tat ' "$logs/$name.error" ||
+            fail "$name with an unknown option, without Flink: $logs/$name.error"
     done
 }
 
@@ -135,12 +106,12 @@ stop_job() {
 show_jobs() { "$java" -Dfurrow.log="$logs/client.log" -cp "$classes" io.furrow.soak.ClusterJobs "$rest" "${ids[@]}"; }
 writing() { grep -q '^writing' "$logs/events.out"; }
 
-build_soaks system-tests
+build_soaks
 check_help
 say "--help of all jobs works without Flink"
 provide_flink
-check_refusals
-say "a wrong option is refused with a sentence by all jobs"
+check_unknown_option
+say "all jobs report an unknown option without a stack trace"
 start_kafka
 say "Kafka at $bootstrap"
 task_slots=14 task_manager_memory=3072m start_flink
@@ -152,21 +123,21 @@ events=$!
 own "$events"
 began=$SECONDS
 until_true 30 "The topic data.raw" writing
-say "events come in for $seconds s"
+say "events are written for $seconds s"
 for instance in "${instances[@]}"; do run_job "$instance" "$parallelism"; done
 
-# Late enough for results, early enough for as long a time after it.
+# Late enough for results before the savepoint, early enough for results after it.
 while ((SECONDS < began + seconds * 2 / 5)); do sleep 0.5; done
-show_jobs || fail "The cluster does not show the jobs as they should be."
+show_jobs || fail "The jobs on the cluster are not as expected."
 for i in "${!instances[@]}"; do stop_job "${instances[i]}" "${ids[i]}"; done
 sleep 4
 ids=()
 for i in "${!instances[@]}"; do run_job "${instances[i]}" "$restore_parallelism" -s "${savepoints[i]}"; done
 
-wait "$events" || { cat "$logs/events.out" >&2; fail "The events could not be written."; }
+wait "$events" || { cat "$logs/events.out" >&2; fail "Cannot write the events."; }
 say "$(tail -n 1 "$logs/events.out")"
 "$java" -Xmx256m -Dfurrow.log="$logs/client.log" -cp "$classes" io.furrow.soak.NumberedResults "$bootstrap" $((window * 1000)) ||
-    fail "What the jobs wrote differs from what the events come to."
-show_jobs >"$logs/jobs-after.out" || { cat "$logs/jobs-after.out"; fail "The jobs did not go on undisturbed."; }
-say "the jobs run on, none failed"
+    fail "The results of the jobs differ from the expected results."
+show_jobs >"$logs/jobs-after.out" || { cat "$logs/jobs-after.out"; fail "The jobs did not run on without a failure."; }
+say "all jobs run, none failed"
 echo "flink-run: passed"

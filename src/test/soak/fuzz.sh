@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fuzzes the reading of notifications, journals, their records and a context broker's answers with Jazzer, at 512 MB of heap.
+# Fuzzes the parsers of notifications, journals, their records and responses of a context broker with Jazzer, at 512 MB of heap.
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -13,43 +13,29 @@ java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 jazzer_version=0.30.0
 seconds=600
 targets=(bodies journal records pages answers gzip)
+target=
 
 usage() {
     cat <<USAGE
 Usage: ./furrow soak fuzz [OPTION VALUE]…
-Runs Jazzer $jazzer_version, one target after the other. It passes where none finds an input that crashes, hangs for 10 s or runs
-out of 512 MB. What it finds belongs into ngsi-connector/src/test/resources/fuzz, where every build tries it again.
+Runs Jazzer $jazzer_version on one target after the other. Passes unless an input crashes, hangs for 10 s or runs out of 512 MB. Add such an
+input to ngsi-connector/src/test/resources/fuzz, which every build tests.
 
-  --seconds N    For each target, at least 10. Default: $seconds.
-  --target NAME  Only bodies, journal, records, pages, answers or gzip.
+  --seconds N    Duration of each target, at least 10. Default: $seconds.
+  --target NAME  One of bodies, journal, records, pages, answers or gzip.
 USAGE
 }
 
-while (($# > 0)); do
-    case $1 in
-        -h | --help) usage && exit 0 ;;
-        --seconds) seconds=${2-} ;;
-        --target) targets=("${2-}") ;;
-        *) fail "fuzz knows no option $1. See: ./furrow soak fuzz --help" ;;
-    esac
-    (($# > 1)) || fail "$1 needs a value. See: ./furrow soak fuzz --help"
-    shift 2
-done
-[[ $seconds =~ ^[0-9]+$ && $seconds -ge 10 ]] || fail "--seconds must be a whole number from 10, not '$seconds'."
-[[ ${targets[0]} =~ ^(bodies|journal|records|pages|answers|gzip)$ ]] || fail "--target must be bodies, journal, records, pages, answers or gzip, not '${targets[0]}'."
+read_options "seconds target" "$@"
+check_numbers 10 seconds
+[[ -z $target ]] || { check_choice target "${targets[@]}" && targets=("$target"); }
 
-run=$(mktemp -d "${TMPDIR:-/tmp}/furrow-fuzz.XXXXXX")
-logs=$home/target/soak/fuzz
-trap 'stop_own; rm -rf "$run"' EXIT
-trap 'exit 130' INT
-trap 'exit 143' TERM
-rm -rf "$logs"
-mkdir -p "$logs"
+prepare
 
 build_connector
 for artifact in jazzer jazzer-api; do
     (cd "$home" && ./mvnw -B -ntp -q -N dependency:copy -Dartifact="com.code-intelligence:$artifact:$jazzer_version" \
-        -DoutputDirectory="$home/target/soak/jazzer") >>"$logs/build.log" 2>&1 || fail "Jazzer could not be fetched: $logs/build.log"
+        -DoutputDirectory="$home/target/soak/jazzer") >>"$logs/build.log" 2>&1 || fail "Cannot fetch Jazzer: $logs/build.log"
 done
 
 class_of() {
@@ -63,7 +49,7 @@ class_of() {
     esac
 }
 
-found=0
+failed=0
 corpora=$home/ngsi-connector/src/test/resources/fuzz
 for target in "${targets[@]}"; do
     mkdir -p "$run/$target" "$logs/$target"
@@ -77,11 +63,11 @@ for target in "${targets[@]}"; do
         "${options[@]}" "$run/$target") >"$logs/$target.log" 2>&1 &
     own $!
     if wait $!; then
-        say "$target: $(sed -n 's/^stat::number_of_executed_units: *//p' "$logs/$target.log") inputs, nothing found"
+        say "$target: $(sed -n 's/^stat::number_of_executed_units: *//p' "$logs/$target.log") inputs, no failure"
     else
-        found=1
-        say "$target: found something: $logs/$target.log, $(ls "$logs/$target" | tr '\n' ' ')"
+        failed=1
+        say "$target: failure found: $logs/$target.log, $(ls "$logs/$target" | tr '\n' ' ')"
     fi
 done
-((found == 0)) || { echo "fuzz: failed"; exit 1; }
+((failed == 0)) || exit 1
 echo "fuzz: passed"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Plays one mission of 100 events a second at speed 1 for ten minutes, and shows how late events become, beside a bare loop.
+# Replays a mission of 100 events per second at speed 1 for ten minutes, and compares the lateness of events with a bare loop.
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -13,33 +13,22 @@ drift=5
 usage() {
     cat <<USAGE
 Usage: ./furrow soak replay-drift [OPTION VALUE]…
-One turn of ./furrow bench replay --timing. It passes where every event came and the median lateness of the last tenth of the events is
+Runs one turn of ./furrow bench replay --timing. Every event must arrive, and the median lateness of the last tenth of the events must be
 at most --drift above that of the first tenth.
 
-  --seconds N  That the mission lasts; the bare loop takes as long again. Default: $seconds.
-  --drift MS   Default: $drift.
+  --seconds N  Duration of the mission; the bare loop takes as long again. Default: $seconds.
+  --drift MS   Maximum drift. Default: $drift.
 USAGE
 }
 
-while (($# > 0)); do
-    case $1 in
-        -h | --help) usage && exit 0 ;;
-        --seconds) seconds=${2-} ;;
-        --drift) drift=${2-} ;;
-        *) fail "replay-drift knows no option $1. See: ./furrow soak replay-drift --help" ;;
-    esac
-    (($# > 1)) || fail "$1 needs a value. See: ./furrow soak replay-drift --help"
-    shift 2
-done
-[[ $seconds =~ ^[1-9][0-9]*$ ]] || fail "--seconds must be a whole number from 1, not '$seconds'."
-[[ $drift =~ ^[0-9]+$ ]] || fail "--drift must be a whole number, not '$drift'."
+read_options "seconds drift" "$@"
+check_numbers 1 seconds
+check_numbers 0 drift
 
-logs=$home/target/soak/replay-drift
-rm -rf "$logs"
-mkdir -p "$logs"
+prepare
 "$home/furrow" bench replay --timing --turns 1 --seconds "$seconds" --output "$logs/figures.json" | tee "$logs/out" ||
-    fail "replay-drift: events are missing, as said above, or the measurement failed."
+    fail "events are missing or the measurement failed, see above."
 found=$(sed -n 's/.*"by":"replay","when":"appended"[^}]*"drift":\(-\{0,1\}[0-9]*\).*/\1/p' "$logs/figures.json")
-[[ $found =~ ^-?[0-9]+$ ]] || fail "replay-drift: no figure of the drift in $logs/figures.json"
-((found <= drift)) || fail "replay-drift: events were $found ms later in the end than in the beginning."
+[[ $found =~ ^-?[0-9]+$ ]] || fail "$logs/figures.json has no drift"
+((found <= drift)) || fail "events were $found ms later at the end than at the beginning."
 echo "replay-drift: passed"

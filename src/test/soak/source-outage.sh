@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Stops Kafka for a minute while the NGSI source is under load; nothing may be lost, and it must catch up sooner.
+# Stops Kafka for a minute while the NGSI source is under load; no notification may be lost, and the source must catch up in less time.
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -16,29 +16,18 @@ seconds=60
 usage() {
     cat <<USAGE
 Usage: ./furrow soak source-outage [OPTION VALUE]…
-Runs the NGSI source in a distributed Connect worker with the worker's default timeouts, beside a Kafka broker, both started
-for this. While notifications come in, the broker is stopped and started again. Every notification must be answered 200 and be
-on data.raw, and the source must have caught up in less time than the outage took. The worker's heap is 384 MiB; on Linux
-its resident memory is shown and must stay below 700 MiB.
+Starts a Kafka broker and a distributed Connect worker with the NGSI source and default timeouts. While notifications are sent, the
+broker is stopped and restarted. Every notification must be answered 200 and be on data.raw, and the source must catch up in less time
+than the outage lasted. The worker has a heap of 384 MiB. On Linux its resident memory is printed and must stay below 700 MiB.
 
   --rate N      Notifications of 1 kB per second. Default: $rate.
-  --seconds N   How long the broker is stopped. Default: $seconds.
+  --seconds N   Duration of the outage. Default: $seconds.
 USAGE
 }
 
-while (($# > 0)); do
-    case $1 in
-        -h | --help) usage && exit 0 ;;
-        --rate) rate=${2-} ;;
-        --seconds) seconds=${2-} ;;
-        *) fail "source-outage knows no option $1. See: ./furrow soak source-outage --help" ;;
-    esac
-    (($# > 1)) || fail "$1 needs a value. See: ./furrow soak source-outage --help"
-    shift 2
-done
-[[ $rate =~ ^[1-9][0-9]*$ ]] || fail "--rate must be a whole number from 1, not '$rate'."
-[[ $seconds =~ ^[1-9][0-9]*$ ]] || fail "--seconds must be a whole number from 1, not '$seconds'."
+read_options "rate seconds" "$@"
+check_numbers 1 rate seconds
 
-prepare_source source-outage
-run_source SourceOutage "$run/outage" "$rate" "$seconds" || fail "Something was lost, refused, or it took too long to catch up."
+prepare_source
+run_program source.SourceOutage "$run/outage" "$rate" "$seconds" || fail "A notification was lost or rejected, or the source caught up too late."
 echo "source-outage: passed"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Presses on an NGSI source whose journal is full and shows that its memory stays flat.
+# Overloads an NGSI source whose journal is full; its memory must stay flat.
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -18,40 +18,21 @@ heap=96
 usage() {
     cat <<USAGE
 Usage: ./furrow soak source-overload [OPTION VALUE]…
-A source with a journal of 64 MiB that nobody empties; senders press with all they have, each its own connection. Its resident
-memory is shown every ten seconds; at the end it must not be 64 MiB above that of the first quarter.
+Starts a source with a journal of 64 MiB that is not drained, and senders that send as fast as they can, each on its own connection.
+Prints the resident memory every ten seconds. At the end it must be less than 64 MiB above that of the first quarter.
 
-  --seconds N  How long they press, at least 40. Default: $seconds.
-  --senders N  Connections at a time. Default: $senders.
-  --bytes N    Of a notification. Default: $bytes.
+  --seconds N  Duration, at least 40. Default: $seconds.
+  --senders N  Concurrent connections. Default: $senders.
+  --bytes N    Size of a notification. Default: $bytes.
   --heap N     MiB of heap of the source. Default: $heap.
 USAGE
 }
 
-while (($# > 0)); do
-    case $1 in
-        -h | --help) usage && exit 0 ;;
-        --seconds) seconds=${2-} ;;
-        --senders) senders=${2-} ;;
-        --bytes) bytes=${2-} ;;
-        --heap) heap=${2-} ;;
-        *) fail "source-overload knows no option $1. See: ./furrow soak source-overload --help" ;;
-    esac
-    (($# > 1)) || fail "$1 needs a value. See: ./furrow soak source-overload --help"
-    shift 2
-done
-for number in "$seconds" "$senders" "$bytes" "$heap"; do
-    [[ $number =~ ^[0-9]+$ && $number -ge 1 ]] || fail "'$number' is not a whole number from 1."
-done
-((seconds >= 40)) || fail "--seconds must be at least 40."
+read_options "seconds senders bytes heap" "$@"
+check_numbers 40 seconds
+check_numbers 1 senders bytes heap
 
-run=$(mktemp -d "${TMPDIR:-/tmp}/furrow-overload.XXXXXX")
-logs=$home/target/soak/source-overload
-trap 'stop_own; rm -rf "$run"' EXIT
-trap 'exit 130' INT
-trap 'exit 143' TERM
-rm -rf "$logs"
-mkdir -p "$logs"
+prepare
 build_connector
 
 mkfifo "$run/in"
@@ -59,7 +40,7 @@ mkfifo "$run/in"
     io.furrow.connect.source.BlockedSource "$run/journal" <"$run/in" >"$logs/source.log" 2>&1 &
 source=$!
 own "$source"
-exec 9>"$run/in" # it runs until its input ends
+exec 9>"$run/in" # the source runs until its input is closed
 until_true 30 "The source" grep -q '^port ' "$logs/source.log"
 port=$(sed -n 's/^port //p' "$logs/source.log")
 "$java" -Xmx256m -cp "$connector_classes" io.furrow.connect.source.PressingSenders "$port" "$senders" "$bytes" "$seconds" \
@@ -79,7 +60,7 @@ for ((passed = 10; passed <= seconds; passed += 10)); do
 done
 wait "$pressing" || true
 say "senders: $(tail -n 1 "$logs/senders.log")"
-curl -sf -m 10 "http://127.0.0.1:$port/health" >"$logs/health.json" || fail "The source does not answer any more."
+curl -sf -m 10 "http://127.0.0.1:$port/health" >"$logs/health.json" || fail "The source does not respond."
 say "$(cat "$logs/health.json")"
-((last < first + 65536)) || fail "Its memory grew from $((first / 1024)) to $((last / 1024)) MiB."
+((last < first + 65536)) || fail "The memory of the source grew from $((first / 1024)) to $((last / 1024)) MiB."
 echo "source-overload: passed"

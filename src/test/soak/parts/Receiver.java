@@ -4,7 +4,7 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 
 import com.sun.net.httpserver.HttpServer;
 
-/** Takes what a context broker would be sent and prints it, a line each; a query finds nothing. Run: java Receiver.java PORT */
+/** Replaces a context broker: prints each request on a line, and finds no entity. Run: java Receiver.java PORT */
 class Receiver {
     public static void main(String[] arguments) throws Exception {
         InetSocketAddress address = new InetSocketAddress(InetAddress.getLoopbackAddress(), Integer.parseInt(arguments[0]));

@@ -1,4 +1,4 @@
-"""Compares MCAP files with the lines beside them: compare_mcap.py FILE.mcap FILE.ndjson …"""
+"""Compares MCAP files with NDJSON exports of the same missions: compare_mcap.py FILE.mcap FILE.ndjson …"""
 import json
 import sys
 from decimal import Decimal
@@ -21,8 +21,8 @@ def expected(path):
         entity = event["entity"]
         service = event["headers"].get("fiware-service", "")
         entity_id = entity["id"] if entity else event["entityId"]
-        known = types.get((service, entity_id), "Thing")
-        types[service, entity_id] = kind = entity.get("type", "Thing") if entity else known
+        last = types.get((service, entity_id), "Thing")
+        types[service, entity_id] = kind = entity.get("type", "Thing") if entity else last
         data = entity or {"id": entity_id, "deleted": True}
         yield f"{kind}/{entity_id}", event["time"] * 1_000_000, service, data
 
@@ -40,24 +40,24 @@ def order(message):
 
 
 def compare(mcap, lines):
-    wanted = sorted(expected(lines), key=order)
+    messages = sorted(expected(lines), key=order)
     with open(mcap, "rb") as file:
-        straight = sorted(read(NonSeekingReader(file, validate_crcs=True)), key=order)
-    assert straight == wanted, f"{mcap}: read from start to end"
+        sequential = sorted(read(NonSeekingReader(file, validate_crcs=True)), key=order)
+    assert sequential == messages, f"{mcap}: read from start to end"
     with open(mcap, "rb") as file:
         reader = SeekingReader(file, validate_crcs=True)
         summary = reader.get_summary()
-        assert summary.statistics.message_count == len(wanted)
-        assert sum(summary.statistics.channel_message_counts.values()) == len(wanted)
-        assert sorted(read(reader), key=order) == wanted, f"{mcap}: read by its index"
-        if wanted:
-            middle = wanted[len(wanted) // 2][1]
-            late = [message for message in wanted if message[1] >= middle]
+        assert summary.statistics.message_count == len(messages)
+        assert sum(summary.statistics.channel_message_counts.values()) == len(messages)
+        assert sorted(read(reader), key=order) == messages, f"{mcap}: read by its index"
+        if messages:
+            middle = messages[len(messages) // 2][1]
+            late = [message for message in messages if message[1] >= middle]
             assert sorted(read(reader, starting_at=middle), key=order) == late, f"{mcap}: from the middle"
-            topic = wanted[0][0]
-            of_topic = [message for message in wanted if message[0] == topic]
+            topic = messages[0][0]
+            of_topic = [message for message in messages if message[0] == topic]
             assert sorted(read(reader, topics=[topic]), key=order) == of_topic, f"{mcap}: one topic"
-    print(f"{mcap}: {len(wanted)} events, {len(summary.channels)} channels, {len(summary.chunk_indexes)} chunks")
+    print(f"{mcap}: {len(messages)} events, {len(summary.channels)} channels, {len(summary.chunk_indexes)} chunks")
 
 
 for i in range(1, len(sys.argv), 2):

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Devices of a farm: each has an MQTT client and its row of a file of credentials, and nothing else of Furrow.
+"""Devices of a farm that use only an MQTT client and their row of the credentials.
 
   device_programs.py CREDENTIALS BEHAVIOR EVENTS
 
-CREDENTIALS is what './furrow device credentials --output csv' printed, read again when the broker refuses the login. BEHAVIOR has a
-line of JSON per device: what it measures, how often, where it is, what is wrong with it. What each does and meets is appended to
-EVENTS, a line of JSON each.
+CREDENTIALS is the output of './furrow device credentials --output csv', read again when the broker rejects a login. BEHAVIOR has a line
+of JSON per device: its values, period, place and fault. Connections, commands and reports are appended to EVENTS, one line of JSON each.
 """
 import csv
 import heapq
@@ -46,10 +45,10 @@ class Device:
         self.client.reconnect_delay_set(1, MAX_PAUSE)
         self.client.on_connect, self.client.on_disconnect = self.on_connect, self.on_disconnect
         self.client.on_message = self.on_message
-        self.take(row)
+        self.use_login(row)
         self.client.connect_async(row["host"], int(row["port"]))
 
-    def take(self, row):
+    def use_login(self, row):
         self.row = row
         wrong = self.behavior.get("fault") == "password"
         self.client.username_pw_set(row["user"], row["password"] + ("x" if wrong else ""))
@@ -60,7 +59,7 @@ class Device:
         if self.connected:
             client.subscribe(self.row["commands"], qos=1)
         else:
-            self.take(self.rows(self.id))  # somebody may have brought the device new credentials
+            self.use_login(self.rows(self.id))  # the credentials may have been rotated
 
     def on_disconnect(self, client, _, __, reason, ___):
         if self.connected:
@@ -98,11 +97,11 @@ class Device:
         return [place[0], place[1] + meters / (METERS_PER_DEGREE * math.cos(math.radians(place[0])))]
 
     def step(self):
-        """Reports what is due. @return the seconds until the next time"""
+        """Reports if connected, and returns the seconds until the next step."""
         if not self.connected and (self.sent == 0 or self.stored > 0):
             return STORED_EVERY
         period = self.behavior["period"]
-        if self.stored > 0:  # measured when nobody was there to hear it
+        if self.stored > 0:  # measured before the connection
             self.report(now() - int(self.stored * period * 1000))
             self.stored -= 1
             return STORED_EVERY

@@ -1,12 +1,12 @@
-# A Flink distribution and a standalone cluster of it. Sourced, not run.
+# Provides a Flink distribution and a standalone cluster. Sourced, not run.
 # shellcheck shell=bash disable=SC2154 # run, logs come from the soak
 
 flink_version=2.2.1
 
-# Sets FLINK_HOME, unless it is set, to a distribution put together of Flink's two packages on PyPI.
+# Sets FLINK_HOME, unless it is set, to a distribution assembled from Flink's two packages on PyPI.
 provide_flink() {
     if [[ -n ${FLINK_HOME:-} ]]; then
-        [[ -x $FLINK_HOME/bin/flink ]] || fail "FLINK_HOME is $FLINK_HOME, where no bin/flink is. Set it to a Flink $flink_version, or unset it."
+        [[ -x $FLINK_HOME/bin/flink ]] || fail "FLINK_HOME=$FLINK_HOME has no bin/flink. Set it to a Flink $flink_version, or unset it."
         return
     fi
     local cache=${XDG_CACHE_HOME:-$HOME/.cache}/furrow
@@ -16,13 +16,14 @@ provide_flink() {
 
 make_flink() {
     python3 -m pip --version >/dev/null 2>&1 ||
-        fail "No Python 3 with pip found, which fetches Flink. Install python3-pip, or set FLINK_HOME to a Flink $flink_version."
-    mkdir -p "$1" || fail "$1 cannot be written. Set XDG_CACHE_HOME to a folder that can, or FLINK_HOME to a Flink $flink_version."
-    making=$(mktemp -d "$1/making.XXXXXX") # for the soak to remove when it is stopped now
-    local work=$making
+        fail "Python 3 with pip is missing, which fetches Flink. Install python3-pip, or set FLINK_HOME to a Flink $flink_version."
+    mkdir -p "$1" || fail "Cannot write $1. Set XDG_CACHE_HOME to a writable folder, or FLINK_HOME to a Flink $flink_version."
+    local work
+    work=$(mktemp -d "$1/making.XXXXXX")
+    temporary+=("$work") # if the soak is interrupted
     say "fetching Flink $flink_version, some 315 MB, into $1"
     fetch "$work" --no-binary apache-flink-libraries "apache-flink-libraries==$flink_version"
-    # Only the scripts of this one are wanted: any platform's do.
+    # Only its scripts are used, which are the same on all platforms.
     fetch "$work" --only-binary :all: --implementation cp --python-version 3.11 --platform manylinux2014_x86_64 \
         "apache-flink==$flink_version"
     mkdir "$work/home" "$work/scripts"
@@ -34,10 +35,9 @@ make_flink() {
     chmod +x "$work"/home/bin/*
     mv "$work/home" "$FLINK_HOME"
     rm -rf "$work"
-    making=
 }
 
-# fetch FOLDER PIP-OPTIONS…: shows how much is there already.
+# fetch FOLDER PIP-OPTIONS…: downloads a package and shows the progress.
 fetch() {
     local folder=$1 log=$1/pip.log pip
     shift
@@ -49,10 +49,10 @@ fetch() {
         sleep 1
     done
     printf '\r\033[K'
-    wait "$pip" || { tail -n 3 "$log" >&2; rm -rf "$folder"; fail "Flink could not be fetched. Set FLINK_HOME to a Flink $flink_version."; }
+    wait "$pip" || { tail -n 3 "$log" >&2; rm -rf "$folder"; fail "Cannot fetch Flink. Set FLINK_HOME to a Flink $flink_version."; }
 }
 
-# start_flink [SETTING…]: a job manager and a task manager below $run; sets rest. A setting is a line of config.yaml.
+# start_flink [SETTING…]: starts a job manager and a task manager below $run; sets rest. A setting is a line of config.yaml.
 # The task manager has $task_slots slots (6) and $task_manager_memory (1536m).
 start_flink() {
     local port rpc opens
@@ -86,7 +86,7 @@ YAML
     until_true 90 "A task manager of the Flink cluster at $rest" has_slots
 }
 
-# Sets task_manager to its process: the scripts become it.
+# Sets task_manager to the process: the scripts exec it.
 start_task_manager() {
     "$FLINK_HOME/bin/taskmanager.sh" start-foreground >>"$logs/taskmanager.out" 2>&1 &
     task_manager=$!

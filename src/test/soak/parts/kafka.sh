@@ -1,7 +1,7 @@
-# A Kafka broker in a process of its own. Sourced, not run.
+# Starts a Kafka broker as a process. Sourced, not run.
 # shellcheck shell=bash disable=SC2154 # run, logs, classes and java come from the soak
 
-# Starts it on a free port below $run; sets bootstrap.
+# start_kafka: starts a broker on a free port, with its files below $run; sets bootstrap.
 start_kafka() {
     local port controller
     free_port && bootstrap=127.0.0.1:$port

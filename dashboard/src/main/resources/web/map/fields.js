@@ -22,17 +22,7 @@ export class FieldDrawing {
 
   /** @returns {number[]|null} min x, min y, max x, max y over fields */
   extent(fields = store.fields.values()) {
-    const box = [Infinity, Infinity, -Infinity, -Infinity];
-    for (const field of fields) {
-      for (const ring of this.outlineOf(field).rings) {
-        for (const [x, y] of ring) {
-          box[0] = Math.min(box[0], x);
-          box[1] = Math.min(box[1], y);
-          box[2] = Math.max(box[2], x);
-          box[3] = Math.max(box[3], y);
-        }
-      }
-    }
+    const box = boxOf([...fields].flatMap((field) => this.outlineOf(field).rings.flat()));
     return box[0] < box[2] ? box : null;
   }
 
@@ -76,9 +66,10 @@ function isInView(rings, frame) {
   return box[2] > 0 && box[3] > 0 && box[0] < frame.width && box[1] < frame.height;
 }
 
-export function boxOf(ring) {
+/** @param {[number, number][]} points @returns {number[]} min x, min y, max x, max y */
+export function boxOf(points) {
   const box = [Infinity, Infinity, -Infinity, -Infinity];
-  for (const [x, y] of ring) {
+  for (const [x, y] of points) {
     box[0] = Math.min(box[0], x);
     box[1] = Math.min(box[1], y);
     box[2] = Math.max(box[2], x);

@@ -32,7 +32,7 @@ export function groundScale(lat) {
  * @param {HTMLCanvasElement} canvas
  * @param {Object} frameState of OpenLayers
  */
-export function frameOf(canvas, frameState) {
+function frameOf(canvas, frameState) {
   const ratio = frameState.pixelRatio;
   const [width, height] = frameState.size;
   if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {

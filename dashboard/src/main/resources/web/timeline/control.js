@@ -10,7 +10,7 @@ const START_TIMEOUT = 20_000;
 export const SPEEDS = [0.5, 1, 2, 4, 10, 30, 60, 'max'];
 
 /** The path of a replay, or of its group, which shares a clock. @param {{replay: string, group: string=}} replay */
-export function pathOf({ replay, group }) {
+function pathOf({ replay, group }) {
   return group ? `/api/replays/groups/${encodeURIComponent(group)}` : `/api/replays/${encodeURIComponent(replay)}`;
 }
 

@@ -106,7 +106,3 @@ export async function markersOf(missions) {
 export function addMarker(mission, time, note) {
   return api.post(`/api/missions/${encodeURIComponent(mission)}/markers`, { time: Math.round(time), note });
 }
-
-export function removeMarker(marker) {
-  return api.del(`/api/missions/${encodeURIComponent(marker.mission)}/markers/${encodeURIComponent(marker.id)}`);
-}

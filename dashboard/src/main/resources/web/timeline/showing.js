@@ -42,7 +42,7 @@ export const Showing = (Base) => class extends Base {
 
   stateWord() {
     const state = this.state;
-    return t(`timeline.states.${state}`);
+    return t(`replays.states.${state}`);
   }
 
   /** @returns {'starting'|'waiting'|'running'|'paused'|'ended'|'stopped'|'failed'|'over'} */
@@ -55,9 +55,9 @@ export const Showing = (Base) => class extends Base {
   }
 
   showState() {
-    const counts = `${countText('encounter', this.countShown(this.encounters, 'start'))} · ${countText('marker', this.countShown(this.markers, 'time'))}`;
+    const counts = `${t('timeline.encounters', { count: this.countShown(this.encounters, 'start') })} · ${t('timeline.markers', { count: this.countShown(this.markers, 'time') })}`;
     if (!store.isReplay) {
-      setText(this.sub, `${periodText(this.extent[1] - this.extent[0])} · ${countText('encounter', this.encounters.length)}`);
+      setText(this.sub, `${periodText(this.extent[1] - this.extent[0])} · ${t('timeline.encounters', { count: this.encounters.length })}`);
       return;
     }
     const { state } = this;
@@ -201,10 +201,6 @@ export const Showing = (Base) => class extends Base {
     this.resized();
   }
 };
-
-function countText(thing, count) {
-  return t(`timeline.${count === 1 ? thing : `${thing}s`}`, { count });
-}
 
 function periodText(ms) {
   return ms < MINUTE ? t('timeline.lastSeconds', { seconds: Math.round(ms / SECOND) }) : t('timeline.lastMinutes', { minutes: Math.round(ms / MINUTE) });

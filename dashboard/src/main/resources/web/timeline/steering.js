@@ -163,7 +163,7 @@ export const Steering = (Base) => class extends Base {
       }
       this.announce('');
     } catch (error) {
-      this.announce(error.message === 'not-played' ? t('timeline.notPlayed') : error.message, true);
+      this.announce(error.message === 'not-played' ? t('replays.notPlayed') : error.message, true);
     }
   }
 };

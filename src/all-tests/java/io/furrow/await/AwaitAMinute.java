@@ -6,12 +6,9 @@ import org.awaitility.Awaitility;
 import org.junit.jupiter.api.extension.BeforeAllCallback;
 import org.junit.jupiter.api.extension.ExtensionContext;
 
-/**
- * Gives every {@code await()} of every test a minute instead of Awaitility's ten seconds. A test goes on as soon as it can, so the minute
- * costs nothing; ten seconds are too few on a machine that has other work.
- */
+/** Sets the default timeout of Awaitility to a minute: its ten seconds are too short on a busy machine. */
 public final class AwaitAMinute implements BeforeAllCallback {
-    /** Made by JUnit. */
+    /** Called by JUnit. */
     public AwaitAMinute() {}
 
     @Override

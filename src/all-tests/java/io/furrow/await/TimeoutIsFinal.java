@@ -15,8 +15,8 @@ import org.junit.jupiter.api.extension.PreInterruptContext;
 import org.junit.jupiter.api.extension.TestExecutionExceptionHandler;
 
 /**
- * A test that JUnit has ended because it hung is not run again: each further run would hang as long. One that ignores the interrupt ends
- * its JVM and the processes that it started, which Surefire's own limit does not do (SUREFIRE-1722).
+ * Fails the reruns of a test that timed out, because each would hang as long. Ends the JVM and its child processes if a test ignores the
+ * interrupt, which Surefire's own timeout does not do (SUREFIRE-1722).
  */
 public final class TimeoutIsFinal
         implements BeforeAllCallback,
@@ -28,17 +28,17 @@ public final class TimeoutIsFinal
     private static final Map<String, Throwable> TIMEOUTS = new ConcurrentHashMap<>();
     private static final Map<String, CountDownLatch> INTERRUPTED = new ConcurrentHashMap<>();
 
-    /** Made by JUnit. */
+    /** Called by JUnit. */
     public TimeoutIsFinal() {}
 
     @Override
     public void beforeAll(ExtensionContext context) {
-        refuse(context);
+        failIfTimedOut(context);
     }
 
     @Override
     public void beforeEach(ExtensionContext context) {
-        refuse(context);
+        failIfTimedOut(context);
     }
 
     @Override
@@ -64,35 +64,35 @@ public final class TimeoutIsFinal
 
     @Override
     public void handleTestExecutionException(ExtensionContext context, Throwable failure) throws Throwable {
-        throw recorded(context, failure);
+        throw record(context, failure);
     }
 
     @Override
     public void handleBeforeAllMethodExecutionException(ExtensionContext context, Throwable failure) throws Throwable {
-        throw recorded(context, failure);
+        throw record(context, failure);
     }
 
     @Override
     public void handleBeforeEachMethodExecutionException(ExtensionContext context, Throwable failure) throws Throwable {
-        throw recorded(context, failure);
+        throw record(context, failure);
     }
 
     @Override
     public void handleAfterEachMethodExecutionException(ExtensionContext context, Throwable failure) throws Throwable {
-        throw recorded(context, failure);
+        throw record(context, failure);
     }
 
     @Override
     public void handleAfterAllMethodExecutionException(ExtensionContext context, Throwable failure) throws Throwable {
-        throw recorded(context, failure);
+        throw record(context, failure);
     }
 
-    private static Throwable recorded(ExtensionContext context, Throwable failure) {
+    private static Throwable record(ExtensionContext context, Throwable failure) {
         CountDownLatch returned = INTERRUPTED.remove(context.getUniqueId());
         if (returned != null) {
             returned.countDown();
         }
-        // JUnit's own, not that of a future.
+        // a timeout of JUnit, not of a future
         if (failure instanceof TimeoutException
                 && String.valueOf(failure.getMessage()).contains(" timed out after ")) {
             TIMEOUTS.put(context.getUniqueId(), failure);
@@ -100,7 +100,7 @@ public final class TimeoutIsFinal
         return failure;
     }
 
-    private static void refuse(ExtensionContext context) {
+    private static void failIfTimedOut(ExtensionContext context) {
         Throwable timeout = TIMEOUTS.get(context.getUniqueId());
         if (timeout != null) {
             throw new IllegalStateException("Not run again: " + timeout.getMessage(), timeout);

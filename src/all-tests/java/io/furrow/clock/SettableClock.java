@@ -6,7 +6,7 @@ import java.time.Instant;
 import java.time.ZoneId;
 import java.time.ZoneOffset;
 
-/** Continues only where a test moves it. */
+/** Stands still until a test sets or advances it. */
 public final class SettableClock extends Clock {
     private volatile Instant now;
 

@@ -11,10 +11,10 @@ import java.util.regex.Pattern;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /**
- * A service of {@code docker/compose.yaml} that is not ours, for tests with its image in a container.
+ * A third-party service of {@code docker/compose.yaml}, for tests that run its image in a container.
  *
  * @param image with its tag
- * @param environment as it is written there; nothing where it is on one line
+ * @param environment its variables that are on lines of their own
  */
 public record PinnedService(String image, Map<String, String> environment) {
     private static final Pattern VARIABLE = Pattern.compile("(?m)^ {6}([A-Z_]+): \"?([^\"\\n]*)\"?$");

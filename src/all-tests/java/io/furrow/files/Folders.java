@@ -7,25 +7,25 @@ import java.util.Comparator;
 import java.util.List;
 import java.util.stream.Stream;
 
-/** What lies in folders. */
+/** Lists and deletes folders. */
 public final class Folders {
     private Folders() {}
 
-    /** What is right in it, in the order of names. */
+    /** Entries of a folder, sorted by name. */
     public static List<Path> list(Path folder) throws IOException {
         try (Stream<Path> paths = Files.list(folder)) {
             return paths.sorted().toList();
         }
     }
 
-    /** It and all below it, in the order of names: each folder comes before what is in it. */
+    /** A folder and its content, recursively, sorted by path: each folder precedes its content. */
     public static List<Path> walk(Path folder) throws IOException {
         try (Stream<Path> paths = Files.walk(folder)) {
             return paths.sorted().toList();
         }
     }
 
-    /** Deletes it with all that it holds. */
+    /** Deletes a folder and its content. */
     public static void delete(Path folder) throws IOException {
         for (Path path : walk(folder).stream().sorted(Comparator.reverseOrder()).toList()) {
             Files.delete(path);

@@ -5,7 +5,7 @@ import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.util.zip.GZIPOutputStream;
 
-/** What is compressed. */
+/** Compresses bytes with gzip. */
 public final class Gzip {
     private Gzip() {}
 

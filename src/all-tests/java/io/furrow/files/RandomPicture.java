@@ -8,7 +8,7 @@ import java.util.Random;
 import javax.imageio.ImageIO;
 import javax.imageio.stream.MemoryCacheImageOutputStream;
 
-/** A small image for tests; the same seed, the same bytes. */
+/** Creates small images, the same bytes for the same seed. */
 public final class RandomPicture {
     private RandomPicture() {}
 

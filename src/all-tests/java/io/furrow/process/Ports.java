@@ -5,7 +5,7 @@ import java.net.InetAddress;
 import java.net.ServerSocket;
 import java.net.Socket;
 
-/** Ports of this machine's loopback. */
+/** Checks ports of the loopback interface. */
 public final class Ports {
     private Ports() {}
 

@@ -11,17 +11,17 @@ import java.util.stream.Stream;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Programs of the JDK that runs the tests, in processes of their own. */
+/** Runs programs of the JDK of the tests in separate processes. */
 public final class TestProcess {
-    /** How a program ended, and all that it printed. */
+    /** Exit status and output of a program. */
     public record Ended(int status, String output) {}
 
     private TestProcess() {}
 
     /**
-     * A JVM with this one's class path, and open to reflection as this one is.
+     * A JVM with the class path and the {@code --add-…} options of this one.
      *
-     * @param options of the JVM, with blanks between them
+     * @param options of the JVM, separated by spaces
      */
     public static ProcessBuilder java(String options, Class<?> main, Object... arguments) {
         List<String> command = new ArrayList<>(List.of(program("java")));
@@ -34,7 +34,7 @@ public final class TestProcess {
         return new ProcessBuilder(command);
     }
 
-    /** @param words with blanks between them */
+    /** @param words arguments separated by spaces */
     public static void keytool(String words) throws IOException, InterruptedException {
         List<String> command = new ArrayList<>(List.of(program("keytool")));
         command.addAll(List.of(words.split("\\s+")));
@@ -42,7 +42,7 @@ public final class TestProcess {
         assertThat(ended.status()).as(ended.output()).isZero();
     }
 
-    /** Runs a program to its end, for two minutes at most. */
+    /** Runs a program until it ends, with a timeout of two minutes. */
     public static Ended run(ProcessBuilder builder) throws IOException, InterruptedException {
         Path output = Files.createTempFile("process", ".out");
         Process process = builder.redirectErrorStream(true)

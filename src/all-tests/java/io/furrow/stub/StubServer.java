@@ -13,7 +13,7 @@ import com.sun.net.httpserver.HttpServer;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-/** An HTTP server on a free port of this machine for the time of a test; it answers several requests at once. */
+/** Serves HTTP on a free port of the loopback interface, concurrent requests in parallel. */
 public final class StubServer implements AutoCloseable {
     private final HttpServer server;
 
@@ -36,7 +36,7 @@ public final class StubServer implements AutoCloseable {
         return URI.create("http://127.0.0.1:" + server.getAddress().getPort() + path);
     }
 
-    /** Ends the exchange with this status and text, which may be empty. */
+    /** Sends a response with a status and a text, which may be empty. */
     public static void answer(HttpExchange exchange, int status, String text) throws IOException {
         byte[] body = text.getBytes(UTF_8);
         exchange.sendResponseHeaders(status, body.length == 0 ? -1 : body.length);

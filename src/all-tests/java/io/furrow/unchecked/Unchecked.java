@@ -2,7 +2,7 @@ package io.furrow.unchecked;
 
 import java.util.concurrent.Callable;
 
-/** Lets what may throw stand where nothing may be thrown that is checked; it fails the test. */
+/** Converts checked exceptions into assertion errors, for use in lambdas. */
 public final class Unchecked {
     private Unchecked() {}
 

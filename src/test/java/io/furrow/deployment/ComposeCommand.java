@@ -9,7 +9,7 @@ import java.util.regex.Matcher;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-/** Prints what a service of a compose file runs, a word a line, for those who run it without containers. */
+/** Prints the command of a service of a compose file, one word per line, to run it without containers. */
 public final class ComposeCommand {
     private ComposeCommand() {}
 

@@ -18,7 +18,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.ObjectMapper;
 import org.yaml.snakeyaml.Yaml;
 
-/** A compose file, by default {@code docker/compose.yaml}, as Compose reads it, with its anchors resolved. */
+/** A parsed compose file, by default {@code docker/compose.yaml}, with its anchors resolved. */
 record ComposeFile(JsonNode root) {
     static final Path FOLDER = Path.of("..", "docker");
     static final Pattern VARIABLE = Pattern.compile("\\$\\{(\\w+)[^}]*}");
@@ -39,7 +39,7 @@ record ComposeFile(JsonNode root) {
         return services;
     }
 
-    /** Those whose image has this name and that run its own program, by name, with the words of their command. */
+    /** Commands of the services with this image and its own entrypoint, by name of the service. */
     Map<String, List<String>> commands(String image) {
         return services().entrySet().stream()
                 .filter(service -> service.getValue().path("image").asText().equals(image)
@@ -47,7 +47,7 @@ record ComposeFile(JsonNode root) {
                 .collect(Collectors.toMap(Map.Entry::getKey, service -> arguments(service.getValue())));
     }
 
-    /** What it takes from the environment. */
+    /** Variables and secrets that the file reads from the environment. */
     Set<String> variables() {
         Set<String> variables = new TreeSet<>();
         root.path("secrets")

@@ -37,13 +37,13 @@ import io.furrow.replay.ReplayJobs;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** No engine for containers is needed to know that the compose file says what the specification and our programs understand. */
+/** Checks the files of the deployment against the specification of Compose and the programs that they start, without a container engine. */
 class ComposeFileTest {
     private static final Map<String, Class<?>> JOBS = Map.of(
             "ingest.jar", IngestJobs.class, "analytics.jar", AnalyticsJobs.class, "replay.jar", ReplayJobs.class);
-    /** Done when they have done their work. */
+    /** Services that end after their work. */
     private static final String ONE_SHOT = "topics|connectors|job-.*";
-    /** Listen on nothing that a probe could ask. */
+    /** Services without a port to probe. */
     private static final Set<String> UNPROBED = Set.of("datanode", "replay-analytics", "simulators", "taskmanager");
 
     private final ComposeFile compose = ComposeFile.read();
@@ -54,7 +54,7 @@ class ComposeFileTest {
     void conformsToTheSpecification() throws IOException {
         try (InputStream schema = getClass().getResourceAsStream("/compose-spec/compose-spec.json")) {
             ObjectNode specification = new ObjectMapper().readValue(schema, ObjectNode.class);
-            specification.remove("$id"); // names no place
+            specification.remove("$id"); // it is not a URL
             assertThat(JsonSchemaFactory.getInstance(VersionFlag.V202012)
                             .getSchema(specification)
                             .validate(compose.root()))
@@ -63,7 +63,7 @@ class ComposeFileTest {
     }
 
     @Test
-    void reportsCommandsAndOptionsThatThereAre() {
+    void runsExistingCommandsWithExistingOptions() {
         Map<String, List<String>> commands = compose.commands("furrow:local");
 
         assertThat(commands.keySet())
@@ -75,7 +75,7 @@ class ComposeFileTest {
     }
 
     @Test
-    void isReadByTestsOfItsImagesAsByCompose() throws IOException {
+    void isReadByPinnedServiceAsByCompose() throws IOException {
         for (String name : List.of("mongo", "orion", "mosquitto", "iot-agent", "kafka")) {
             assertThat(PinnedService.of(name).image())
                     .isEqualTo(compose.services().get(name).path("image").asText());
@@ -91,7 +91,7 @@ class ComposeFileTest {
     }
 
     @Test
-    void submitsEachJobWithOptionsThatItHas() {
+    void submitsEachJobWithExistingOptions() {
         Map<String, String> submitted = new HashMap<>();
         compose.commands("furrow-flink:local").forEach((service, arguments) -> {
             if (arguments.get(0).equals("/opt/furrow/submit")) {
@@ -122,13 +122,13 @@ class ComposeFileTest {
     }
 
     @Test
-    void takesFromTheEnvironmentWhatInitMakes(@TempDir Path directory) throws IOException {
+    void readsExactlyTheVariablesThatInitWrites(@TempDir Path directory) throws IOException {
         Path file = directory.resolve(".env");
         assertThat(Furrow.commandLine().execute("init", file.toString())).isZero();
 
-        Set<String> made = new TreeSet<>();
-        Files.readAllLines(file).forEach(line -> made.add(line.substring(0, line.indexOf('='))));
-        assertThat(compose.variables()).isEqualTo(made);
+        Set<String> written = new TreeSet<>();
+        Files.readAllLines(file).forEach(line -> written.add(line.substring(0, line.indexOf('='))));
+        assertThat(compose.variables()).isEqualTo(written);
     }
 
     @Test
@@ -156,7 +156,7 @@ class ComposeFileTest {
     }
 
     @Test
-    void opensPortsOnThisMachineAlone() {
+    void bindsPortsToLoopbackOnly() {
         compose.services()
                 .values()
                 .forEach(service -> service.path("ports")
@@ -164,29 +164,29 @@ class ComposeFileTest {
     }
 
     @Test
-    void waitsForWhatCanBeWaitedFor() {
+    void probesAndWaitsForEveryServiceThatCanBeProbed() {
         Map<String, JsonNode> services = compose.services();
         services.forEach((name, service) -> {
             if (!name.matches(ONE_SHOT) && !UNPROBED.contains(name)) {
                 assertThat(service.at("/healthcheck/test")).as(name).isNotEmpty();
             }
-            service.path("depends_on").properties().forEach(need -> {
-                assertThat(services).as(name).containsKey(need.getKey());
-                switch (need.getValue().path("condition").asText()) {
+            service.path("depends_on").properties().forEach(dependency -> {
+                assertThat(services).as(name).containsKey(dependency.getKey());
+                switch (dependency.getValue().path("condition").asText()) {
                     case "service_healthy" ->
-                        assertThat(services.get(need.getKey()).has("healthcheck"))
-                                .as("%s waits for %s", name, need.getKey())
+                        assertThat(services.get(dependency.getKey()).has("healthcheck"))
+                                .as("%s waits for %s", name, dependency.getKey())
                                 .isTrue();
                     case "service_completed_successfully" ->
-                        assertThat(need.getKey()).matches(ONE_SHOT);
-                    default -> assertThat(UNPROBED).contains(need.getKey());
+                        assertThat(dependency.getKey()).matches(ONE_SHOT);
+                    default -> assertThat(UNPROBED).contains(dependency.getKey());
                 }
             });
         });
     }
 
     @Test
-    void namesFilesThatAreThereAndImagesByVersion() throws IOException {
+    void namesExistingFilesAndImagesByVersion() throws IOException {
         List<String> dockerfile = Files.readAllLines(ComposeFile.FOLDER.resolve("Dockerfile"));
         List<String> images = new ArrayList<>();
         compose.services().values().forEach(service -> {
@@ -216,7 +216,7 @@ class ComposeFileTest {
                         .exists());
         JOBS.keySet()
                 .forEach(jar -> assertThat(dockerfile)
-                        .as("it makes %s of what the archive has", jar)
+                        .as("it builds %s from the archive", jar)
                         .anyMatch(line ->
                                 line.matches(".*for job in [a-z ]*\\b%s\\b.*".formatted(jar.replace(".jar", "")))));
     }
@@ -240,7 +240,7 @@ class ComposeFileTest {
     }
 
     @Test
-    void startsAsAServiceWithOptionsThatThereAre() throws IOException {
+    void startsUnderSystemdWithExistingOptions() throws IOException {
         String unit = Files.readString(Path.of("..", "suite/distribution/src/archive/systemd/furrow.service"));
         String start = unit.lines()
                 .filter(line -> line.startsWith("ExecStart="))
@@ -254,7 +254,7 @@ class ComposeFileTest {
                 .isEqualTo("up");
     }
 
-    /** @throws CommandLine.ParameterException if a word is unknown or its value cannot be used */
+    /** @throws CommandLine.ParameterException if an argument is unknown or its value is invalid */
     private static CommandLine last(CommandLine root, List<String> arguments) {
         List<CommandLine> parsed =
                 root.parseArgs(arguments.toArray(String[]::new)).asCommandLineList();

@@ -22,7 +22,7 @@ import io.furrow.process.TestProcess;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** The scripts that run in containers: with a real Mosquitto, and with a Flink that only says how it was called. */
+/** Runs the scripts of the containers with a real Mosquitto, and with a stub of Flink that prints its arguments. */
 class ContainerScriptsTest {
     private static final String PATHS = "/usr/sbin:/usr/bin:/bin";
 
@@ -32,7 +32,7 @@ class ContainerScriptsTest {
     private Path checkpoints;
 
     @BeforeEach
-    void runsOneJob() throws IOException {
+    void writeFlinkStubWithOneJob() throws IOException {
         checkpoints = directory.resolve("checkpoints");
         Path flink = Files.createDirectories(directory.resolve("flink/bin")).resolve("flink");
         Files.writeString(flink, """
@@ -51,11 +51,11 @@ class ContainerScriptsTest {
     }
 
     @Test
-    void goesOnFromTheNewestCompleteCheckpoint() throws Exception {
-        completed("presence/first/chk-9", 60);
-        Path newest = completed("presence/second/chk-2", 30);
+    void continuesFromTheNewestCompleteCheckpoint() throws Exception {
+        completeCheckpoint("presence/first/chk-9", 60);
+        Path newest = completeCheckpoint("presence/second/chk-2", 30);
         Files.createDirectories(checkpoints.resolve("presence/second/chk-3"));
-        completed("ingest/other/chk-1", 0);
+        completeCheckpoint("ingest/other/chk-1", 0);
 
         assertThat(submit("jobs/analytics.jar", "presence"))
                 .isEqualTo(
@@ -64,9 +64,9 @@ class ContainerScriptsTest {
     }
 
     @Test
-    void leavesASavepointToWhoeverMadeIt() throws Exception {
-        completed("presence/first/chk-9", 60);
-        Path savepoint = completed("presence/savepoint-0a1b", 30);
+    void doesNotClaimASavepoint() throws Exception {
+        completeCheckpoint("presence/first/chk-9", 60);
+        Path savepoint = completeCheckpoint("presence/savepoint-0a1b", 30);
 
         assertThat(submit("jobs/analytics.jar", "presence"))
                 .isEqualTo("run -d -s file://%s jobs/analytics.jar presence --checkpoint-dir file://%s/presence\n"
@@ -74,12 +74,12 @@ class ContainerScriptsTest {
     }
 
     @Test
-    void leavesAJobThatRunsAsItIs() throws Exception {
+    void submitsNoRunningJobTwice() throws Exception {
         assertThat(submit("jobs/analytics.jar", "collision")).isEqualTo("collision runs already.\n");
     }
 
     @Test
-    void letsMosquittoReadAccountsThatWereReplaced() throws Exception {
+    void reloadsReplacedAccountsOfMosquitto() throws Exception {
         int port = FreePort.orFree(0);
         Path accounts = Files.createDirectory(directory.resolve("accounts"));
         Files.createDirectory(directory.resolve("data"));
@@ -105,7 +105,7 @@ class ContainerScriptsTest {
             replace(accounts.resolve("passwords"), Files.readString(passwords));
 
             await().until(() -> publishes(port, "robot", "harrow"));
-            begunAnew(directory.resolve("mosquitto.log"), port);
+            checkLogRotation(directory.resolve("mosquitto.log"), port);
         } finally {
             List<ProcessHandle> all = broker.descendants().toList();
             broker.destroy();
@@ -114,8 +114,8 @@ class ContainerScriptsTest {
         }
     }
 
-    /** The log says who connects, and gets a successor when it is large. */
-    private void begunAnew(Path log, int port) throws Exception {
+    /** The log contains the users that connect, and is rotated when it is large. */
+    private void checkLogRotation(Path log, int port) throws Exception {
         assertThat(log).content().contains("New client connected").contains("u'robot'");
         try (RandomAccessFile large = new RandomAccessFile(log.toFile(), "rw")) {
             large.setLength(50_000_001);
@@ -125,7 +125,7 @@ class ContainerScriptsTest {
                 publishes(port, "robot", "harrow") && Files.readString(log).contains("u'robot'"));
     }
 
-    /** What the compose file asks again and again, of this broker. */
+    /** The health check of the compose file, for this broker. */
     private static List<String> probe(int port) throws IOException {
         List<String> arguments = new ArrayList<>();
         ComposeFile.read()
@@ -138,18 +138,18 @@ class ContainerScriptsTest {
         return arguments;
     }
 
-    private Path completed(String checkpoint, int secondsAgo) throws IOException {
-        Path folder = Files.createDirectories(checkpoints.resolve(checkpoint));
+    private Path completeCheckpoint(String name, int secondsAgo) throws IOException {
+        Path folder = Files.createDirectories(checkpoints.resolve(name));
         Path file = Files.createFile(folder.resolve("_metadata"));
         Files.setLastModifiedTime(file, FileTime.from(Instant.now().minusSeconds(secondsAgo)));
         return folder;
     }
 
-    /** In one step, as the control plane does. */
+    /** Replaces a file atomically, as the control plane does; appends a text that does not begin with the old one. */
     private void replace(Path file, String text) throws IOException {
-        String former = Files.readString(file);
-        Path fresh = Files.writeString(file.resolveSibling("fresh"), text.startsWith(former) ? text : former + text);
-        Files.move(fresh, file, StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
+        String old = Files.readString(file);
+        Path temporary = Files.writeString(file.resolveSibling("fresh"), text.startsWith(old) ? text : old + text);
+        Files.move(temporary, file, StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
     }
 
     private static boolean publishes(int port, String user, String password) throws Exception {

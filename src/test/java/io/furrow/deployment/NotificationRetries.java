@@ -18,16 +18,16 @@ import com.sun.net.httpserver.HttpExchange;
 import com.sun.net.httpserver.HttpServer;
 
 /**
- * Passes what is posted to {@code /<port>/…} on to that port, again and again until it is acknowledged: a 2xx; other answers are printed.
- * A context broker sends each notification once; behind this, one that is not in Kafka in the end was acknowledged. It gets an answer
- * before it would count a failure, of which too many end a subscription.
+ * Forwards a notification posted to {@code /<port>/…} to that port until it is acknowledged with a 2xx, and prints other status codes. A
+ * context broker sends each notification once: with these retries, a notification that is missing in Kafka at the end was acknowledged. The
+ * broker gets a response before it counts a failure, because too many failures end a subscription.
  */
 final class NotificationRetries {
     private static final Duration TIMEOUT = Duration.ofSeconds(10);
     private static final long BACKOFF_MS = 200;
-    private static final int HOLD_SECONDS = 4;
-    private static final int NOT_YET = 503;
-    private static final List<String> PASSED_ON =
+    private static final int RESPONSE_TIMEOUT_SECONDS = 4;
+    private static final int UNAVAILABLE = 503;
+    private static final List<String> FORWARDED_HEADERS =
             List.of("Content-Type", "Fiware-Service", "Fiware-Servicepath", "Fiware-Correlator", "Ngsiv2-AttrsFormat");
 
     private static final ExecutorService THREADS = Executors.newCachedThreadPool();
@@ -41,12 +41,12 @@ final class NotificationRetries {
     /** Listens on 127.0.0.1 until the process ends. */
     static void start(int port) throws IOException {
         HttpServer server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), port), 0);
-        server.createContext("/", NotificationRetries::pass);
+        server.createContext("/", NotificationRetries::forward);
         server.setExecutor(THREADS);
         server.start();
     }
 
-    private static void pass(HttpExchange exchange) throws IOException {
+    private static void forward(HttpExchange exchange) throws IOException {
         try (exchange) {
             String[] path = exchange.getRequestURI().getPath().split("/", 3);
             HttpRequest.Builder request = HttpRequest.newBuilder(
@@ -54,17 +54,17 @@ final class NotificationRetries {
                     .timeout(TIMEOUT)
                     .POST(HttpRequest.BodyPublishers.ofByteArray(
                             exchange.getRequestBody().readAllBytes()));
-            PASSED_ON.forEach(name -> exchange.getRequestHeaders()
+            FORWARDED_HEADERS.forEach(name -> exchange.getRequestHeaders()
                     .getOrDefault(name, List.of())
                     .forEach(value -> request.header(name, value)));
-            int status = CompletableFuture.supplyAsync(() -> untilAcknowledged(request.build()), THREADS)
-                    .completeOnTimeout(NOT_YET, HOLD_SECONDS, TimeUnit.SECONDS)
+            int status = CompletableFuture.supplyAsync(() -> sendUntilAcknowledged(request.build()), THREADS)
+                    .completeOnTimeout(UNAVAILABLE, RESPONSE_TIMEOUT_SECONDS, TimeUnit.SECONDS)
                     .join();
             exchange.sendResponseHeaders(status, -1);
         }
     }
 
-    private static int untilAcknowledged(HttpRequest request) {
+    private static int sendUntilAcknowledged(HttpRequest request) {
         try {
             int status = send(request);
             while (status / 100 != 2) {
@@ -80,7 +80,7 @@ final class NotificationRetries {
         }
     }
 
-    /** @return 0 without an answer */
+    /** @return 0 without a response */
     private static int send(HttpRequest request) throws InterruptedException {
         try {
             return CLIENT.send(request, HttpResponse.BodyHandlers.discarding()).statusCode();

@@ -17,13 +17,13 @@ import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
 import io.furrow.model.topic.Topics;
 
-/** Stand-ins for the context broker, the IoT Agent, MongoDB and the one use of {@code kafka-topics.sh}, in one process. */
+/** Runs stand-ins for the context broker, the IoT Agent and MongoDB in one process, and creates the topic {@code data.raw}. */
 public final class StandIns {
     private StandIns() {}
 
     /**
-     * Arguments: folder; ports of context broker, IoT Agent, MongoDB and {@link NotificationRetries}; URI of the MQTT broker, the
-     * agent's user and password there; Kafka, on which {@code data.raw} is made. Ends when it is killed.
+     * Arguments: folder; ports of context broker, IoT Agent, MongoDB and {@link NotificationRetries}; URI of the MQTT broker, the IoT
+     * Agent's user and password there; bootstrap servers of Kafka. Runs until it is killed.
      */
     public static void main(String... args) throws IOException, InterruptedException, ExecutionException {
         try (Admin admin = Admin.create(Map.of("bootstrap.servers", args[8]))) {

@@ -1,2 +1,2 @@
-/** Tests of what is deployed: the files of {@code docker/} and the unit for systemd. */
+/** Tests of the files of {@code docker/} and of the systemd unit. */
 package io.furrow.deployment;

@@ -173,11 +173,11 @@ public final class BadAmongGood implements AutoCloseable {
                     read++;
                 }
             }
-            System.out.printf("%d records came out, %d different events%n", read, seen.cardinality());
+            System.out.printf("%d records were emitted, %d different events%n", read, seen.cardinality());
         }
         if (seen.cardinality() != good || repeated > 0) {
-            faults.add("of " + good + " good events " + (good - seen.cardinality()) + " did not come out, " + repeated
-                    + " came out more than once");
+            faults.add("of " + good + " good events " + (good - seen.cardinality()) + " were not emitted, " + repeated
+                    + " were emitted more than once");
         }
         faults.addAll(wrongDeadLetters(bad, 1, until));
         return faults;

@@ -26,7 +26,7 @@ record ResultComparison(int required, List<String> missing, List<String> repeate
             if (found.put(result.name(), result.value()) != null) {
                 repeated.add(result.name());
             } else if (!result.value().equals(values.get(result.name()))) {
-                wrong.add(result.name() + " says " + result.value() + " instead of " + values.get(result.name()));
+                wrong.add(result.name() + " is " + result.value() + " instead of " + values.get(result.name()));
             }
         }
         Predicate<Result> due = result -> result.time() <= horizon;

@@ -37,7 +37,7 @@ class ResultComparisonTest {
     void listsWrongValues() {
         ResultComparison comparison = ResultComparison.of(List.of(FIRST), List.of(new Result("number 1", "c", 10)), 20);
 
-        assertThat(comparison.wrong()).containsExactly("number 1 says c instead of a");
+        assertThat(comparison.wrong()).containsExactly("number 1 is c instead of a");
         assertThat(comparison.isClean()).isFalse();
     }
 

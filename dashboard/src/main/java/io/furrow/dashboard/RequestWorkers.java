@@ -78,7 +78,7 @@ final class RequestWorkers extends Handler.Wrapper {
         Problem problem = new Problem(
                 503,
                 "overloaded",
-                "%d requests wait for Kafka or the control plane; ask again in a moment".formatted(WAITING));
+                "%d requests wait for Kafka or the control plane; try again in a moment".formatted(WAITING));
         onRejection.accept(problem);
         response.getHeaders().put(HttpHeader.RETRY_AFTER, "1");
         problem.answer(response, callback);

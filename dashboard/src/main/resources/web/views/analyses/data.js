@@ -16,7 +16,7 @@ const MAX_RESULTS = 5_000;
  * @property {number} plain mean including suspects @property {number} devices @property {string[]} suspects @property {string} quality
  */
 /** @returns {Average|null} */
-export function readAverage({ value, headers, time }) {
+function readAverage({ value, headers, time }) {
   const of = (name) => value?.[name]?.value;
   if (value?.type !== 'Analytics:FieldTemperature' || typeof of('averageTemperature') !== 'number') {
     return null;
@@ -31,7 +31,7 @@ export function readAverage({ value, headers, time }) {
  * @returns {{id: string, device: string, name: string, field: string, fieldName: string, from: number, to: number|null}|null} `to` is null for a stay
  *     that continues
  */
-export function readStay({ value, headers }) {
+function readStay({ value, headers }) {
   const of = (name) => value?.[name]?.value;
   if (value?.type !== 'Analytics:Presence' || typeof of('startTime') !== 'number') {
     return null;

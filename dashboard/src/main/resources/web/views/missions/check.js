@@ -116,7 +116,7 @@ function place(group, entity, domain, { fields }) {
 }
 
 /** Whether a point is inside, by the even-odd rule over all rings; degrees are treated as a plane, which is exact enough for fields. */
-export function isInside(geometry, [x, y]) {
+function isInside(geometry, [x, y]) {
   const polygons = geometry?.type === 'Polygon' ? [geometry.coordinates] : geometry?.type === 'MultiPolygon' ? geometry.coordinates : [];
   return polygons.some((rings) => {
     let inside = false;

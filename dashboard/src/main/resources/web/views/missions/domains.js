@@ -45,7 +45,7 @@ export class Domains {
   domain(domain) {
     const missions = missionsOf(domain.domain);
     return h('li.card.row', null,
-      h('div.cut', null, h('strong', null, domain.name ?? domain.domain), h('p.small.muted.cut', null, [domain.domain, domain.description].filter(Boolean).join(' · ')), h('p.small.muted', null, `${counted('missions.countMission', missions.length)}, ${counted('missions.countField', fieldsOf(domain).length)}`)),
+      h('div.cut', null, h('strong', null, domain.name ?? domain.domain), h('p.small.muted.cut', null, [domain.domain, domain.description].filter(Boolean).join(' · ')), h('p.small.muted', null, `${t('missions.countMissions', { count: missions.length })}, ${t('missions.countFields', { count: fieldsOf(domain).length })}`)),
       h('span.spacer'),
       h('button.button.quiet.square', { type: 'button', 'aria-label': t('topics.showOnly', { name: domain.domain }), title: t('topics.showOnly', { name: domain.domain }), data: { act: `map ${domain.domain}` }, on: { click: () => { store.setScope({ domain: domain.domain }); navigate('map'); } } }, icon('map', 18)),
       store.may('administer') && h('button.button.quiet.square', { type: 'button', 'aria-label': t('missions.deleteDomain', { domain: domain.domain }), title: t('missions.deleteDomain', { domain: domain.domain }), data: { act: `delete ${domain.domain}` }, on: { click: () => deleteDomain(domain.domain) } }, icon('trash', 18)));
@@ -54,10 +54,6 @@ export class Domains {
   close() {
     this.subscriptions.forEach((unsubscribe) => unsubscribe());
   }
-}
-
-function counted(key, count) {
-  return t(count === 1 ? key : `${key}s`, { count });
 }
 
 function isFile(event) {
@@ -95,7 +91,7 @@ function deleteDomain(domain) {
     body: [
       h('p', null, missions.length + fields.length === 0
         ? t('missions.deleteDomainEmpty')
-        : t('missions.deleteDomainText', { missions: counted('missions.countMission', missions.length), fields: counted('missions.countField', fields.length) })),
+        : t('missions.deleteDomainText', { missions: t('missions.countMissions', { count: missions.length }), fields: t('missions.countFields', { count: fields.length }) })),
       running.length > 0 && h('label.check', null, force, t('missions.deleteDomainForce', { missions: running.map((each) => each.mission).join(', ') })),
     ],
     work: () => api.del(`/api/domains/${encodeURIComponent(domain)}${running.length ? '?force=true' : ''}`),

@@ -4,7 +4,7 @@ const WINDOW_MILLIS = 60_000;
 const MAX_SAMPLES = 4_000;
 
 /** Hops: from the device to the NGSI source, from there to ingest, from there to this page. */
-export const HOPS = ['device', 'source', 'page'];
+const HOPS = ['device', 'source', 'page'];
 
 export class HopDelays {
   constructor() {

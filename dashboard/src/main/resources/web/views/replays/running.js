@@ -24,16 +24,16 @@ export function grouped(replays) {
   return [...byKey.values()];
 }
 
-export function stateOfReplay({ status }) {
+function stateOfReplay({ status }) {
   return !status ? 'starting' : status.state === 'running' && status.progress?.waiting ? 'waiting' : status.state;
 }
 
 /** A link to a moment. If the replay no longer exists, the link offers to start one there. */
-export function linkToMoment({ replay, mission, group }, missions, time) {
+function linkToMoment({ replay, mission, group }, missions, time) {
   return new URL(linkTo('map', { replay, mission: (group ? missions : [mission]).join(), at: new Date(time).toISOString() }), location.href).href;
 }
 
-export class RunningReplay {
+class RunningReplay {
   constructor(entry, announce) {
     this.announce = announce;
     this.name = h('h3');

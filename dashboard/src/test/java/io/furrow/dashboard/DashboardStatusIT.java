@@ -25,7 +25,7 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** What the dashboard reports about topics, Kafka, the control plane and itself. */
+/** Tests the reports of the dashboard on topics, Kafka, the control plane and itself. */
 class DashboardStatusIT extends DashboardFixture {
     @Test
     void returnsTheHistoryOfATopic() throws Exception {

@@ -147,7 +147,8 @@ public final class ReplayOptions extends JobOptions {
     @Option(
             names = "--topic",
             paramLabel = "NAME",
-            description = "With --once: data.<mission>.replay.<eight hexadecimal digits>. Default: a topic with new digits.")
+            description =
+                    "With --once: data.<mission>.replay.<eight hexadecimal digits>. Default: a topic with new digits.")
     private String topic;
 
     /** Removes the options of event time and input; {@code --from} is that of a mission. */

@@ -75,7 +75,7 @@ record ChaosChecks(ChaosFarm farm, List<MissionActor> actors) {
                 && status.path("confirmed").asInt() == devices;
         boolean rests = Set.of("created", "stopped", "failed").contains(state);
         if (desired.isRunning() ? !runs : !rests) {
-            faults.add("%s shows mission %s, wanted %s with %d devices, as %s"
+            faults.add("%s shows mission %s, expected %s with %d devices, as %s"
                     .formatted(api, desired.mission(), desired.isRunning() ? "running" : "stopped", devices, status));
         }
     }
@@ -145,7 +145,7 @@ record ChaosChecks(ChaosFarm farm, List<MissionActor> actors) {
         Set<String> unexpected = new TreeSet<>(actual);
         unexpected.removeAll(expected);
         if (!missing.isEmpty() || !unexpected.isEmpty()) {
-            faults.add("%s: missing %s, not wanted %s".formatted(what, missing, unexpected));
+            faults.add("%s: missing %s, unexpected %s".formatted(what, missing, unexpected));
         }
     }
 
@@ -189,7 +189,7 @@ record ChaosChecks(ChaosFarm farm, List<MissionActor> actors) {
                     .allMatch(alarm -> alarm.path("state").asText().equals("closed"));
             if (raised.size() != 1 || ended && !closed) {
                 faults.add("the encounter %s, which %s, has the alarms %s"
-                        .formatted(pair, ended ? "has ended" : "goes on", raised));
+                        .formatted(pair, ended ? "has ended" : "is ongoing", raised));
             }
         });
         return faults;

@@ -19,25 +19,25 @@ final class ChaosFaults {
         int times = brief ? 1 : 0;
         for (int i = 0; i < supervisors.size(); i++) {
             String name = farm.controls.get(i).name();
-            add(name, pace(brief, i == 0 ? 6 : 20, 3, 90, 15, times), control(supervisors.get(i)), random);
+            add(name, timing(brief, i == 0 ? 6 : 20, 3, 90, 15, times), control(supervisors.get(i)), random);
         }
-        add("kafka", pace(brief, 13, 3, 300, 25, times), kafka(), random);
-        add("iot-agent", pace(brief, 5, 8, 120, 40, times), proxy(farm.iotAgent), random);
-        add("context-broker", pace(brief, 5, 8, 120, 40, times), proxy(farm.contextBroker), random);
-        add("mosquitto", pace(brief, 9, 4, 150, 20, times), mosquitto(), random);
-        add("webhook", pace(brief, 8, 6, 90, 30, times), proxy(farm.webhook), random);
-        add("webhook-refuses", pace(brief, 18, 4, 120, 20, times), webhookErrors(), random);
+        add("kafka", timing(brief, 13, 3, 300, 25, times), kafka(), random);
+        add("iot-agent", timing(brief, 5, 8, 120, 40, times), proxy(farm.iotAgent), random);
+        add("context-broker", timing(brief, 5, 8, 120, 40, times), proxy(farm.contextBroker), random);
+        add("mosquitto", timing(brief, 9, 4, 150, 20, times), mosquitto(), random);
+        add("webhook", timing(brief, 8, 6, 90, 30, times), proxy(farm.webhook), random);
+        add("webhook-errors", timing(brief, 18, 4, 120, 20, times), webhookErrors(), random);
     }
 
     /** @param pause mean seconds of the brief form, like {@code outage}; the others are those of the long form */
-    private static RecurringFault.Pace pace(
+    private static RecurringFault.Timing timing(
             boolean brief, int pause, int outage, int longPause, int longOutage, int times) {
-        return new RecurringFault.Pace(
+        return new RecurringFault.Timing(
                 Duration.ofSeconds(brief ? pause : longPause), Duration.ofSeconds(brief ? outage : longOutage), times);
     }
 
-    private void add(String name, RecurringFault.Pace pace, RecurringFault.Action action, Random random) {
-        faults.add(new RecurringFault(name, pace, action, new Random(random.nextLong())));
+    private void add(String name, RecurringFault.Timing timing, RecurringFault.Action action, Random random) {
+        faults.add(new RecurringFault(name, timing, action, new Random(random.nextLong())));
     }
 
     void start() {

@@ -115,13 +115,13 @@ public final class ControlChaos {
         outages.start();
         watch(outages);
         outages.stop();
-        print("everything is back after %s; %d requests are answered"
+        print("all servers run again after %s; %d requests are answered"
                 .formatted(outages.counts(), requester.answered()));
         requesting = false;
         settle();
         supervisors.forEach(Supervisor::close);
         print(
-                "%d requests, %d times repeated; %d encounters, %d alarms taken; %d missions failed; %d starts without Kafka; longest recovery %.1f s"
+                "%d requests, %d retries; %d encounters, %d alarms received; %d missions failed; %d starts without Kafka; longest recovery %.1f s"
                         .formatted(
                                 requester.sent().size(),
                                 requester.repeated(),
@@ -187,7 +187,7 @@ public final class ControlChaos {
         long end = System.nanoTime() + settings.duration().toNanos();
         while (System.nanoTime() < end) {
             Thread.sleep(Math.max(1, Math.min(PROGRESS.toMillis(), (end - System.nanoTime()) / 1_000_000)));
-            print("away: %s; requests %d, answered %d, repeated %d; encounters %d, alarms taken %d; faults %d"
+            print("unavailable: %s; requests %d, answered %d, retries %d; encounters %d, alarms received %d; faults %d"
                     .formatted(
                             outages.unavailable(),
                             requester.sent().size(),

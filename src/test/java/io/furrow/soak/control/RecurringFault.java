@@ -10,7 +10,7 @@ import java.util.concurrent.atomic.AtomicInteger;
 final class RecurringFault {
     private final String name;
     private final Action action;
-    private final Pace pace;
+    private final Timing timing;
     private final Random random;
     private final CountDownLatch stopped = new CountDownLatch(1);
     private final AtomicInteger count = new AtomicInteger();
@@ -30,12 +30,12 @@ final class RecurringFault {
      *
      * @param times maximum number of repetitions; 0 for no limit
      */
-    record Pace(Duration pause, Duration outage, int times) {}
+    record Timing(Duration pause, Duration outage, int times) {}
 
-    RecurringFault(String name, Pace pace, Action action, Random random) {
+    RecurringFault(String name, Timing timing, Action action, Random random) {
         this.name = name;
         this.action = action;
-        this.pace = pace;
+        this.timing = timing;
         this.random = random;
         this.thread = new Thread(this::run, name);
     }
@@ -59,11 +59,11 @@ final class RecurringFault {
 
     private void run() {
         try {
-            while ((pace.times() == 0 || count.get() < pace.times()) && !awaitStop(pace.pause())) {
+            while ((timing.times() == 0 || count.get() < timing.times()) && !awaitStop(timing.pause())) {
                 active = true;
                 count.incrementAndGet();
                 action.begin(random);
-                awaitStop(pace.outage());
+                awaitStop(timing.outage());
                 action.end();
                 active = false;
             }
@@ -88,7 +88,7 @@ final class RecurringFault {
         stopped.countDown();
         thread.join();
         if (failure != null) {
-            throw new IllegalStateException(name + " could not be made to fail or to work again", failure);
+            throw new IllegalStateException(name + ": the fault cannot be started or ended", failure);
         }
     }
 }

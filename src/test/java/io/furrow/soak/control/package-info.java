@@ -1,2 +1,2 @@
-/** Long checks of the control plane: random requests while what it depends on is killed or cut off. */
+/** Long checks of the control plane: random requests while its servers are killed or disconnected. */
 package io.furrow.soak.control;

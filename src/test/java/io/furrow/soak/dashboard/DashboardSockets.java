@@ -290,7 +290,7 @@ public final class DashboardSockets implements AutoCloseable {
                 when,
                 dashboard.pooledThreads());
         check(fewThreads, "%s there are %d threads, before there were %d", when, threads(), threadsBefore);
-        check(dashboard.isAlive(), "%s the dashboard is gone", when);
+        check(dashboard.isAlive(), "%s the dashboard has ended", when);
     }
 
     private long threads() {

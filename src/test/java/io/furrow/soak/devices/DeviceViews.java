@@ -13,7 +13,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.soak.control.Until;
 
 /** Checks what {@code ./furrow device show}, missions and alarms report about the devices. */
-record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
+record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults checkResults) {
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final long CLOCK_TOLERANCE_MILLIS = 5_000;
     private static final long SILENT_WITHOUT_A_PERIOD_MILLIS = 180_000;
@@ -42,7 +42,7 @@ record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
         plan.devices().stream()
                 .filter(each -> each.reports() == missing.contains(each.id()))
                 .forEach(each -> differences.add("missing, or not: " + each.id()));
-        verdicts.add(
+        checkResults.add(
                 "missions run", "%d devices are up, %d named as missing".formatted(up, missing.size()), differences);
     }
 
@@ -71,10 +71,10 @@ record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
      * Each device without a fault has a login, is registered at the agent, has a correct clock, and no cause of
      * silence.
      */
-    void soundDevices(String when) throws IOException, InterruptedException {
+    void healthyDevices(String when) throws IOException, InterruptedException {
         check(
                 "device show of the others, " + when,
-                plan.devices().stream().filter(ProgramPlan.Device::isSound).toList(),
+                plan.devices().stream().filter(ProgramPlan.Device::isHealthy).toList(),
                 (device, shown) -> shown.at("/connection/loggedIn").isNumber()
                                 && shown.at("/connection/registered").asBoolean()
                                 && !shown.path("connection").has("cause")
@@ -175,7 +175,7 @@ record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
                 differences.add(each.id() + ": " + differs);
             }
         }
-        verdicts.add(what, "%d devices: %s".formatted(devices.size(), example), differences);
+        checkResults.add(what, "%d devices: %s".formatted(devices.size(), example), differences);
     }
 
     private JsonNode show(ProgramPlan.Device device) {
@@ -187,7 +187,7 @@ record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
      *
      * @param quiet devices that have not reported for so long that others would count as silent
      */
-    void noSoundDeviceIsSilent(List<ProgramPlan.Device> quiet) {
+    void noHealthyDeviceIsSilent(List<ProgramPlan.Device> quiet) {
         Until.within(TIMEOUT.multipliedBy(3), () -> silent().isEmpty());
         List<String> differences = new ArrayList<>(silent());
         long now = System.currentTimeMillis();
@@ -196,11 +196,11 @@ record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
             min = Math.min(min, now - show(each).at("/health/heard").asLong());
         }
         if (min < SILENT_WITHOUT_A_PERIOD_MILLIS) {
-            differences.add("the others were not left alone for long enough");
+            differences.add("the quiet devices were not quiet for long enough");
         }
-        verdicts.add(
-                "no sound device counts as silent",
-                "%d devices with a period of 15 min have said nothing for %d s or more"
+        checkResults.add(
+                "no healthy device counts as silent",
+                "%d devices with a period of 15 min have not reported for %d s or more"
                         .formatted(quiet.size(), min / 1000),
                 differences);
     }
@@ -208,8 +208,8 @@ record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
     private List<String> silent() {
         List<String> silent = new ArrayList<>();
         for (JsonNode device : up.get("/api/devices")) {
-            boolean sound = !device.path("mission").asText().equals(ProgramPlan.FAULTY);
-            if (sound && device.at("/health/silent").asBoolean()) {
+            boolean healthy = !device.path("mission").asText().equals(ProgramPlan.FAULTY);
+            if (healthy && device.at("/health/silent").asBoolean()) {
                 silent.add(device.path("id").asText());
             }
         }

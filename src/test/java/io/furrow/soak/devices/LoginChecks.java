@@ -19,7 +19,7 @@ import io.furrow.soak.control.Until;
 import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Checks that the programs stay connected with their logins, execute commands, and lose a login when it is rotated. */
-record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResults verdicts) {
+record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResults checkResults) {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
     private static final long MAX_CUT_DELAY_MILLIS = 2_000;
 
@@ -62,9 +62,9 @@ record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResu
                 }
             }
         }
-        verdicts.add(
+        checkResults.add(
                 "logins after " + after,
-                "%d connected as before after %.1f s more, %d were cut off, none refused"
+                "%d connected as before after %.1f s more, %d were disconnected, none rejected"
                         .formatted(now.size(), seconds, cuts),
                 differences);
     }
@@ -83,7 +83,7 @@ record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResu
         }
         double sent = (System.currentTimeMillis() - since) / 1e3;
         differences.addAll(unanswered("on", devices, since));
-        verdicts.add(
+        checkResults.add(
                 "commands, " + when,
                 "%d sent in %.1f s, all answered after %.1f s"
                         .formatted(devices.size(), sent, (System.currentTimeMillis() - since) / 1e3),
@@ -96,7 +96,7 @@ record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResu
         for (ProgramPlan.Device each : devices) {
             farm.up.run("device", "command", each.id(), "off");
         }
-        verdicts.add(
+        checkResults.add(
                 "./furrow device command",
                 "%d sent, all answered".formatted(devices.size()),
                 unanswered("off", devices, since));
@@ -146,9 +146,10 @@ record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResu
         for (int i = 0; i < devices.size(); i++) {
             max = Math.max(max, measureRotation(devices.get(i), i % 2 == 1, differences));
         }
-        verdicts.add(
+        checkResults.add(
                 "rotated logins",
-                "%d cut off after at most %d ms, then refused, and in with the new one".formatted(devices.size(), max),
+                "%d disconnected after at most %d ms, then rejected, and connected with the new login"
+                        .formatted(devices.size(), max),
                 differences);
     }
 
@@ -167,10 +168,10 @@ record LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResu
         boolean isCut = Until.within(TIMEOUT, () -> time("cut", device, old, requested) > 0);
         long delay = time("cut", device, old, requested) - from;
         if (!isCut || delay > MAX_CUT_DELAY_MILLIS) {
-            differences.add("%s was cut off %d ms after its login was rotated".formatted(device.id(), delay));
+            differences.add("%s was disconnected %d ms after its login was rotated".formatted(device.id(), delay));
         }
         if (!Until.within(TIMEOUT, () -> time("refused", device, old, requested) > 0)) {
-            differences.add("%s was let in again with its old login, or did not try".formatted(device.id()));
+            differences.add("%s connected again with its old login, or did not try".formatted(device.id()));
         }
         programs.setCredentials(
                 device.mission(),

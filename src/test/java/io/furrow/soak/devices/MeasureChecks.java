@@ -16,7 +16,7 @@ import io.furrow.model.topic.Topics;
 import io.furrow.soak.TopicLog;
 
 /** Compares what the programs sent with the records on Kafka's topics. */
-record MeasureChecks(String kafka, ProgramPlan plan, CheckResults verdicts) {
+record MeasureChecks(String kafka, ProgramPlan plan, CheckResults checkResults) {
     private static final Duration READ_TIME = Duration.ofMillis(200);
     /** Time after which a window is visible: the out-of-orderness and a commit of the job. */
     static final Duration VISIBLE_AFTER = Duration.ofSeconds(15);
@@ -53,7 +53,7 @@ record MeasureChecks(String kafka, ProgramPlan plan, CheckResults verdicts) {
                 }
             }
         }
-        verdicts.add(
+        checkResults.add(
                 "reports in their missions, " + when,
                 "%d reports, each %s".formatted(sent, once ? "once" : "there"),
                 differences);
@@ -94,7 +94,7 @@ record MeasureChecks(String kafka, ProgramPlan plan, CheckResults verdicts) {
             }
         }
         long unexpected = unexpectedlyLate(events, late, from, to);
-        verdicts.add(
+        checkResults.add(
                 "averages of the fields, " + when,
                 "%d windows; %d measures too late for theirs beside what was stored"
                         .formatted(expected.size(), unexpected),
@@ -119,9 +119,9 @@ record MeasureChecks(String kafka, ProgramPlan plan, CheckResults verdicts) {
         ExpectedEncounters.pairs(results).stream()
                 .filter(each -> !plan.pairs().contains(each))
                 .forEach(each -> differences.add("must not meet: " + each));
-        verdicts.add(
+        checkResults.add(
                 "encounters, " + when,
-                "%d encounters of %d pairs, nobody else ever met"
+                "%d encounters of %d pairs, no other pair met"
                         .formatted(expected.size(), plan.pairs().size()),
                 expected.isEmpty() ? List.of("there was no encounter") : differences);
     }

@@ -51,18 +51,13 @@ final class ProgramPlan {
      * @param behavior of its program
      */
     record Device(String id, String mission, String fault, String field, Duration period, ObjectNode behavior) {
-        boolean isSound() {
+        boolean isHealthy() {
             return fault.equals("none");
-        }
-
-        /** Whether its program can log in. */
-        boolean logsIn() {
-            return !fault.equals("password");
         }
 
         /** Whether its reports arrive, with a correct or wrong time. */
         boolean reports() {
-            return isSound() || fault.equals("clock");
+            return isHealthy() || fault.equals("clock");
         }
 
         boolean isTractor() {

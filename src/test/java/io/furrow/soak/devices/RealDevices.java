@@ -25,7 +25,7 @@ public final class RealDevices {
     private final Path folder;
     private final Duration undisturbed;
     private final ProgramPlan plan = new ProgramPlan();
-    private final CheckResults verdicts = new CheckResults();
+    private final CheckResults checkResults = new CheckResults();
     private final RealFarm farm;
     private final Programs programs;
     private final LoginChecks logins;
@@ -38,9 +38,9 @@ public final class RealDevices {
         this.undisturbed = undisturbed;
         farm = new RealFarm(home, folder, plan);
         programs = new Programs(program(), folder.resolve("programs"));
-        logins = new LoginChecks(farm, plan, programs, verdicts);
-        measures = new MeasureChecks(farm.up.kafka(), plan, verdicts);
-        views = new DeviceViews(farm.up, plan, verdicts);
+        logins = new LoginChecks(farm, plan, programs, checkResults);
+        measures = new MeasureChecks(farm.up.kafka(), plan, checkResults);
+        views = new DeviceViews(farm.up, plan, checkResults);
     }
 
     private Path program() {
@@ -59,7 +59,7 @@ public final class RealDevices {
             holds = soak.run();
         } finally {
             System.out.println();
-            soak.verdicts.lines().forEach(System.out::println);
+            soak.checkResults.lines().forEach(System.out::println);
         }
         System.exit(holds ? 0 : 1);
     }
@@ -72,21 +72,21 @@ public final class RealDevices {
         print("%d devices in %d processes".formatted(plan.devices().size(), programs.processes()));
         views.missions();
         undisturbed("undisturbed", startedAt);
-        views.soundDevices("undisturbed");
+        views.healthyDevices("undisturbed");
         views.faultsBesideMosquitto("undisturbed");
         logins.checkCommandLine(every(60));
         logins.checkCommands("undisturbed", commanded());
         logins.rotate(every(40));
         killEachOnce();
-        undisturbed("after all came back", System.currentTimeMillis());
-        views.soundDevices("after all came back");
-        views.noSoundDeviceIsSilent(quiet());
-        logins.checkCommands("to those that said nothing", quiet());
+        undisturbed("after the kills", System.currentTimeMillis());
+        views.healthyDevices("after the kills");
+        views.noHealthyDeviceIsSilent(quiet());
+        logins.checkCommands("to quiet devices", quiet());
         boolean alive = programs.areAlive();
         programs.close();
         farm.close();
         faultsAtTheSuitesOwnBroker();
-        return verdicts.hold() && alive;
+        return checkResults.hold() && alive;
     }
 
     /** Checks the same faults with the suite's own broker and agent, which detect more of them. */
@@ -101,7 +101,7 @@ public final class RealDevices {
                     plan.missions().stream()
                             .filter(mission -> mission.name().equals(ProgramPlan.FAULTY))
                             .toList());
-            new DeviceViews(up, plan, verdicts).faultsOfTheSuite();
+            new DeviceViews(up, plan, checkResults).faultsOfTheSuite();
         }
     }
 
@@ -154,7 +154,7 @@ public final class RealDevices {
         Thread.sleep(OUTAGE.toMillis());
         farm.up.start();
         checkRecovery("the control plane's end", before, killedAt, false);
-        views.soundDevices("after the control plane's end");
+        views.healthyDevices("after the control plane's end");
         views.faultsBesideMosquitto("after it");
 
         killedAt = System.currentTimeMillis();

@@ -129,8 +129,8 @@ public final class LoadWriter {
         try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
             while (closed.size() < FarmLoad.PARTITIONS) {
                 if (System.nanoTime() > until) {
-                    throw new IllegalStateException("nothing came out for " + timeout + ", and of the last events of "
-                            + FarmLoad.PARTITIONS + " partitions only " + closed);
+                    throw new IllegalStateException("no record was emitted for " + timeout + "; of "
+                            + FarmLoad.PARTITIONS + " partitions only these are complete: " + closed);
                 }
                 if (assign(consumer)) {
                     ConsumerRecords<byte[], byte[]> records = consumer.poll(Duration.ofMillis(200));

@@ -138,7 +138,7 @@ final class Senders {
                 socket.close();
             }
         } catch (IOException e) {
-            // the socket is not used any more
+            // the socket is no longer used
         }
     }
 

@@ -63,7 +63,7 @@ public final class SourceOutage {
 
     private static void show(SourceWorker worker, String what) throws Exception {
         System.out.printf(
-                "%s: durable %d, pending %d, turned away %d, resident %d MiB%n",
+                "%s: durable %d, pending %d, rejected %d, resident %d MiB%n",
                 what,
                 worker.health().path("durable").asLong(-1),
                 worker.health().path("pending").asLong(-1),

@@ -63,7 +63,7 @@ final class WorkersRun implements AutoCloseable {
         RemovedDisk removed = remove();
         Member fourth = group.join("worker-4." + round, "disk-3");
         group.awaitTasks();
-        load("another worker came, with the disk of the one that was stopped");
+        load("a new worker has the disk of the stopped one");
         checkReused(fourth, third);
         reuseDisk(removed, "worker-2." + round);
         farm.awaitQuiet();
@@ -97,7 +97,7 @@ final class WorkersRun implements AutoCloseable {
         load("paused");
         long undelivered = undelivered(List.of());
         Member third = group.join(name, "disk-3");
-        Until.isTrue("a worker shows what the task that moved away left", TIMEOUT, () -> {
+        Until.isTrue("a worker reports the records that the moved task left", TIMEOUT, () -> {
             long shown = group.shown().values().stream()
                     .mapToLong(Shown::leftRecords)
                     .sum();
@@ -148,7 +148,7 @@ final class WorkersRun implements AutoCloseable {
         farm.changes.resume();
         second = group.join(name, "disk-2");
         group.awaitTasks();
-        load("another worker came, with the disk of the removed one");
+        load("a new worker has the disk of the removed one");
         checkReused(second, removed);
     }
 
@@ -187,7 +187,8 @@ final class WorkersRun implements AutoCloseable {
         unavailable += missing.size();
         unshown += Math.max(0, missing.size() - shown);
         System.out.printf(
-                "  away with %s: %d notified records; %d in all were shown%n", departed, missing.size(), shown);
+                "  unavailable with %s: %d notified records; %d in all were reported%n",
+                departed, missing.size(), shown);
         return new RemovedDisk(departed, shown, missing);
     }
 

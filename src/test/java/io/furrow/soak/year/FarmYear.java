@@ -45,7 +45,7 @@ public final class FarmYear implements AutoCloseable {
 
     private final int weeks;
     private final Duration day;
-    private final CheckResults verdicts = new CheckResults();
+    private final CheckResults checkResults = new CheckResults();
     private final YearFarm farm;
     private final YearFleet fleet;
     private final Plots plots;
@@ -88,12 +88,12 @@ public final class FarmYear implements AutoCloseable {
             System.out.println();
             year.differences().forEach(System.out::println);
         }
-        System.exit(year.verdicts.hold() ? 0 : 1);
+        System.exit(year.checkResults.hold() ? 0 : 1);
     }
 
     /** The checks that failed. */
     List<String> differences() {
-        return verdicts.lines().stream()
+        return checkResults.lines().stream()
                 .filter(line -> !line.startsWith("holds"))
                 .toList();
     }
@@ -236,7 +236,7 @@ public final class FarmYear implements AutoCloseable {
     }
 
     private void add(YearCheck check) {
-        verdicts.add(check.what(), check.figures(), check.differences());
+        checkResults.add(check.what(), check.figures(), check.differences());
     }
 
     /** Measures the opening of the page in the fourth and the last week, while missions run. */
@@ -246,7 +246,7 @@ public final class FarmYear implements AutoCloseable {
         }
         List<String> devices = YearFleet.devices();
         long millis = OpeningTime.millis(farm.up.dashboard(), devices);
-        verdicts.add(
+        checkResults.add(
                 "the page opens, week " + week,
                 "%d ms until %d devices are on map and cards".formatted(millis, devices.size()),
                 millis <= MAX_OPENING_MILLIS ? List.of() : List.of("more than " + MAX_OPENING_MILLIS + " ms"));
@@ -269,7 +269,7 @@ public final class FarmYear implements AutoCloseable {
         }
         try (ReportLog log = new ReportLog(farm.up.kafka())) {
             long removed = log.removed(Topics.RAW);
-            verdicts.add(
+            checkResults.add(
                     "retention",
                     removed + " records of data.raw removed",
                     removed > 0 ? List.of() : List.of("nothing was removed"));
@@ -280,7 +280,7 @@ public final class FarmYear implements AutoCloseable {
         Map<String, Double> reference = footprints.get(WEEKS_OF_A_MONTH);
         footprints.get(weeks).forEach((what, now) -> {
             double max = reference.get(what) * (what.equals("start s") ? MAX_START_GROWTH : MAX_GROWTH);
-            verdicts.add(
+            checkResults.add(
                     what + " at the end",
                     String.format(Locale.ROOT, "%.1f, after the fourth week %.1f", now, reference.get(what)),
                     now <= max ? List.of() : List.of(String.format(Locale.ROOT, "more than %.1f", max)));

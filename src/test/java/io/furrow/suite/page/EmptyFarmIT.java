@@ -43,11 +43,11 @@ class EmptyFarmIT {
         assertThat(farm.find("furrow-replays")).containsText("No missions are stored yet");
         assertThat(farm.find("furrow-replays")).containsText("No replay runs");
         farm.go("Analyses");
-        for (String empty : new String[] {"No averages", "No encounters", "Nobody was in a field"}) {
+        for (String empty : new String[] {"No averages", "No encounters", "No device was in a field"}) {
             assertThat(farm.find("furrow-analyses")).containsText(empty + " in this period");
         }
         farm.go("Topics");
-        assertThat(farm.find("furrow-topics")).containsText("No domain has been made yet");
+        assertThat(farm.find("furrow-topics")).containsText("There is no domain yet");
         assertThat(farm.find("furrow-topics")).containsText("No topic chosen");
     }
 

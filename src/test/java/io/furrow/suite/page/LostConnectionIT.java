@@ -36,13 +36,13 @@ class LostConnectionIT {
         farm.untilStore("store.entities.size >= 17");
 
         dashboard.close();
-        assertThat(farm.find(".notice")).containsText("trying again. What is shown is from");
+        assertThat(farm.find(".notice")).containsText("trying again. The data shown is from");
         assertThat(farm.card("urn:ngsi-ld:Robot:1")).isVisible();
 
         try (Dashboard restarted = suite.ownDashboard(port)) {
             Assertions.assertThat(restarted.uri()).hasPort(port);
             assertThat(farm.find(".notice"))
-                    .hasText(Pattern.compile("^The connection was away from [\\d:]{8} to [\\d:]{8}\\."));
+                    .hasText(Pattern.compile("^The connection was lost from [\\d:]{8} to [\\d:]{8}\\."));
             assertThat(farm.find(".notice")).isHidden();
             farm.untilStore("store.entities.get('urn:ngsi-ld:Robot:1').time > " + System.currentTimeMillis());
             farm.close();

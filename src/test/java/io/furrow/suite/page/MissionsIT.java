@@ -165,7 +165,7 @@ class MissionsIT {
         assertThat(rows.filter(having("Behind the barn"))).containsText("meadow");
 
         rows.getByLabel("End Behind the barn").click();
-        assertThat(dialog).containsText("a replay of an earlier time has the field as it was");
+        assertThat(dialog).containsText("a replay of an earlier time uses the field as it was");
         action.click();
         assertThat(rows.getByLabel("End Behind the barn")).hasCount(0);
 

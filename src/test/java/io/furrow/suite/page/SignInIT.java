@@ -137,7 +137,7 @@ class SignInIT {
             farm.page().route("**/*", this::asTheProxy);
             farm.page().navigate(dashboard.uri().resolve("/").toString());
 
-            assertThat(farm.page().getByRole(AriaRole.ALERT)).containsText("You came back, but are not signed in");
+            assertThat(farm.page().getByRole(AriaRole.ALERT)).containsText("The proxy has not signed you in");
             assertThat(farm.button("Sign in again")).isVisible();
             farm.page().getByLabel("Access token").fill(VERA);
             farm.button("Use the token").click();

@@ -75,7 +75,7 @@ class ViewerIT {
         assertThat(card).containsText("m/s");
         assertNoCommands(farm, "map");
         farm.go("Missions");
-        assertThat(farm.page().getByText("To command takes the role of an operator"))
+        assertThat(farm.page().getByText("Commands require the role of an operator"))
                 .isVisible();
         assertThat(farm.find(".mission-detail")).containsText("Heard");
         assertNoCommands(farm, "missions");
@@ -85,7 +85,7 @@ class ViewerIT {
         assertThat(farm.find(".domain-columns")).containsText("River field");
         assertNoCommands(farm, "domains");
         farm.go("Replays");
-        assertThat(farm.find("furrow-replays")).containsText("Viewers can watch replays that run");
+        assertThat(farm.find("furrow-replays")).containsText("Viewers can watch running replays");
         assertNoCommands(farm, "replays");
         farm.go("Analyses");
         assertThat(farm.find(".gantt-bar").first()).isVisible();

@@ -74,8 +74,8 @@ record Calibration(double producer, double server, double bridge) {
     String sentence() {
         return String.format(
                 Locale.ROOT,
-                "Machine: %d processors, %s %s, Java %s with a heap of %,d MB at most; in the same minutes a bare producer writes %,.0f records of 1 kB a second, a bare"
-                        + " HTTP server answers %,.0f requests a second, a bare bridge from HTTP to Kafka %,.0f.",
+                "Machine: %d processors, %s %s, Java %s, heap of at most %,d MB. In the same minutes a bare producer writes %,.0f records of"
+                        + " 1 kB per second, a bare HTTP server answers %,.0f requests per second, a bare bridge from HTTP to Kafka %,.0f.",
                 Runtime.getRuntime().availableProcessors(),
                 System.getProperty("os.name"),
                 System.getProperty("os.arch"),

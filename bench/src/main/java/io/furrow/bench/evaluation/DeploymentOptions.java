@@ -22,13 +22,13 @@ final class DeploymentOptions {
             names = "--against",
             paramLabel = "HOST:PORT",
             description =
-                    "Kafka of a suite that runs already; devices and topics of the domain evaluation stay there. Default: suites in this process.")
+                    "Kafka of a running suite; devices and topics of the domain evaluation are not deleted. Default: suites in this process.")
     private String kafka;
 
     @Option(
             names = "--kafka-properties",
             paramLabel = "FILE",
-            description = "Further properties of Kafka clients, such as of TLS and SASL; with --against.")
+            description = "Additional properties of the Kafka clients, e.g. for TLS and SASL; with --against.")
     private Path properties;
 
     @Mixin
@@ -49,12 +49,12 @@ final class DeploymentOptions {
         return new Evaluation.Target(fiware.settings(), client, false);
     }
 
-    /** The versions of its servers, as they report them. */
+    /** Describes the suite and the versions that its servers report. */
     List<String> setting(FleetSettings servers) {
         URI orion = servers.contextBroker();
         URI iotAgent = servers.iotAgent();
         return List.of(
-                "A suite that ran already, Kafka at %s, with its own guarantees and checkpoints; sender and reader are a process of their own."
+                "A running suite, Kafka at %s, with its own guarantees and checkpoints. Sender and reader run in a separate process."
                         .formatted(kafka),
                 "Context broker at %s: %s.".formatted(orion, about(orion.resolve("/version"))),
                 "IoT Agent at %s: %s.".formatted(iotAgent, about(iotAgent.resolve("/iot/about"))));
@@ -63,6 +63,6 @@ final class DeploymentOptions {
     private static String about(URI uri) {
         RestClient.Answer answer = new RestClient().get(uri, Map.of());
         String version = answer.body().findPath("version").asText();
-        return !answer.isSuccess() || version.isEmpty() ? "it does not say its version" : "version " + version;
+        return !answer.isSuccess() || version.isEmpty() ? "version not reported" : "version " + version;
     }
 }

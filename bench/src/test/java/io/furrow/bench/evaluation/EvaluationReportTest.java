@@ -39,7 +39,7 @@ class EvaluationReportTest {
     }
 
     @Test
-    void goesOnWithTwiceTheLoad() {
+    void continuesWithTwiceTheLoad() {
         assertThat(Sweep.PERIOD.further(point(Sweep.PERIOD, 5)).rate()).isEqualTo(1250);
         assertThat(Sweep.PERIOD.further(new Point(Sweep.PERIOD, 5, 1, 1_000, 1)))
                 .isNull();
@@ -50,7 +50,7 @@ class EvaluationReportTest {
     }
 
     @Test
-    void holdsWhatArrivesSoonAndCouldBeSent() {
+    void holdsIfAllMessagesAreSentAndArriveWithinASecond() {
         Point point = point(Sweep.DEVICES, 1);
         assertThat(result(point, 100, 0).holds()).isTrue();
         assertThat(result(point, 99, 0).limit()).isEqualTo("0.9900 delivered");
@@ -66,38 +66,38 @@ class EvaluationReportTest {
     }
 
     @Test
-    void goesOnWithWhatAnEarlierRunMeasured(@TempDir Path folder) throws Exception {
+    void reusesPointsOfAnEarlierRunWithTheSameSettings(@TempDir Path folder) throws Exception {
         Path file = folder.resolve("results.jsonl");
         Point point = Sweep.PERIOD.points().get(2);
         EvaluationResults.in(file).add(result(point, 100, 0));
 
-        EvaluationResults known = EvaluationResults.in(file);
+        EvaluationResults stored = EvaluationResults.in(file);
 
-        assertThat(known.of(new EvaluationResults.Run("another", 1024, 60), point))
+        assertThat(stored.of(new EvaluationResults.Run("another", 1024, 60), point))
                 .isNull();
-        assertThat(known.of(new EvaluationResults.Run(RUN.commit(), 4096, 60), point))
+        assertThat(stored.of(new EvaluationResults.Run(RUN.commit(), 4096, 60), point))
                 .isNull();
-        assertThat(known.of(new EvaluationResults.Run(RUN.commit(), 1024, 4), point))
+        assertThat(stored.of(new EvaluationResults.Run(RUN.commit(), 1024, 4), point))
                 .isNull();
-        assertThat(known.of(RUN, point)).isEqualTo(result(point, 100, 0));
-        assertThat(known.of(RUN, Sweep.PERIOD)).containsExactly(result(point, 100, 0));
+        assertThat(stored.of(RUN, point)).isEqualTo(result(point, 100, 0));
+        assertThat(stored.of(RUN, Sweep.PERIOD)).containsExactly(result(point, 100, 0));
     }
 
     @Test
-    void refusesAFileOfSomethingElse(@TempDir Path folder) throws Exception {
+    void rejectsAFileWithOtherContent(@TempDir Path folder) throws Exception {
         Path file = Files.writeString(folder.resolve("other.jsonl"), "hello\n");
 
         assertThatThrownBy(() -> EvaluationResults.in(file)).hasMessageContaining("--results");
     }
 
     @Test
-    void marksWhatWasLostOrCameTwiceAndDrawsWhatThereIs(@TempDir Path folder) throws Exception {
-        EvaluationResults known = EvaluationResults.in(folder.resolve("results.jsonl"));
-        known.add(result(Sweep.PAYLOAD.points().get(0), 100, 0));
-        known.add(result(Sweep.PAYLOAD.points().get(1), 99, 0));
-        known.add(result(Sweep.PAYLOAD.points().get(2), 100, 1));
+    void marksPointsWithLossOrDuplicatesAndDrawsPlots(@TempDir Path folder) throws Exception {
+        EvaluationResults stored = EvaluationResults.in(folder.resolve("results.jsonl"));
+        stored.add(result(Sweep.PAYLOAD.points().get(0), 100, 0));
+        stored.add(result(Sweep.PAYLOAD.points().get(1), 99, 0));
+        stored.add(result(Sweep.PAYLOAD.points().get(2), 100, 1));
 
-        new EvaluationReport(known, RUN, List.of("a machine")).write(folder);
+        new EvaluationReport(stored, RUN, List.of("a machine")).write(folder);
 
         assertThat(Files.readAllLines(folder.resolve("evaluation.md")))
                 .contains("- a machine")
@@ -126,7 +126,7 @@ class EvaluationReportTest {
         return result(point, delivered, duplicated, 30, 59);
     }
 
-    /** @param last second in which something was sent */
+    /** @param last the last second with a sent message */
     private static PointResult result(Point point, long delivered, long duplicated, long p99, long last) {
         Map<Hop, PointResult.Delay> delays = new EnumMap<>(Hop.class);
         for (Hop hop : Hop.values()) {

@@ -214,7 +214,7 @@ class LostKafkaTest extends ProvisioningFixture {
     void retainsAccountsOfALaterKey() throws Exception {
         FarmSecret rotated = SECRET.rotated(Instant.now(), Instant.EPOCH, false).at(Instant.now());
         addTenDesired();
-        provisioning = provisioning(files(SecretSource.of(rotated), false), SAME);
+        provisioning = provisioning(files(SecretSource.of(rotated), false), SAME_KAFKA);
         provisioning.step();
         assertThat(users()).hasSize(10);
         desired.clear();

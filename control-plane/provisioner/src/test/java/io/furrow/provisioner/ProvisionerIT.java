@@ -19,9 +19,9 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.kafka.KafkaClients;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.control.Fault;
 import io.furrow.model.device.DesiredDevice;

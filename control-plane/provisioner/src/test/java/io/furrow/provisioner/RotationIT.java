@@ -18,9 +18,9 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.kafka.KafkaClients;
 import io.furrow.clock.SettableClock;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.kafka.secret.SecretFile;
 import io.furrow.kafka.secret.SecretSource;
 import io.furrow.kafka.secret.SecretTopic;

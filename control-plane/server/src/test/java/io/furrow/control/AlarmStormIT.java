@@ -20,11 +20,11 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestReporter;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.kafka.KafkaClients;
 import io.furrow.control.alarm.action.StopRobots;
 import io.furrow.control.alarm.action.Webhook;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.FiwareScope;

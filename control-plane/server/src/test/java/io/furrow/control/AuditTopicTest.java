@@ -46,8 +46,7 @@ class AuditTopicTest {
     void recordsInvalidRequests() throws Exception {
         farm.request(Topics.DOMAIN_MANAGER, null, "{'type':");
         farm.request(Topics.DOMAIN_MANAGER, null, "[7]");
-        farm.request(
-                Topics.DOMAIN_MANAGER, "'domain':'\\uD800','user':'" + "x".repeat(5000) + "','n':1e9999");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'\\uD800','user':'" + "x".repeat(5000) + "','n':1e9999");
 
         List<JsonNode> entries = entries();
         assertThat(entries)

@@ -14,8 +14,8 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.kafka.KafkaClients;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.DomainDetails;

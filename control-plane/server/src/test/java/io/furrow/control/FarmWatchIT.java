@@ -19,11 +19,11 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.kafka.KafkaClients;
 import io.furrow.control.alarm.action.StopRobots;
 import io.furrow.control.alarm.action.Webhook;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.Requests;
 import io.furrow.model.device.DesiredDevice;

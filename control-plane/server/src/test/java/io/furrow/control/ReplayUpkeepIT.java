@@ -38,12 +38,12 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.kafka.KafkaClients;
 import io.furrow.control.replay.RecordingWatch;
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.control.replay.TopicCleanup;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.RecordedMission;
@@ -239,7 +239,8 @@ class ReplayUpkeepIT {
                         .toList())
                 .all()
                 .get();
-        for (String topic : Stream.concat(protectedTopics.stream(), Stream.of(free)).toList()) {
+        for (String topic :
+                Stream.concat(protectedTopics.stream(), Stream.of(free)).toList()) {
             String mission = topic.substring(topic.lastIndexOf('.') + 1);
             send(Topics.MISSIONS, mission, "{\"domain\":\"farm\"}".getBytes(UTF_8));
             send(Topics.MISSIONS, mission, null);

@@ -16,9 +16,9 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.kafka.KafkaClients;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -41,8 +41,7 @@ class StreamsApplicationIT {
             ServiceTopics.prepare(settings);
             try (StreamsApplication application =
                             new StreamsApplication("application", this::topology, settings.streams());
-                    KafkaProducer<String, byte[]> producer =
-                            KafkaClients.producer(client)) {
+                    KafkaProducer<String, byte[]> producer = KafkaClients.producer(client)) {
                 application.startClient();
                 await().atMost(TIMEOUT).until(application::isHealthy);
                 producer.send(new ProducerRecord<>(Topics.DOMAINS, "north", new byte[1]));

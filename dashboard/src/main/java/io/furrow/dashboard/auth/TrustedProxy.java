@@ -51,14 +51,14 @@ public record TrustedProxy(
             throw new Problem(
                     403,
                     "wrong-user",
-                    "the proxy sends %s %d times; once is right".formatted(userHeader, names.size()));
+                    "the proxy sends %s %d times instead of once".formatted(userHeader, names.size()));
         }
         String name = names.get(0).strip();
         if (!NAME.matcher(name).matches()) {
             throw new Problem(
                     403,
                     "wrong-user",
-                    "%s has no name of 1 to 64 of A-Z a-z 0-9 _ . @ -; another header may, --user-header names it"
+                    "%s must be a name of 1 to 64 characters of A-Z a-z 0-9 _ . @ -; --user-header selects another header"
                             .formatted(userHeader));
         }
         Role role = groups.stream()
@@ -69,7 +69,7 @@ public record TrustedProxy(
                 .orElseThrow(() -> new Problem(
                         403,
                         "no-role",
-                        "'%s' is in no group that has a role here; --group-roles says which have (%s)"
+                        "no group of '%s' has a role; --group-roles gives roles to groups (%s)"
                                 .formatted(
                                         name,
                                         String.join(

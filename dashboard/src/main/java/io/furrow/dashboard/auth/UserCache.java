@@ -93,7 +93,7 @@ public final class UserCache {
             throw unavailable(me, FailureText.of(e));
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
-            throw unavailable(me, "the dashboard stops");
+            throw unavailable(me, "the dashboard is stopping");
         }
     }
 
@@ -101,7 +101,7 @@ public final class UserCache {
         return new Problem(
                 503,
                 USERS_NOT_ACCEPTED,
-                "the control plane does not take users from the dashboard (%s); start it with --api-tokens, and let the line of the token in --proxy-token-file end with 'for-users'"
+                "the control plane does not accept users from the dashboard (%s); start it with --api-tokens, and let the line of the token in --proxy-token-file end with 'for-users'"
                         .formatted(why));
     }
 
@@ -117,7 +117,7 @@ public final class UserCache {
         return new Problem(
                 503,
                 "control-plane-away",
-                "the control plane, which knows who may do what, cannot be asked at %s (%s); check --control-plane and that it runs"
+                "the control plane cannot authenticate users at %s (%s); check --control-plane and that it runs"
                         .formatted(me, why));
     }
 }

@@ -149,7 +149,7 @@ public final class TopicFeeds implements AutoCloseable {
         TopicFeed feed;
         synchronized (feeds) {
             if (closed) {
-                throw new Problem(503, "stopping", "the dashboard stops");
+                throw new Problem(503, "stopping", "the dashboard is stopping");
             }
             feed = feeds.get(topic);
             if (feed == null || feed.hasFailed()) {

@@ -48,7 +48,7 @@ public final class Problem extends RuntimeException {
     /** Rejects a request whose thread was interrupted; the interrupt flag stays set. */
     public static Problem stopping() {
         Thread.currentThread().interrupt();
-        return new Problem(503, "stopping", "the dashboard stops");
+        return new Problem(503, "stopping", "the dashboard is stopping");
     }
 
     public void answer(Response response, Callback callback) {

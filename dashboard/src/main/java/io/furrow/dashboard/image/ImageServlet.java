@@ -73,8 +73,7 @@ public final class ImageServlet extends HttpServlet {
                     .orElseThrow(
                             () -> new Problem(404, "unknown-image", "data.images names no image with this SHA-256"));
         } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-            throw new Problem(503, "stopping", "the dashboard is stopping");
+            throw Problem.stopping();
         }
     }
 
@@ -88,7 +87,7 @@ public final class ImageServlet extends HttpServlet {
         }
         byte[] bytes = Files.readAllBytes(file);
         if (!Sha256.hex(bytes).equals(image.sha256())) {
-            throw new Problem(502, "image-changed", "what is stored there has another SHA-256 by now");
+            throw new Problem(502, "image-changed", "the stored file has changed: its SHA-256 is different");
         }
         return bytes;
     }
@@ -110,11 +109,9 @@ public final class ImageServlet extends HttpServlet {
                 }
             }
         } catch (IllegalArgumentException e) { // includes InvalidPathException
-            throw new Problem(404, "unknown-image", "the place of the image is not a path: " + e.getMessage());
+            throw new Problem(404, "unknown-image", "the location of the image is not a path: " + e.getMessage());
         }
         throw new Problem(
-                404,
-                "unknown-image",
-                "the image is not a file below the folders that --images names, or is deleted by now");
+                404, "unknown-image", "the image is not a file below the folders of --images, or has been deleted");
     }
 }

@@ -61,7 +61,7 @@ public final class HistoryServlet extends UserServlet {
                 throw new Problem(
                         503,
                         "overloaded",
-                        "%d histories are being read; ask again in a moment".formatted(MAX_CONCURRENT));
+                        "%d histories are being read; try again in a moment".formatted(MAX_CONCURRENT));
             }
         } catch (InterruptedException e) {
             throw Problem.stopping();

@@ -71,13 +71,13 @@ record StreamRequest(String topic, Mode mode, boolean prime, Format format) {
         String path = request.getPathInfo();
         String topic = path == null ? "" : path.substring(1);
         if (!TOPIC.matcher(topic).matches()) {
-            throw new Problem(400, "illegal-topic", "the path ends with no name of a topic");
+            throw new Problem(400, "illegal-topic", "the path does not end with the name of a topic");
         }
         if (!rules.mayRead(topic)) {
             throw new Problem(
                     403,
                     "topic-not-allowed",
-                    "topic '%s' is not among those that may be read; --readable-topics names them".formatted(topic));
+                    "topic '%s' may not be read; --readable-topics lists the readable topics".formatted(topic));
         }
         return topic;
     }

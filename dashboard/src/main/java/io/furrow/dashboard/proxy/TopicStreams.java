@@ -41,7 +41,7 @@ public final class TopicStreams implements AutoCloseable {
     private static final Duration MAX_AGE_BEHIND_PROXY = Duration.ofHours(1);
 
     private static final int START_THREADS = 4;
-    private static final String STOPS = "the dashboard stops";
+    private static final String STOPPING = "the dashboard is stopping";
     private static final int UNAUTHORIZED = 401;
 
     private final TopicFeeds feeds;
@@ -129,7 +129,7 @@ public final class TopicStreams implements AutoCloseable {
                 .orElseThrow(() -> new Problem(
                         403,
                         "no-ticket",
-                        "a socket is opened once and soon; ask GET /api/register/<topic> for a path"));
+                        "the path was used or has expired; GET /api/register/<topic> returns a new one"));
         quota.acquire(ticket.client());
         TopicSocket socket = new TopicSocket(this, ticket, limits);
         counters.add(StreamCounters.Count.STREAMS_OPENED, 1);
@@ -173,13 +173,13 @@ public final class TopicStreams implements AutoCloseable {
                 } catch (Problem | KafkaException e) {
                     fail(request, stream, e);
                 } catch (RejectedExecutionException e) {
-                    stream.end(STOPS);
+                    stream.end(STOPPING);
                 } catch (InterruptedException e) {
                     Thread.currentThread().interrupt();
                 }
             });
         } catch (RejectedExecutionException e) {
-            stream.end(STOPS);
+            stream.end(STOPPING);
         }
         return begun;
     }
@@ -229,11 +229,11 @@ public final class TopicStreams implements AutoCloseable {
                 stream.refresh(users.find(stream.credentials()));
                 if (stream.credentials().isOfProxy()
                         && System.nanoTime() - stream.openedAt() > MAX_AGE_BEHIND_PROXY.toNanos()) {
-                    stream.revoke("the proxy is to be asked again who this is; register once more");
+                    stream.revoke("the proxy must authenticate the user again; register once more");
                 }
             } catch (Problem e) {
                 if (e.status() == UNAUTHORIZED || e.error().equals(UserCache.USERS_NOT_ACCEPTED)) {
-                    stream.revoke("the token is not valid any more");
+                    stream.revoke("the token is no longer valid");
                 }
             }
         }
@@ -243,9 +243,9 @@ public final class TopicStreams implements AutoCloseable {
     public void close() {
         for (OpenStream stream : streams) {
             if (stream instanceof TopicSocket socket) {
-                socket.end(TopicSocket.GOING_AWAY, STOPS, StreamCounters.Closing.STOPPING);
+                socket.end(TopicSocket.GOING_AWAY, STOPPING, StreamCounters.Closing.STOPPING);
             } else {
-                stream.end(STOPS);
+                stream.end(STOPPING);
             }
         }
         scheduler.shutdownNow();

@@ -53,7 +53,7 @@ final class TopicWriter implements AutoCloseable {
             throw new Problem(
                     403,
                     "topic-not-allowed",
-                    "topic '%s' is not among those that may be written; --writable-topics names them".formatted(topic));
+                    "topic '%s' may not be written; --writable-topics lists the writable topics".formatted(topic));
         }
         check(user, Role.OPERATOR);
         ObjectNode json = read(message);
@@ -103,7 +103,7 @@ final class TopicWriter implements AutoCloseable {
         return new Problem(
                 503,
                 "not-written",
-                "Kafka did not take it for topic '%s' within 10 s (%s); it may still come, send it again with its requestId"
+                "Kafka did not acknowledge the message for topic '%s' within 10 s (%s); it may still be written, so retry with the same requestId"
                         .formatted(topic, FailureText.of(failure)));
     }
 

@@ -61,7 +61,7 @@ class ChangedRetentionTest {
 
     @Test
     void leavesTheIndexWhereItsUserMayNotAlterIt() {
-        Long before = mongo.expireAfter("mission_m");
+        Object before = mongo.expireAfter("mission_m");
         mongo.failAlterations(13);
 
         keep(Duration.ofDays(2));

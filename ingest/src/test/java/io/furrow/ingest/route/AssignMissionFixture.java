@@ -96,8 +96,7 @@ abstract class AssignMissionFixture {
         event(id, time, time, "", "", null);
     }
 
-    void event(String id, long time, long received, String domain, String mission, byte[] value)
-            throws Exception {
+    void event(String id, long time, long received, String domain, String mission, byte[] value) throws Exception {
         Map<String, String> headers = Map.of(HeaderNames.TS_SOURCE, Long.toString(received));
         TopicRecord record = TopicRecord.of(Topics.RAW, time, id, value, headers);
         operator.processElement1(

@@ -105,8 +105,7 @@ final class DesiredStates {
                                 wall(at) + 1_000,
                                 last.clock().shows())
                         : follow(with(last, State.PAUSED, last.speed(), null, 0), wall(at), position);
-            case 1 ->
-                follow(with(last, last.desired(), groupSpeed(random), null, 0), running.at(), running.shows());
+            case 1 -> follow(with(last, last.desired(), groupSpeed(random), null, 0), running.at(), running.shows());
             default -> {
                 long to = last.plan().from()
                         + random.nextLong(last.plan().to() - last.plan().from());
@@ -125,15 +124,8 @@ final class DesiredStates {
 
     private static DesiredReplay next(DesiredReplay last, Random random, long first, long length) {
         return switch (random.nextInt(6)) {
-            case 0 ->
-                with(
-                        last,
-                        last.desired() == State.PAUSED ? State.RUNNING : State.PAUSED,
-                        last.speed(),
-                        null,
-                        0);
-            case 1, 2 ->
-                with(last, last.desired(), last.speed(), first - 5_000 + random.nextLong(length + 10_000), 0);
+            case 0 -> with(last, last.desired() == State.PAUSED ? State.RUNNING : State.PAUSED, last.speed(), null, 0);
+            case 1, 2 -> with(last, last.desired(), last.speed(), first - 5_000 + random.nextLong(length + 10_000), 0);
             case 3 -> with(last, last.desired(), speed(random), null, 0);
             case 4 -> last.within(range(random, first, length), last.sequence() + 1);
             default ->

@@ -1,8 +1,8 @@
-/** The least that OpenLayers does with the same points: one layer, a feature for each device, moved as it reports. */
+/** Draws the same points with plain OpenLayers: one layer with a feature per device, which moves with each report. */
 import { count, play } from './feed.js';
 
-const colours = ['#7bd88f', '#6db7ff'];
-const styles = colours.map((color) => new ol.style.Style({
+const colors = ['#7bd88f', '#6db7ff'];
+const styles = colors.map((color) => new ol.style.Style({
   image: new ol.style.Circle({ radius: 7, fill: new ol.style.Fill({ color }), stroke: new ol.style.Stroke({ color: '#0e1411', width: 2 }) }),
 }));
 const source = new ol.source.Vector();
@@ -14,9 +14,9 @@ const features = new Map();
 play(({ records }) => {
   for (const { value } of records) {
     const place = ol.proj.fromLonLat([value.Longitude.value, value.Latitude.value]);
-    const known = features.get(value.id);
-    if (known) {
-      known.getGeometry().setCoordinates(place);
+    const existing = features.get(value.id);
+    if (existing) {
+      existing.getGeometry().setCoordinates(place);
     } else {
       const feature = new ol.Feature(new ol.geom.Point(place));
       feature.setStyle(styles[features.size % 2]);

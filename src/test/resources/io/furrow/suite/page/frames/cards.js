@@ -1,3 +1,3 @@
-/** The map with the cards of the devices beside it, as many as are in view. */
+/** Shows the map and beside it the cards of the devices in view. */
 import '/cards/cards.js';
 import './map.js';

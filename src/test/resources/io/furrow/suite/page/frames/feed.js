@@ -1,7 +1,7 @@
-/** Plays recorded frames of a stream, as the dashboard's sockets send them, at the times at which they came; from the beginning again after the end. */
+/** Plays recorded frames of a stream at their original intervals, repeatedly. */
 
-/** @param {function({records: Object[]})} take gets each frame, as text was parsed; event times are of now */
-export async function play(take) {
+/** @param {function({records: Object[]})} apply called with each parsed frame; event times are set to now */
+export async function play(apply) {
   const lines = (await (await fetch('/frames/recorded')).text()).trim().split('\n').map((line) => [Number(line.slice(0, line.indexOf(' '))), line.slice(line.indexOf(' ') + 1)]);
   const length = lines.at(-1)[0] + lines[1][0] - lines[0][0];
   let [start, next] = [performance.now(), 0];
@@ -12,7 +12,7 @@ export async function play(take) {
       for (const record of frame.records) {
         record.time = now;
       }
-      take(frame);
+      apply(frame);
       next++;
       if (next === lines.length) {
         next = 0;
@@ -24,7 +24,7 @@ export async function play(take) {
   step();
 }
 
-/** Counts the frames that a map of OpenLayers draws, in `window.drawn`. */
+/** Counts the frames that an OpenLayers map draws in `window.drawn`. */
 export function count(map) {
   window.drawn = 0;
   map.on('postrender', () => window.drawn++);

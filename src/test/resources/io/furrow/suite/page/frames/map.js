@@ -1,4 +1,4 @@
-/** The map of the dashboard, with its store, without the rest of the page. */
+/** Shows the dashboard's map with its store, without the rest of the page. */
 import { store } from '/core/store.js';
 import '/map/map.js';
 import { count, play } from './feed.js';

@@ -175,7 +175,18 @@ public record Alarm(
     private Alarm changed(AlarmState next, Change newChange, Period newPeriod, Handling newHandling, long now) {
         Period changedPeriod = newPeriod.changedAt(now);
         return new Alarm(
-                head, next, newChange, description, changedPeriod, newHandling, sequence, group, extent, seen, inhibitedBy, identity);
+                head,
+                next,
+                newChange,
+                description,
+                changedPeriod,
+                newHandling,
+                sequence,
+                group,
+                extent,
+                seen,
+                inhibitedBy,
+                identity);
     }
 
     /** Counts another observation of the cause; text and extent stay unchanged. */
@@ -196,7 +207,18 @@ public record Alarm(
 
     private Alarm extended(Period newPeriod, Long at) {
         return new Alarm(
-                head, state, change, description, newPeriod, handling, sequence, group, extent, at, inhibitedBy, identity);
+                head,
+                state,
+                change,
+                description,
+                newPeriod,
+                handling,
+                sequence,
+                group,
+                extent,
+                at,
+                inhibitedBy,
+                identity);
     }
 
     /** Copies text, devices and extent from the cause. */
@@ -212,7 +234,18 @@ public record Alarm(
 
     private Alarm described(Description newDescription, Extent newExtent) {
         return new Alarm(
-                head, state, change, newDescription, period, handling, sequence, group, newExtent, seen, inhibitedBy, identity);
+                head,
+                state,
+                change,
+                newDescription,
+                period,
+                handling,
+                sequence,
+                group,
+                newExtent,
+                seen,
+                inhibitedBy,
+                identity);
     }
 
     /** @param by id of the inhibiting alarm; null if no longer inhibited */

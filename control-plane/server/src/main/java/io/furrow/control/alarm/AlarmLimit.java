@@ -180,7 +180,8 @@ final class AlarmLimit {
     }
 
     private void recount(long now) {
-        overflows.where(each -> each.until() != null && each.until() <= now)
+        overflows
+                .where(each -> each.until() != null && each.until() <= now)
                 .forEach(each -> overflows.put(each.key(), null));
         Map<String, List<Overflow>> byGroup =
                 overflows.all().stream().collect(Collectors.groupingBy(each -> Cause.key(each.kind(), each.group())));

@@ -68,8 +68,8 @@ final class ReplayGroup {
         long from = replay.plan().from();
         long to = replay.plan().to();
         if (range != null && (range.from() >= to || range.to() <= from)) {
-            throw wrong(
-                    "'from' and 'to' must overlap the range that the group plays, from %s to %s".formatted(time(from), time(to)));
+            throw wrong("'from' and 'to' must overlap the range that the group plays, from %s to %s"
+                    .formatted(time(from), time(to)));
         }
     }
 
@@ -97,7 +97,9 @@ final class ReplayGroup {
         return switch (((Simple) steering).what()) {
             case STOP -> all(each -> each.desired(ReplayStatus.State.STOPPED, sequence), representative.clock());
             case PAUSE ->
-                all(each -> each.desired(ReplayStatus.State.PAUSED, sequence), new Clock(now, representative.position(now)));
+                all(
+                        each -> each.desired(ReplayStatus.State.PAUSED, sequence),
+                        new Clock(now, representative.position(now)));
             case RESUME ->
                 all(
                         each -> each.desired(ReplayStatus.State.RUNNING, sequence),
@@ -115,7 +117,8 @@ final class ReplayGroup {
         ReplayGroup next = new ReplayGroup(within);
         return range == null || next.isWithin(representative.position(now))
                 ? within
-                : next.jumped(next.representative.from(next.representative.plan().from()), now, sequence);
+                : next.jumped(
+                        next.representative.from(next.representative.plan().from()), now, sequence);
     }
 
     /** Returns a clock that continues from the current position; a clock that has not started yet retains its start. */

@@ -91,8 +91,7 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
                                 "status",
                                 count.getKey().status())));
         page.counter("requests", "Requests to the REST API that were answered.", points(Count::requests, 1));
-        page.counter(
-                "request_seconds", "Total seconds between requests and their answers.", points(Count::nanos, 1e9));
+        page.counter("request_seconds", "Total seconds between requests and their answers.", points(Count::nanos, 1e9));
         page.gauge("awaited", "Requests that wait for the answer of a manager.", answers.pending());
         page.gauge("view_complete", "1 if the topics were read to their ends.", view.isComplete() ? 1 : 0);
         if (view.isComplete()) {

@@ -87,7 +87,7 @@ class AlarmPropertyTest {
             now += Duration.ofDays(2).toMillis();
             handler.passTime(now);
             assertThat(mutes.all()).as(label).isEmpty();
-            assertThat(counted.all()).as(label).allMatch(each -> each.until() == null);
+            assertThat(overflows.all()).as(label).allMatch(each -> each.until() == null);
             assertThat(alarms.all())
                     .as(label)
                     .allMatch(alarm ->
@@ -118,7 +118,7 @@ class AlarmPropertyTest {
                 validUntil.put(cause.key(), cause.validity() == null ? Long.MAX_VALUE : cause.until(now));
                 handler.raise(cause, now);
             }
-            crowded += counted.all().size();
+            crowded += overflows.all().size();
         }
 
         private void request() {
@@ -150,8 +150,8 @@ class AlarmPropertyTest {
 
         private Cause cause(AlarmKind kind) {
             Duration validity = random.nextBoolean() ? null : Duration.ofSeconds(1 + random.nextInt(60));
-            Cause cause =
-                    new Cause(kind, subject(), "look", List.of(new Cause.AffectedDevice("x", null, null, null)), validity);
+            Cause cause = new Cause(
+                    kind, subject(), "look", List.of(new Cause.AffectedDevice("x", null, null, null)), validity);
             return AlarmLimit.KINDS.contains(kind) ? cause.inGroup("g") : cause;
         }
 
@@ -216,7 +216,7 @@ class AlarmPropertyTest {
                     open.merge(Cause.key(alarm.kind(), alarm.group()), 1, Integer::sum);
                 }
             });
-            counted.forEach(each -> counts.merge(Cause.key(each.kind(), each.group()), 1, Integer::sum));
+            overflows.forEach(each -> counts.merge(Cause.key(each.kind(), each.group()), 1, Integer::sum));
             groups.forEach(group -> {
                 assertThat(group.alarms()).as(label).isEqualTo(open.getOrDefault(group.key(), 0));
                 assertThat(group.counted()).as(label).isEqualTo(counts.getOrDefault(group.key(), 0));
@@ -229,7 +229,7 @@ class AlarmPropertyTest {
                 }
             });
             validUntil.forEach((key, until) -> {
-                boolean existing = current.get(key) != null || counted.get(key) != null;
+                boolean existing = current.get(key) != null || overflows.get(key) != null;
                 assertThat(existing || closedBefore.contains(key) || until <= now)
                         .as(label + key)
                         .isTrue();
@@ -237,7 +237,7 @@ class AlarmPropertyTest {
         }
 
         private String content() {
-            return alarms.content() + current.content() + mutes.content() + groups.content() + counted.content();
+            return alarms.content() + current.content() + mutes.content() + groups.content() + overflows.content();
         }
     }
 }

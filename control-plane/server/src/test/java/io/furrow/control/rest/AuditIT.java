@@ -18,9 +18,9 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInstance;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.kafka.KafkaClients;
 import io.furrow.control.rest.view.AuditHistory;
 import io.furrow.control.rest.view.StateView;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.topic.Topics;
 
 import static java.nio.charset.StandardCharsets.UTF_8;

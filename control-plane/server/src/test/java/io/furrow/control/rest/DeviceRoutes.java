@@ -73,22 +73,19 @@ interface DeviceRoutes extends RestApiRoutes {
         running().rejects("POST", "/api/devices/" + id + "/credentials", null, 409, "ambiguous-device");
         rejectsCommand(id, "{\"command\":\"on\",\"type\":\"T\"}", 409, "ambiguous-device");
         String named = "?service=other&servicePath=/north";
-        assertThat(device(id + named).path("mission").asText())
-                .isEmpty();
+        assertThat(device(id + named).path("mission").asText()).isEmpty();
         running().rejects("POST", "/api/devices/" + id + "/credentials" + named, null, 404, "no-credentials");
         client().send("POST", "/api/devices/" + id + "/commands" + named, "{\"command\":\"on\",\"type\":\"Pump\"}");
         assertThat(running().broker().last()).contains("/attrs?type=Pump");
         assertThat(running().broker().scope()).isEqualTo("other /north");
         FiwareScope usual = running().settings().missions().scope();
         String scoped = "?service=" + usual.service() + "&servicePath=" + usual.servicePath();
-        assertThat(device(id + scoped).path("mission").asText())
-                .isEqualTo("hoeing");
+        assertThat(device(id + scoped).path("mission").asText()).isEqualTo("hoeing");
         running().rejects("GET", "/api/devices/" + id + scoped + "&type=Pump", null, 404, "unknown-device");
 
         running().write(Topics.DEVICES, other.identity(id), null);
-        await().untilAsserted(() -> assertThat(
-                        device(id).path("mission").asText())
-                .isEqualTo("hoeing"));
+        await().untilAsserted(
+                        () -> assertThat(device(id).path("mission").asText()).isEqualTo("hoeing"));
     }
 
     private void checkCredentials(String id) throws Exception {
@@ -125,8 +122,7 @@ interface DeviceRoutes extends RestApiRoutes {
         assertThat(rotated.path("password").asText())
                 .isEqualTo(RunningApi.SECRET.device("hoeing", id, 1).password());
         assertThat(device(id + "/credentials")).isEqualTo(rotated);
-        assertThat(device(id).path("generation").asInt())
-                .isEqualTo(1);
+        assertThat(device(id).path("generation").asInt()).isEqualTo(1);
         assertThat(running().get("/api/missions/hoeing").at("/status/devices").asInt())
                 .isEqualTo(4);
         running().rejects("POST", "/api/devices/urn:own:1/credentials", null, 404, "no-credentials");

@@ -64,7 +64,8 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
     void handlesTheLifeCycleOfADomain() throws Exception {
         HttpResponse<byte[]> created = client.send("POST", "/api/domains", "{\"domain\":\"north\",\"name\":\"North\"}");
         assertThat(created.statusCode()).isEqualTo(201);
-        assertThat(created.headers().firstValue("Location")).contains(running.api().uri() + "/api/domains/north");
+        assertThat(created.headers().firstValue("Location"))
+                .contains(running.api().uri() + "/api/domains/north");
         assertThat(running.get("/api/domains/north").path("name").asText()).isEqualTo("North");
         assertThat(client.status("PATCH", "/api/domains/north", "{\"description\":\"wet\"}"))
                 .isEqualTo(200);

@@ -14,7 +14,6 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.kafka.KafkaClients;
 import io.furrow.control.ControlPlane;
 import io.furrow.control.ControlPlaneProcess;
 import io.furrow.control.ControlSettings;
@@ -22,6 +21,7 @@ import io.furrow.control.FarmWatch;
 import io.furrow.control.WatchOptions;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.FreePort;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.kafka.Readiness;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;

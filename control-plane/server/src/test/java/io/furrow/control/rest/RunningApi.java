@@ -9,12 +9,12 @@ import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 
-import io.furrow.kafka.KafkaClients;
 import io.furrow.control.ControlPlane;
 import io.furrow.control.ControlPlaneProcess;
 import io.furrow.control.ControlSettings;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.fields.FieldFiles;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.kafka.Readiness;
 import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.device.FarmSecret;

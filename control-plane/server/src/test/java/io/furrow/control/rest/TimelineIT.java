@@ -17,9 +17,9 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.kafka.KafkaClients;
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.kafka.Readiness;
 import io.furrow.model.control.RecordedMission;
 import io.furrow.model.topic.Topics;

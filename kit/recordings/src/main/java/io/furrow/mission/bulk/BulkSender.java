@@ -209,7 +209,8 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
         if (failure == MongoFailure.SETTING) {
             throw wrongSetting(e);
         }
-        boolean ofCommand = failure == MongoFailure.REJECTED && MongoCodes.isAmbiguousForCommand(mongoException.getCode());
+        boolean ofCommand =
+                failure == MongoFailure.REJECTED && MongoCodes.isAmbiguousForCommand(mongoException.getCode());
         if (failure != MongoFailure.UNKNOWN && !ofCommand) {
             return failure;
         }

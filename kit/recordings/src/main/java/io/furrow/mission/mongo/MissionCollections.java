@@ -51,6 +51,7 @@ public final class MissionCollections {
      * before MongoDB 5.1 also an index without expiry.
      */
     private static final Set<Integer> NOT_ALTERABLE = Set.of(2, 9, 27, 59, 72, 115, 238, 40415);
+
     private static final int UNAUTHORIZED = 13;
     /** Maximum expiry of a server; an index with expiry cannot be altered to one without. */
     private static final long MAX_EXPIRY_SECONDS = Integer.MAX_VALUE;

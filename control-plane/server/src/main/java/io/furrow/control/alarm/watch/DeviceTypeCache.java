@@ -12,8 +12,8 @@ import org.apache.kafka.clients.consumer.ConsumerRecords;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.kafka.KafkaClients;
 import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;

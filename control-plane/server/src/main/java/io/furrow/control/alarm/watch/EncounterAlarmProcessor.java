@@ -23,8 +23,8 @@ import io.furrow.model.ngsi.UnreadableException;
  *
  * @param types returns the type of a device's entity by tenant, service path and id
  */
-public record EncounterAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types, AlarmDurations durations)
-        implements Observer {
+public record EncounterAlarmProcessor(
+        AlarmCommandHandler alarms, Function<String, String> types, AlarmDurations durations) implements Observer {
     /**
      * How long alarms last without a record of their encounter.
      *
@@ -46,9 +46,11 @@ public record EncounterAlarmProcessor(AlarmCommandHandler alarms, Function<Strin
                 alarms.raiseAgain(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_VALIDITY), now);
             }
             case "ongoing" ->
-                alarms.raiseOrExtend(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_VALIDITY), now);
+                alarms.raiseOrExtend(
+                        cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_VALIDITY), now);
             case "ended" ->
-                alarms.endAt(AlarmKind.COLLISION, pair, now + durations.collision().toMillis());
+                alarms.endAt(
+                        AlarmKind.COLLISION, pair, now + durations.collision().toMillis());
             case "predicted" -> {
                 if (!alarms.isRaised(AlarmKind.COLLISION, pair)) {
                     alarms.raise(cause(AlarmKind.PREDICTED_ENCOUNTER, encounter, durations.prediction()), now);

@@ -168,7 +168,8 @@ class DeliveryQueueTest {
     void repeatsOpenAlarmsUntilTheyAreAcknowledged() {
         Alarm open = take(AlarmKind.COLLISION);
         Alarm acknowledged = take(AlarmKind.COLLISION);
-        queue.take(acknowledged.become(AlarmState.ACKNOWLEDGED, "ann", null, now).numbered(++sequence), now);
+        queue.take(
+                acknowledged.become(AlarmState.ACKNOWLEDGED, "ann", null, now).numbered(++sequence), now);
         due().forEach(post -> complete(post, ACCEPTED));
         due().forEach(post -> complete(post, ACCEPTED));
         now += SETTINGS.repeatInterval().toMillis() - 1;

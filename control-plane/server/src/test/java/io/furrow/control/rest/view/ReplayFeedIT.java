@@ -22,9 +22,9 @@ import org.junit.jupiter.api.TestInstance;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.kafka.KafkaClients;
 import io.furrow.control.rest.ApiClient;
 import io.furrow.control.rest.RunningApi;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.topic.Topics;
 
