@@ -4,10 +4,12 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Properties;
 import java.util.concurrent.Callable;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerConfig;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.awaitility.Awaitility;
 import org.junit.jupiter.api.AfterEach;
@@ -48,8 +50,14 @@ abstract class ControlPlaneFixture {
         producer.send(new ProducerRecord<>(Topics.DOMAIN_MANAGER, Requests.write("r-" + number, command)));
     }
 
+    /**
+     * With one request at a time: if the first is retried, a broker that does not know the producer yet would accept the
+     * second, and never the first.
+     */
     KafkaProducer<String, byte[]> producer() {
-        return KafkaClients.producer(kafka.client());
+        Properties settings = kafka.client();
+        settings.setProperty(ProducerConfig.MAX_IN_FLIGHT_REQUESTS_PER_CONNECTION, "1");
+        return KafkaClients.producer(settings);
     }
 
     List<CommandResult> answers(String topic) throws Exception {
