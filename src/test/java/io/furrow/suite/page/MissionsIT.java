@@ -75,7 +75,7 @@ class MissionsIT {
         assertThat(detail.locator(".device-table tbody")).containsText("Thermometer own-2");
         // A device is silent only after three of its periods, however long they are.
         String states = "import('/core/entity.js').then(({ stateOf }) => [2_700_000, 2_700_001].map((age) => "
-                + "stateOf({ word: '', period: null, time: 0 }, age, 'PT15M')).join())";
+                + "stateOf({ word: '', period: null }, age, 0, 'PT15M')).join())";
         Assertions.assertThat(farm.run(states)).isEqualTo("ok,stale");
         detail.getByText("Stop", EXACTLY).click();
         dialog.getByText("Stop", EXACTLY).click();

@@ -1,11 +1,14 @@
 package io.furrow.model.ngsi;
 
 import java.time.Instant;
+import java.util.Comparator;
+import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
+import java.util.function.BinaryOperator;
 import java.util.stream.Collectors;
 import java.util.stream.Stream;
 
@@ -33,7 +36,8 @@ import io.furrow.model.time.Instants;
  * </table>
  *
  * <p>If the entity has none of {@code Time}, {@code TimeInstant}, {@code dateObserved}, {@code timestamp}, the newest
- * {@code observedAt} of its attributes becomes its attribute {@code TimeInstant}, as an IoT Agent sets it.
+ * {@code observedAt} of its attributes becomes its attribute {@code TimeInstant}, as an IoT Agent sets it; not if an
+ * attribute without {@code observedAt} was modified later than all that have one.
  */
 final class NgsiLdEntity {
     private static final Map<String, String> BUILT_INS = Map.of(
@@ -44,6 +48,9 @@ final class NgsiLdEntity {
     private static final Set<String> DEVICE_TIMES = Set.of("Time", "TimeInstant", "dateObserved", "timestamp");
 
     private final ObjectNode normalized = JsonNodeFactory.instance.objectNode();
+    /** The newest {@code modifiedAt} of the attributes with and without {@code observedAt}. */
+    private final Map<Boolean, Instant> modified = new HashMap<>();
+
     private Optional<String> newestObservation = Optional.empty();
 
     private NgsiLdEntity() {}
@@ -141,6 +148,10 @@ final class NgsiLdEntity {
     private ObjectNode observed(JsonNode reported) {
         JsonNode at = reported.path("observedAt");
         Optional<Instant> time = at.isTextual() ? Instants.of(at) : Optional.empty();
+        modified.merge(
+                time.isPresent(),
+                Instants.ofText(reported.path("modifiedAt").asText()).orElse(Instant.MIN),
+                BinaryOperator.maxBy(Comparator.naturalOrder()));
         if (time.isPresent()
                 && newestObservation
                         .flatMap(Instants::ofText)
@@ -152,7 +163,10 @@ final class NgsiLdEntity {
     }
 
     private void addTime() {
-        if (DEVICE_TIMES.stream().noneMatch(normalized::has)) {
+        Instant observed = modified.getOrDefault(true, Instant.MIN);
+        boolean isEarlier = !observed.equals(Instant.MIN)
+                && modified.getOrDefault(false, Instant.MIN).isAfter(observed);
+        if (!isEarlier && DEVICE_TIMES.stream().noneMatch(normalized::has)) {
             newestObservation.ifPresent(time -> normalized.set(
                     "TimeInstant", NgsiLdAttribute.plain("DateTime", JsonNodeFactory.instance.textNode(time))));
         }

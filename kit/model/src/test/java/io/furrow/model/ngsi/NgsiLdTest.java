@@ -153,4 +153,24 @@ class NgsiLdTest {
             throw new java.io.UncheckedIOException(new IOException(line, e));
         }
     }
+
+    /** The place was reported once; both attributes of the second entity were reported together. */
+    @Test
+    void hasTheTimeOfAnObservationOnlyIfNoOtherAttributeIsOfALaterReport() throws Exception {
+        String entity = """
+                {"id": "a", "type": "T", "@context": [],
+                 "location": {"value": 1, "observedAt": "2026-11-14T08:00:00Z", "modifiedAt": "%s"},
+                 "temperature": {"value": 21, "modifiedAt": "2026-11-21T01:09:59Z"}}""";
+
+        assertThat(read(entity.formatted("2026-11-14T08:00:01Z"))
+                        .entities()
+                        .get(0)
+                        .value("TimeInstant"))
+                .isEmpty();
+        assertThat(read(entity.formatted("2026-11-21T01:09:59Z"))
+                        .entities()
+                        .get(0)
+                        .value("TimeInstant"))
+                .isPresent();
+    }
 }
