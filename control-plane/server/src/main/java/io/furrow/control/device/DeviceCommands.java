@@ -8,7 +8,6 @@ import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
-import java.util.Optional;
 import java.util.Set;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CompletionException;
@@ -16,6 +15,7 @@ import java.util.concurrent.RejectedExecutionException;
 import java.util.concurrent.Semaphore;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.MissingNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.fasterxml.jackson.databind.node.TextNode;
 
@@ -29,7 +29,8 @@ import io.furrow.model.text.FailureText;
 /**
  * Sends commands as updates of the command's attribute at the context broker, which forwards them to the IoT Agent. A
  * robot connected by FIROS has a single attribute {@code cmd} for all commands, whose value is the command. The
- * attribute is appended if missing, because an update would be rejected.
+ * attribute is appended if missing, because an update would be rejected. Its type, of which the desired one may differ,
+ * is named only if the id is ambiguous without it.
  */
 public final class DeviceCommands implements CommandSender {
     private static final Duration TIMEOUT = Duration.ofSeconds(5);
@@ -37,9 +38,15 @@ public final class DeviceCommands implements CommandSender {
     private static final int MAX_PENDING = 64;
 
     private static final int MAX_QUOTE_LENGTH = 200;
+    private static final String ERROR = "error";
     private static final int NOT_FOUND = 404;
+    /** Of the context broker; a proxy that cannot find it answers 404 as well. */
+    private static final Set<String> ABSENCES = Set.of("NotFound", "NonExistingTenant");
+
+    private static final int CONFLICT = 409;
+    private static final String AMBIGUOUS = "TooManyResults";
     /** Permanent rejections. Other 4xx responses concern the control plane, like those of a proxy. */
-    private static final Set<Integer> REJECTIONS = Set.of(400, NOT_FOUND, 409, 422);
+    private static final Set<Integer> REJECTIONS = Set.of(400, NOT_FOUND, CONFLICT, 422);
 
     private final Semaphore pending;
     private final URI contextBroker;
@@ -78,6 +85,7 @@ public final class DeviceCommands implements CommandSender {
     /**
      * A command to a device, with the arguments of {@link CommandSender#send}.
      *
+     * @param type as the device last reported it, if it did
      * @param value any JSON value, an empty text for none; a robot accepts none
      */
     public record Order(String deviceId, String type, String command, JsonNode value) {}
@@ -88,7 +96,10 @@ public final class DeviceCommands implements CommandSender {
         HttpResponse<byte[]> answer;
         Order order = new Order(deviceId, type, command, TextNode.valueOf(value));
         try {
-            answer = client.send(request(order), HttpResponse.BodyHandlers.ofByteArray());
+            answer = client.send(request(order, false), HttpResponse.BodyHandlers.ofByteArray());
+            if (isAmbiguous(order, answer)) {
+                answer = client.send(request(order, true), HttpResponse.BodyHandlers.ofByteArray());
+            }
         } catch (IOException e) {
             throw unavailable(e);
         }
@@ -107,7 +118,10 @@ public final class DeviceCommands implements CommandSender {
                     "%d commands wait for the context broker at %s already; try again later"
                             .formatted(MAX_PENDING, contextBroker)));
         }
-        return client.sendAsync(request(order), HttpResponse.BodyHandlers.ofByteArray())
+        return client.sendAsync(request(order, false), HttpResponse.BodyHandlers.ofByteArray())
+                .thenCompose(answer -> isAmbiguous(order, answer)
+                        ? client.sendAsync(request(order, true), HttpResponse.BodyHandlers.ofByteArray())
+                        : CompletableFuture.completedFuture(answer))
                 .whenComplete((answer, failure) -> pending.release())
                 .handle((answer, failure) -> {
                     try {
@@ -133,23 +147,32 @@ public final class DeviceCommands implements CommandSender {
         if (answer.statusCode() / 100 == 2 && answer.body().length == 0) {
             return;
         }
-        Optional<String> message = message(answer.body());
+        int status = answer.statusCode();
+        JsonNode error = error(answer.body());
+        boolean isOfBroker = status == NOT_FOUND
+                ? ABSENCES.contains(error.path(ERROR).asText())
+                : error.has(ERROR) && REJECTIONS.contains(status);
+        if (isOfBroker && status == NOT_FOUND) {
+            throw new RejectedCommandException(
+                    NOT_FOUND,
+                    "The context broker at %s has no entity %s of type %s, so '%s' cannot be sent; a device accepts commands once it has reported. Check that it reports."
+                            .formatted(contextBroker, order.deviceId(), order.type(), order.command()));
+        }
         String rejected = "The context broker at %s rejected '%s' for %s with %d: %s"
                 .formatted(
                         contextBroker,
                         order.command(),
                         order.deviceId(),
-                        answer.statusCode(),
-                        message.orElseGet(() -> quoted(new String(answer.body(), StandardCharsets.UTF_8))));
-        if (message.isEmpty() || !REJECTIONS.contains(answer.statusCode())) {
-            throw new IOException(rejected);
-        }
-        throw answer.statusCode() != NOT_FOUND
-                ? new RejectedCommandException(answer.statusCode(), rejected)
-                : new RejectedCommandException(
-                        NOT_FOUND,
-                        "The context broker at %s has no entity %s of type %s, so '%s' cannot be sent; a device accepts commands once it has reported. Check that it reports."
-                                .formatted(contextBroker, order.deviceId(), order.type(), order.command()));
+                        status,
+                        quoted(error.path("description").asText(new String(answer.body(), StandardCharsets.UTF_8))));
+        throw isOfBroker ? new RejectedCommandException(status, rejected) : new IOException(rejected);
+    }
+
+    /** Whether entities of several types have the id, and the request named none of them. */
+    private static boolean isAmbiguous(Order order, HttpResponse<byte[]> answer) {
+        return isRobot(order.type())
+                && answer.statusCode() == CONFLICT
+                && AMBIGUOUS.equals(error(answer.body()).path(ERROR).textValue());
     }
 
     /** The desired type of a robot is {@code Robot}, while its entity has the type that it reports, {@code ROBOT} with FIROS. */
@@ -169,12 +192,14 @@ public final class DeviceCommands implements CommandSender {
         return body;
     }
 
-    private HttpRequest request(Order order) {
+    /** @param typed whether to name the type of a robot */
+    private HttpRequest request(Order order, boolean typed) {
         String deviceId = order.deviceId();
         String type = order.type();
         ObjectNode body = body(type, order.command(), order.value());
+        String typeQuery = "type=" + encoded(type);
         // Notifies a robot also if the command is the same as before.
-        String query = isRobot(type) ? "?options=forcedUpdate" : "?type=" + encoded(type);
+        String query = isRobot(type) ? "?options=forcedUpdate" + (typed ? "&" + typeQuery : "") : "?" + typeQuery;
         HttpRequest.Builder request = HttpRequest.newBuilder(URI.create("%s/v2/entities/%s/attrs%s"
                         .formatted(contextBroker.toString().replaceAll("/+$", ""), encoded(deviceId), query)))
                 .timeout(TIMEOUT)
@@ -188,20 +213,18 @@ public final class DeviceCommands implements CommandSender {
         return request.build();
     }
 
-    /** Returns the {@code description} of an NGSI error; empty for another body, such as the page of a proxy. */
-    private static Optional<String> message(byte[] body) {
-        if (body.length == 0) {
-            return Optional.of("it does not say why");
-        }
+    /** Returns an error of the context broker; a missing node for another body, such as the page or JSON of a proxy. */
+    private static JsonNode error(byte[] body) {
         try {
-            return Optional.of(quoted(NgsiJson.read(body).path("description").asText("")));
+            JsonNode json = NgsiJson.read(body);
+            return json.path(ERROR).isTextual() ? json : MissingNode.getInstance();
         } catch (UnreadableException e) {
-            return Optional.empty();
+            return MissingNode.getInstance();
         }
     }
 
     private static String quoted(String text) {
-        return text.substring(0, Math.min(text.length(), MAX_QUOTE_LENGTH));
+        return text.isEmpty() ? "it does not say why" : text.substring(0, Math.min(text.length(), MAX_QUOTE_LENGTH));
     }
 
     private static String encoded(String part) {

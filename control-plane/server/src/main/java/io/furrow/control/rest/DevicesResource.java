@@ -200,10 +200,12 @@ public final class DevicesResource {
         ObjectNode device = members.hasNonNull("type") ? existing(name).orElse(members) : find(name);
         String command = members.path("command").asText();
         JsonNode value = members.has("value") ? members.get("value") : NO_VALUE;
-        String type = device.path("type").asText(members.path("type").asText());
+        String key = keyOf(name);
+        String named = members.path("type").asText();
+        String type = devices.spelledType(key, named, device.path("type").asText(named));
         check(members, command, type);
         ObjectNode about = about(name);
-        FiwareScope scope = FiwareScope.ofIdentity(keyOf(name));
+        FiwareScope scope = FiwareScope.ofIdentity(key);
         if (!scope.equals(dependencies.scope())) {
             about.put("service", scope.service()).put("servicePath", scope.servicePath());
         }

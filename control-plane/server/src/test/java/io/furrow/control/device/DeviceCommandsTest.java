@@ -7,6 +7,7 @@ import java.util.ArrayList;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.TextNode;
 import com.sun.net.httpserver.HttpExchange;
 import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
@@ -29,6 +30,9 @@ class DeviceCommandsTest {
     private final List<String> received = new ArrayList<>();
     private int status = 204;
     private String answer = "";
+    /** Whether entities of several types have each id. */
+    private boolean ambiguous;
+
     private volatile String authorization;
 
     @AutoClose
@@ -66,11 +70,17 @@ class DeviceCommandsTest {
             quoteCharacter = '`',
             value = {
                 "400,{\"error\":\"BadRequest\"},400",
-                "404,,404",
+                "404,{\"error\":\"NotFound\"},404",
+                "404,{\"error\":\"NonExistingTenant\"},404",
                 "409,{\"error\":\"TooManyResults\"},409",
                 "422,{\"error\":\"Unprocessable\"},422",
                 "401,{\"error\":\"invalid_token\"},",
+                "404,,",
                 "404,<html>nginx</html>,",
+                "404,{\"message\":\"no Route matched\"},",
+                "404,{\"error\":\"Not Found\"},",
+                "400,{\"message\":\"bad header\"},",
+                "409,,",
                 "200,<html>log in</html>,",
                 "503,{\"error\":\"busy\"},"
             })
@@ -96,6 +106,23 @@ class DeviceCommandsTest {
                 .containsOnly("POST /v2/entities/urn%3Angsi-ld%3ARobot%3Am-1/attrs?options=forcedUpdate farm /north"
                         + " {\"cmd\":{\"type\":\"String\",\"value\":\"Stop\"},"
                         + "\"cmd_status\":{\"type\":\"commandStatus\",\"value\":\"PENDING\"}}");
+    }
+
+    /** The desired type of a robot may differ from the reported one, so its type is named only if necessary. */
+    @Test
+    void namesTheTypeOfARobotIfItsIdIsAmbiguous() throws Exception {
+        ambiguous = true;
+
+        commands().send("r1", "ROBOT", "Stop", "");
+        commands()
+                .send(new DeviceCommands.Order("r1", "ROBOT", "Stop", TextNode.valueOf("")))
+                .join();
+
+        assertThat(received).hasSize(4);
+        for (int first : new int[] {0, 2}) {
+            assertThat(received.get(first)).contains("/attrs?options=forcedUpdate farm");
+            assertThat(received.get(first + 1)).contains("/attrs?options=forcedUpdate&type=ROBOT farm");
+        }
     }
 
     @Test
@@ -155,6 +182,7 @@ class DeviceCommandsTest {
                         exchange.getRequestHeaders().getFirst("Fiware-Service"),
                         exchange.getRequestHeaders().getFirst("Fiware-Servicepath"),
                         new String(exchange.getRequestBody().readAllBytes(), UTF_8)));
-        StubServer.answer(exchange, status, answer);
+        boolean rejected = ambiguous && !exchange.getRequestURI().getQuery().contains("type=");
+        StubServer.answer(exchange, rejected ? 409 : status, rejected ? "{\"error\":\"TooManyResults\"}" : answer);
     }
 }

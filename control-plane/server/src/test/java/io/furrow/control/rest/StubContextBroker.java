@@ -2,6 +2,7 @@ package io.furrow.control.rest;
 
 import java.io.IOException;
 import java.net.URI;
+import java.util.Map;
 import java.util.concurrent.CountDownLatch;
 
 import com.sun.net.httpserver.HttpExchange;
@@ -12,6 +13,12 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Accepts or rejects updates, and records the last one. */
 final class StubContextBroker implements AutoCloseable {
+    private static final Map<Integer, String> ERRORS = Map.of(
+            400, "{\"error\":\"BadRequest\"}",
+            404, "{\"error\":\"NotFound\"}",
+            409, "{\"error\":\"TooManyResults\"}",
+            422, "{\"error\":\"Unprocessable\"}");
+
     private final StubServer server = new StubServer(this::take);
     private volatile String last = "";
     private volatile String scope = "";
@@ -50,8 +57,7 @@ final class StubContextBroker implements AutoCloseable {
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }
-        exchange.sendResponseHeaders(status, -1);
-        exchange.close();
+        StubServer.answer(exchange, status, ERRORS.getOrDefault(status, ""));
     }
 
     @Override

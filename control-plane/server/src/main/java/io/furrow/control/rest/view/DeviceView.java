@@ -3,6 +3,7 @@ package io.furrow.control.rest.view;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Optional;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -39,6 +40,21 @@ public record DeviceView(StateView view) {
                         && "running".equals(device.path("wanted").textValue()))
                 .forEach(device -> resolve(device, lists).ifPresent(devices::add));
         return devices;
+    }
+
+    /**
+     * Returns a device's type in the spelling of its last report, else of the request: a robot of FIROS, which is
+     * desired as {@code Robot}, reports {@code ROBOT}.
+     */
+    public String spelledType(String key, String requested, String desired) {
+        String reported = view.find(Topics.DEVICES_HEALTH, key)
+                .filter(health -> health.hasNonNull("heard"))
+                .map(health -> health.path("type").asText())
+                .orElse(requested);
+        return Stream.of(reported, requested)
+                .filter(desired::equalsIgnoreCase)
+                .findFirst()
+                .orElse(desired);
     }
 
     /** Adds the connection of a device; lists of devices omit it. */
