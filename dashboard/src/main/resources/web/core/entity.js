@@ -231,7 +231,7 @@ function addNumber(series, name, time, value) {
 }
 
 /**
- * Prepends earlier reports to the trail and series of an entity, and leaves its attributes unchanged.
+ * Prepends earlier reports to the trail and series of an entity. They leave its attributes unchanged, but may show that those are in percent.
  *
  * @param {Entity} entity
  * @param {import('./stream.js').TopicRecord[]} records of the entity, oldest first
@@ -243,7 +243,10 @@ export function applyPast(entity, records) {
       continue;
     }
     for (const name in value) {
-      !FRAME.has(name) && name in entity.attributes && (past.attributes[name] = readAttribute(name, value[name]));
+      if (!FRAME.has(name) && name in entity.attributes) {
+        past.attributes[name] = readAttribute(name, value[name]);
+        entity.attributes[name].percent ||= isPercent(past.attributes[name]);
+      }
     }
     past.position = positionOf(value, headers).position ?? past.position;
     appendPoints(past, value, time);

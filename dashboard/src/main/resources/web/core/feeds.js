@@ -103,6 +103,7 @@ class Feeds {
       if (!list.error) {
         store[name] = new Map();
         (list.value ?? []).forEach((each) => store[name].set(key(each, store[name]), each));
+        name === 'devices' && store.entities.forEach((entity) => store.applyHealth(entity));
       }
       store.notify(name);
     });

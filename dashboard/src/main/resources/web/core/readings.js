@@ -71,6 +71,11 @@ export function isPercent(attribute) {
   return unitOf(attribute) === '' && finite(attribute.value) > 1;
 }
 
+/** Marks the battery as one of a device that reports percent without naming a unit. @param {Object<string, Object>} attributes */
+export function markPercent(attributes) {
+  BATTERIES.forEach((name) => attributes[name] && (attributes[name].percent = true));
+}
+
 /** The charge of a battery, 0 to 1. @param {Object<string, Object>} attributes as parsed by `core/entity.js` @returns {number|null} */
 export function chargeOf(attributes) {
   const attribute = attributes[BATTERIES.find((name) => isPresent(attributes[name]?.value))];

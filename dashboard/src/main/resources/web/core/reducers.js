@@ -1,6 +1,7 @@
 /** Applies the records of each topic to the store. */
 import { applyPast, applyReport, nameOf, newEntity } from './entity.js';
 import { fullKey, scopeOf } from './identities.js';
+import { markPercent } from './readings.js';
 
 /** Maximum number of entities; beyond it the one with the oldest report is removed. */
 const MAX_ENTITIES = 5_000;
@@ -32,11 +33,20 @@ export const Reducers = (Base) => class extends Base {
       entity.heard = Math.max(entity.heard, entity.time);
     } else if (typeof record.value === 'object' && !Array.isArray(record.value)) {
       applyReport(entity, record);
+      this.applyHealth(entity);
     }
     entity.suspect = this.suspects.has(key);
     entity.state = this.stateOf(entity);
     this.notify('entities', key);
     return [key];
+  }
+
+  /** Applies what the control plane remembers of a device: whether it ever reported its battery in percent. */
+  applyHealth(entity) {
+    if (this.deviceOf(entity)?.health?.percent) {
+      markPercent(entity.attributes);
+      this.notify('entities', entity.id);
+    }
   }
 
   forgetEntity(key) {

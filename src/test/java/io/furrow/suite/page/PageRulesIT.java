@@ -76,9 +76,11 @@ class PageRulesIT {
     void readsBatteriesAsTheControlPlaneDoes() throws IOException {
         assertThat(differences("ngsi/batteries.csv", REPORT + """
                 const { chargeOf } = await import('/core/readings.js');
-                return rows.filter(([reports, expected], index) => {
-                  parse(reports).forEach((each) => report(`battery ${index}`, 'Battery', '', each));
-                  const read = chargeOf(store.entities.get(`battery ${index}`).attributes);
+                return rows.filter(([reports, expected, known], index) => {
+                  const id = `battery ${index}`;
+                  known && store.devices.set(id, { id, type: 'Battery', service: '', servicePath: '/', health: { percent: true } });
+                  parse(reports).forEach((each) => report(id, 'Battery', '', each));
+                  const read = chargeOf(store.entities.get(id).attributes);
                   return expected === 'none' ? read !== null : !(Math.abs(read - expected) < 1e-9);
                 });""")).isEmpty();
     }

@@ -43,15 +43,20 @@ final class Battery {
         return level.filter(share -> share >= 0 && share <= 1).orElse(null);
     }
 
-    private static double share(double value, boolean percent) {
+    static double share(double value, boolean percent) {
         return percent ? value / PERCENT : value;
     }
 
     /** Whether the entity shows that its device reports numbers without a unit in percent. */
     static boolean isPercent(Entity entity) {
+        return isUnitless(entity) && entity.number(attributeOf(entity)).orElseThrow() > 1;
+    }
+
+    /** Whether the battery is a number without a unit. */
+    static boolean isUnitless(Entity entity) {
         String attribute = attributeOf(entity);
         return Quantity.unitOf(entity, attribute).isEmpty()
-                && entity.number(attribute).filter(value -> value > 1).isPresent();
+                && entity.number(attribute).isPresent();
     }
 
     private static String attributeOf(Entity entity) {

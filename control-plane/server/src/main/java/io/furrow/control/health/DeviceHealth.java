@@ -1,5 +1,6 @@
 package io.furrow.control.health;
 
+import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonUnwrapped;
 
 import io.furrow.model.device.DesiredDevice;
@@ -46,24 +47,41 @@ public record DeviceHealth(
      * @param heard when it was received, epoch ms, with a delay of at most about 30 s; null if none was
      * @param deviceTime time reported by the device itself, epoch ms; null if none
      * @param battery 0 to 1; null if never reported
+     * @param percent whether it ever reported its battery in percent without naming the unit
      * @param off whether it reported that it is switched off; it is never silent then
      */
-    public record NewestReport(Long lastSeen, Long heard, Long deviceTime, Double battery, boolean off) {}
+    public record NewestReport(
+            Long lastSeen,
+            Long heard,
+            Long deviceTime,
+            Double battery,
+            @JsonInclude(JsonInclude.Include.NON_DEFAULT) boolean percent,
+            boolean off) {}
 
     /** Creates the health of a device that has not reported yet. */
     static DeviceHealth unreported(DesiredDevice device, long now) {
         return new DeviceHealth(
-                Device.of(device, device.type()), false, now, new NewestReport(null, null, null, null, false));
+                Device.of(device, device.type()), false, now, new NewestReport(null, null, null, null, false, false));
     }
 
     DeviceHealth reported(Heartbeat heartbeat, long now) {
-        Double battery = heartbeat.battery() == null ? report.battery : heartbeat.battery();
+        // Its detector, which may have started since, does not know this.
+        boolean knownPercent = report.percent && heartbeat.type().equals(device.type);
+        Double battery = heartbeat.battery() == null
+                ? report.battery
+                : Double.valueOf(
+                        Battery.share(heartbeat.battery(), knownPercent && Boolean.FALSE.equals(heartbeat.percent())));
         return new DeviceHealth(
                 device.typed(heartbeat.type()),
                 false,
                 silent ? now : since,
                 new NewestReport(
-                        heartbeat.reported(), heartbeat.heard(), heartbeat.deviceTime(), battery, heartbeat.off()));
+                        heartbeat.reported(),
+                        heartbeat.heard(),
+                        heartbeat.deviceTime(),
+                        battery,
+                        knownPercent || Boolean.TRUE.equals(heartbeat.percent()),
+                        heartbeat.off()));
     }
 
     DeviceHealth silent(long now) {

@@ -10,6 +10,8 @@ package io.furrow.control.health;
  * @param reported event time of that report, epoch ms
  * @param deviceTime time of that report as given by the device, even if its clock is far ahead, epoch ms; null if none
  * @param battery 0 to 1; null if never reported
+ * @param percent whether the battery is a number without a unit that is in percent; false if nothing has shown this since
+ *     the start; null if it is not such a number
  * @param off whether it reported that it is switched off
  */
 record Heartbeat(
@@ -20,6 +22,7 @@ record Heartbeat(
         long reported,
         Long deviceTime,
         Double battery,
+        Boolean percent,
         boolean off) {
     /** Key of a pulse; no device has it. */
     static final String PULSE_KEY = "";
@@ -30,12 +33,12 @@ record Heartbeat(
      * @param heard when, epoch ms
      */
     static Heartbeat pulse(long heard) {
-        return new Heartbeat("", null, false, heard, heard, null, null, false);
+        return new Heartbeat("", null, false, heard, heard, null, null, null, false);
     }
 
     /** Returns the heartbeat that reports the device as silent. */
     Heartbeat silenced() {
-        return new Heartbeat(id, type, true, heard, reported, deviceTime, battery, off);
+        return new Heartbeat(id, type, true, heard, reported, deviceTime, battery, percent, off);
     }
 
     boolean isPulse() {

@@ -49,6 +49,9 @@ final class SilenceDetector {
 
         private ReportedState state;
         private boolean percent;
+        /** Desired type; null if unknown. */
+        private String type;
+
         private long emittedAt;
         /** Whether the newest report was not emitted yet. */
         private boolean pending;
@@ -61,9 +64,18 @@ final class SilenceDetector {
             return now - emittedAt >= HEARTBEAT_INTERVAL.toMillis();
         }
 
+        /** Whether an entity is the device: several types may have its id, of which the desired one, else the first is. */
+        boolean isOf(Entity entity) {
+            return newest == null
+                    || entity.type().equals(newest.type())
+                    || entity.type().equalsIgnoreCase(type)
+                    || silent && !newest.type().equalsIgnoreCase(type);
+        }
+
         /** Updates the settings of the device; after a new start of its mission the next report is emitted immediately. */
         void take(DesiredDevice device, long after) {
             silentAfter = after;
+            type = device.type();
             if (from != device.version().from()) {
                 from = device.version().from();
                 emittedAt = 0;
@@ -100,8 +112,8 @@ final class SilenceDetector {
      */
     boolean process(String key, Entity entity, long reported, long now) {
         TrackedDevice tracked = devices.get(key);
-        boolean first = tracked.newest == null;
-        if (first && !isMeasured(entity)) {
+        boolean first = tracked.newest == null || !entity.type().equals(tracked.newest.type());
+        if (!tracked.isOf(entity) || first && !isMeasured(entity)) {
             return false;
         }
         ReportedState before = tracked.state;
@@ -113,14 +125,24 @@ final class SilenceDetector {
                 .read(entity)
                 .map(Instant::toEpochMilli)
                 .orElse(null);
-        tracked.percent |= Battery.isPercent(entity);
+        tracked.percent = Battery.isPercent(entity) || !first && tracked.percent;
         Double battery = Battery.levelOf(entity, tracked.percent);
         boolean off = entity.value(STATUS)
                 .filter(status -> status.isBoolean() && !status.booleanValue())
                 .isPresent();
         boolean switched = !first && off != tracked.newest.off();
-        Double newest = battery == null && !first ? tracked.newest.battery() : battery;
-        tracked.newest = new Heartbeat(entity.id(), entity.type(), false, now, reported, deviceTime, newest, off);
+        boolean isAbsent = battery == null && !first;
+        Boolean percent = tracked.percent || Battery.isUnitless(entity) ? Boolean.valueOf(tracked.percent) : null;
+        tracked.newest = new Heartbeat(
+                entity.id(),
+                entity.type(),
+                false,
+                now,
+                reported,
+                deviceTime,
+                isAbsent ? tracked.newest.battery() : battery,
+                isAbsent ? tracked.newest.percent() : percent,
+                off);
         tracked.pending = true;
         if (first || tracked.silent || switched || tracked.isDue(now)) {
             tracked.silent = false;

@@ -178,6 +178,25 @@ class DeviceHealthTrackerTest {
         assertThat(existing().device().mission()).isEqualTo("other");
     }
 
+    /** After a restart the detector takes 1 for a whole, until the device reports more. */
+    @Test
+    void remembersThatADeviceReportsPercent() {
+        addDesired("m", START);
+        tracker.take(KEY, battery(0.02, true, START), START);
+        tracker.take(KEY, battery(1, false, START + 1), START + 1);
+        assertThat(existing().report())
+                .returns(0.01, DeviceHealth.NewestReport::battery)
+                .returns(true, DeviceHealth.NewestReport::percent);
+        tracker.take(KEY, battery(1, null, START + 2), START + 2);
+        assertThat(existing().report().battery()).as("with a unit").isEqualTo(1);
+        tracker.take(KEY, heartbeat(false, START + 3), START + 3);
+        assertThat(existing().report().percent()).isTrue();
+    }
+
+    private static Heartbeat battery(double battery, Boolean percent, long heard) {
+        return new Heartbeat(ID, "T", false, heard, 77, null, battery, percent, false);
+    }
+
     private DeviceHealthTracker tracker() {
         return new DeviceHealthTracker(
                 health,
@@ -198,7 +217,7 @@ class DeviceHealthTrackerTest {
     }
 
     private static Heartbeat heartbeat(boolean silent, long heard) {
-        return new Heartbeat(ID, "T", silent, heard, 77, null, null, false);
+        return new Heartbeat(ID, "T", silent, heard, 77, null, null, null, false);
     }
 
     private void addDesired(String mission, long from) {

@@ -201,6 +201,50 @@ class SilenceDetectorTest {
     }
 
     @Test
+    void ignoresAnEntityOfAnotherTypeOnceTheDeviceHasReported() {
+        addDesired(PERIOD);
+        process("Camera", 5);
+        process("t", 6);
+        assertThat(signs).extracting(Heartbeat::type).containsExactly("Camera", "t");
+
+        for (int i = 0; i < 4; i++) {
+            pass(10_000);
+            process("Camera", 7 + i);
+        }
+        pass(1000);
+        assertThat(signs).hasSize(3);
+        assertThat(signs.get(2)).returns("t", Heartbeat::type).returns(true, Heartbeat::silent);
+    }
+
+    @Test
+    void observesTheTypeThatReportsIfTheDesiredOneIsUnknown() {
+        addDesired(null, PERIOD, 0);
+        process("Camera", 5);
+        process("T", 6);
+        assertThat(signs).hasSize(1);
+        pass(30_001);
+        pass(1000);
+        process("T", 7);
+        process("Camera", 8);
+        assertThat(signs).extracting(Heartbeat::type).containsExactly("Camera", "Camera", "T");
+        assertThat(signs).extracting(Heartbeat::silent).containsExactly(false, true, false);
+    }
+
+    @Test
+    void reportsWhetherABatteryIsInPercent() {
+        addDesired(PERIOD);
+        process(5, "battery", 1);
+        pass(30_000);
+        process(6, "battery", 2);
+        pass(30_000);
+        process(7, "battery", 1);
+        pass(30_000);
+        process(8);
+        assertThat(signs).extracting(Heartbeat::percent).containsExactly(false, true, true, true);
+        assertThat(signs).extracting(Heartbeat::battery).containsExactly(1.0, 0.02, 0.01, 0.01);
+    }
+
+    @Test
     void readsBatteriesAsDevicesAndRobotsReportThem() throws Exception {
         assertThat(level("battery", 0.8)).isEqualTo(0.8);
         assertThat(level("battery", 80)).isEqualTo(0.8);
@@ -219,6 +263,11 @@ class SilenceDetectorTest {
     private void process(long reported, Object... attributes) {
         assertThat(listener.isMonitored(KEY)).isTrue();
         listener.process(KEY, entity(attributes).build(), reported, now);
+    }
+
+    private void process(String type, long reported) {
+        assertThat(listener.isMonitored(KEY)).isTrue();
+        listener.process(KEY, Entity.builder(ID, type).build(), reported, now);
     }
 
     /** Builds an entity from alternating names and values. */
@@ -247,9 +296,18 @@ class SilenceDetectorTest {
     }
 
     private void addDesired(Duration period, long from) {
+        addDesired("T", period, from);
+    }
+
+    private void addDesired(String type, Duration period, long from) {
         DeviceVersion version = new DeviceVersion(ID, "", "/", "d", "m", from, null, 1, null);
         DesiredDevice device = DesiredDevice.simulated(
-                version, "T", ID, true, period, NgsiJson.mapper().createObjectNode());
+                version,
+                type,
+                type == null ? null : ID,
+                true,
+                period,
+                NgsiJson.mapper().createObjectNode());
         desired.put(KEY, device.toBytes());
     }
 }

@@ -133,8 +133,8 @@ class SilencePropertyTest {
             for (int second = 0; second < 300; second += 5) {
                 now += 5000;
                 if (second % 10 == 0) {
-                    reporting.forEach(key ->
-                            tracker.take(key, new Heartbeat(id(key), "T", false, now, now, null, null, false), now));
+                    reporting.forEach(key -> tracker.take(
+                            key, new Heartbeat(id(key), "T", false, now, now, null, null, null, false), now));
                     if (!reporting.isEmpty()) {
                         tracker.take(Heartbeat.PULSE_KEY, Heartbeat.pulse(now), now);
                     }

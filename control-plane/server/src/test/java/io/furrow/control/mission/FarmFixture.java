@@ -157,7 +157,7 @@ final class FarmFixture {
                         version.mission()),
                 false,
                 heard,
-                new DeviceHealth.NewestReport(heard, heard, null, null, false));
+                new DeviceHealth.NewestReport(heard, heard, null, null, false, false));
         run(() -> missionHandler.reported(version.key(), health, now));
     }
 
