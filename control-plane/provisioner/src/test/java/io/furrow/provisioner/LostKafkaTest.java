@@ -209,6 +209,21 @@ class LostKafkaTest extends ProvisioningFixture {
         assertThat(outcome.retained().devices()).hasSize(10);
     }
 
+    /** Two farms may share a broker, and the keys of the other secret may have higher numbers. */
+    @Test
+    void retainsAccountsWhosePasswordIsNotOfItsSecret() throws Exception {
+        provisionTen();
+        FarmSecret another = FarmSecret.generate()
+                .rotated(Instant.now(), Instant.EPOCH, false)
+                .at(Instant.now());
+
+        Outcome outcome =
+                provisioning(files(SecretSource.of(another), false), EMPTY).step();
+
+        assertThat(users()).hasSize(10);
+        assertThat(outcome.retained().text()).contains("10 MQTT accounts");
+    }
+
     /** The secret is from a copy that was made before the rotation. */
     @Test
     void retainsAccountsOfALaterKey() throws Exception {

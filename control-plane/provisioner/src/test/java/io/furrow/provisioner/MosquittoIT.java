@@ -175,7 +175,7 @@ class MosquittoIT {
                     Set.of(
                             SECRET.device("hoeing", DEVICE, 1).user(),
                             SECRET.device("weeding", "other").user()),
-                    any -> true);
+                    (user, login) -> true);
             await().until(() -> !stolen.isConnected());
             files.replace(rotated, Set.of());
 

@@ -9,6 +9,7 @@ import java.util.Map;
 import java.util.Properties;
 import java.util.Set;
 import java.util.concurrent.atomic.AtomicLong;
+import java.util.function.BiPredicate;
 import java.util.function.LongSupplier;
 import java.util.function.Predicate;
 import java.util.stream.Collectors;
@@ -103,8 +104,8 @@ abstract class ProvisioningFixture {
         }
 
         @Override
-        public Set<String> retain(Set<String> some, Predicate<String> removable) {
-            if (users.removeIf(user -> !some.contains(user) && removable.test(user))) {
+        public Set<String> retain(Set<String> some, BiPredicate<String, Predicate<FarmSecret.Login>> removable) {
+            if (users.removeIf(user -> !some.contains(user) && removable.test(user, any -> true))) {
                 counts.add(users.size());
             }
             return users.stream().filter(user -> !some.contains(user)).collect(Collectors.toSet());

@@ -9,6 +9,7 @@ import java.util.Map;
 import java.util.Set;
 import java.util.TreeMap;
 import java.util.TreeSet;
+import java.util.function.Predicate;
 
 import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.device.DesiredDevice;
@@ -97,17 +98,20 @@ public final class DeviceAccounts {
                             .toList();
             retained.clear();
             for (MqttAccounts broker : brokers) {
-                retained.addAll(broker.retain(users, user -> all || isRemovable(UserName.of(user))));
+                retained.addAll(broker.retain(users, (user, isLogin) -> all || isRemovable(user, isLogin)));
             }
         }
         retained.removeAll(users);
         allowed = users;
     }
 
-    private boolean isRemovable(UserName user) {
-        FarmSecret now = secret.get();
-        boolean isExpired = user.key() < now.newestKey() && !now.acceptedKeys().contains(user.key());
-        return own.contains(user.owner()) || isExpired; // a later key is of a newer or another secret
+    /** An account with an expired key is of this farm if its password is; that of another key may be of another farm. */
+    private boolean isRemovable(String user, Predicate<FarmSecret.Login> isLogin) {
+        return own.contains(UserName.of(user).owner())
+                || secret.get()
+                        .expired(user, UserName.of(user).key())
+                        .filter(isLogin)
+                        .isPresent();
     }
 
     /**

@@ -8,6 +8,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.atomic.AtomicLong;
+import java.util.function.BiPredicate;
 import java.util.function.Function;
 import java.util.function.LongSupplier;
 import java.util.function.Predicate;
@@ -17,6 +18,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.device.FarmSecret;
 
 /**
  * Holds accounts for an MQTT broker in this JVM, which checks each connection and message against them, and records the
@@ -60,9 +62,11 @@ public final class InMemoryAccounts implements MqttAccounts, LoginReports {
     }
 
     @Override
-    public Set<String> retain(Set<String> users, Predicate<String> removable) {
-        Set<String> retained = byUser.keySet().stream()
-                .filter(user -> !users.contains(user) && !removable.test(user))
+    public Set<String> retain(Set<String> users, BiPredicate<String, Predicate<FarmSecret.Login>> removable) {
+        Set<String> retained = byUser.values().stream()
+                .map(MqttAccount::login)
+                .filter(login -> !users.contains(login.user()) && !removable.test(login.user(), login::equals))
+                .map(FarmSecret.Login::user)
                 .collect(Collectors.toSet());
         replace(
                 byUser.values().stream()

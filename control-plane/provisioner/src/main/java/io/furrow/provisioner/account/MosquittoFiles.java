@@ -15,6 +15,7 @@ import java.util.Optional;
 import java.util.Set;
 import java.util.TreeMap;
 import java.util.concurrent.TimeUnit;
+import java.util.function.BiPredicate;
 import java.util.function.Predicate;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
@@ -112,14 +113,16 @@ public final class MosquittoFiles implements MqttAccounts {
     }
 
     @Override
-    public synchronized Set<String> retain(Set<String> users, Predicate<String> removable) throws IOException {
+    public synchronized Set<String> retain(
+            Set<String> users, BiPredicate<String, Predicate<FarmSecret.Login>> removable) throws IOException {
         List<String> before = passwords.read();
+        Map<String, String> lines = byUser(before);
         Map<String, Integer> desired = new HashMap<>();
         users.stream().map(UserName::of).forEach(name -> desired.merge(name.owner(), name.generation(), Math::max));
         Predicate<String> retain = user -> {
             UserName name = UserName.of(user);
             boolean later = name.generation() > desired.getOrDefault(name.owner(), Integer.MAX_VALUE);
-            return users.contains(user) || later || !removable.test(user);
+            return users.contains(user) || later || !removable.test(user, login -> isOf(lines.get(user), login));
         };
         List<String> next = passwordsOf(before, retain);
         List<String> nextRules = rulesOf(retain);
@@ -131,6 +134,17 @@ public final class MosquittoFiles implements MqttAccounts {
                 .map(MosquittoPassword::user)
                 .filter(user -> !users.contains(user))
                 .collect(Collectors.toSet());
+    }
+
+    /** Whether a line is of a login; without a line, as after a crash, nobody can log in by the rules that are left. */
+    private static boolean isOf(String line, FarmSecret.Login login) {
+        return line == null || MosquittoPassword.isOf(line, login);
+    }
+
+    private static Map<String, String> byUser(List<String> lines) {
+        Map<String, String> byUser = new HashMap<>();
+        lines.forEach(line -> byUser.put(MosquittoPassword.user(line), line));
+        return byUser;
     }
 
     private static List<String> passwordsOf(List<String> lines, Predicate<String> users) {
@@ -186,8 +200,7 @@ public final class MosquittoFiles implements MqttAccounts {
 
     /** Reuses existing lines that match, because each new line has another salt. */
     private List<String> passwords(List<MqttAccount> accounts) throws IOException {
-        Map<String, String> existing = new HashMap<>();
-        passwords.read().forEach(line -> existing.put(MosquittoPassword.user(line), line));
+        Map<String, String> existing = byUser(passwords.read());
         Map<FarmSecret.Login, String> next = new LinkedHashMap<>();
         for (MqttAccount account : accounts) {
             FarmSecret.Login login = account.login();

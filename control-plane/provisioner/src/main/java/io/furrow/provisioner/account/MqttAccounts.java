@@ -5,7 +5,10 @@ import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
+import java.util.function.BiPredicate;
 import java.util.function.Predicate;
+
+import io.furrow.model.device.FarmSecret;
 
 /** Stores accounts of devices and gateways where an MQTT broker reads them. */
 public interface MqttAccounts {
@@ -21,12 +24,13 @@ public interface MqttAccounts {
     /**
      * Removes the accounts of other users, including those written by another process or an earlier run.
      *
-     * @param removable tells which of them may be removed; a later login of a device than that in {@code users} always
-     *     stays
+     * @param removable tells which of them may be removed, by name and by whether a login is that of the account; a
+     *     later login of a device than that in {@code users} always stays
      * @return the retained other users
      * @throws IOException as {@link #replace}
      */
-    Set<String> retain(Set<String> users, Predicate<String> removable) throws IOException;
+    Set<String> retain(Set<String> users, BiPredicate<String, Predicate<FarmSecret.Login>> removable)
+            throws IOException;
 
     /** Returns the recorded id of the topic whose devices have the accounts. */
     default Optional<String> origin() throws IOException {

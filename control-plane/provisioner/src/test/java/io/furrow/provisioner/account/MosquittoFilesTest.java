@@ -96,7 +96,7 @@ class MosquittoFilesTest {
         files.replace(List.of(gateway, device), Set.of());
         FileTime first = Files.getLastModifiedTime(directory.resolve("calls"));
 
-        files.retain(Set.of(device.login().user()), any -> true);
+        files.retain(Set.of(device.login().user()), (user, login) -> true);
 
         assertThat(calls()).isEqualTo(2);
         assertThat(Files.getLastModifiedTime(directory.resolve("calls")).toInstant())
@@ -109,8 +109,8 @@ class MosquittoFilesTest {
         byte[] before = Files.readAllBytes(passwords());
         MosquittoFiles started = files(count());
 
-        started.retain(Set.of(device.login().user()), any -> true);
-        started.retain(Set.of(device.login().user()), any -> true);
+        started.retain(Set.of(device.login().user()), (user, login) -> true);
+        started.retain(Set.of(device.login().user()), (user, login) -> true);
 
         assertThat(calls()).isEqualTo(1);
         assertThat(Files.readAllBytes(passwords())).isEqualTo(before);
@@ -180,7 +180,7 @@ class MosquittoFilesTest {
         MosquittoFiles files = files(count());
         files.replace(List.of(gateway, device, other()), Set.of());
 
-        files.retain(Set.of(device.login().user(), "somebody"), any -> true);
+        files.retain(Set.of(device.login().user(), "somebody"), (user, login) -> true);
 
         assertThat(Files.readAllLines(passwords()))
                 .filteredOn(line -> line.contains(":$7$"))
@@ -194,7 +194,7 @@ class MosquittoFilesTest {
                 .hasSize(7);
         assertThat(calls()).isEqualTo(2);
 
-        files.retain(Set.of(device.login().user()), any -> true);
+        files.retain(Set.of(device.login().user()), (user, login) -> true);
         assertThat(calls()).isEqualTo(2);
     }
 

@@ -178,6 +178,14 @@ public final class FarmSecret {
         return login(key, "m." + encode(mission) + "." + key.number());
     }
 
+    /** Returns the login of a user by a key that is no longer accepted; empty if the secret has none of this number. */
+    public Optional<Login> expired(String user, int number) {
+        return keys.stream()
+                .filter(key -> key.number() == number && !accepted.contains(key))
+                .map(key -> new Login(user, key.code("password", user)))
+                .findFirst();
+    }
+
     private static Login login(FarmKey key, String name) {
         String user = USER_PREFIX + name;
         return new Login(user, key.code("password", user));
