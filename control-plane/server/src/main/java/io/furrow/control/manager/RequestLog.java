@@ -21,7 +21,8 @@ import io.furrow.model.control.Limits;
  *
  * <p><b>State</b>: fingerprint by request id, in a named window store of one manager. <b>Cleared</b>: by the store,
  * which drops whole windows after one to {@code 1 + 1/}{@value #WINDOWS} times the retention, by the clock of the
- * control plane, because a client's clock must not control deletions.
+ * control plane, because a client's clock must not control deletions. That clock may be behind that of the instance that
+ * stored the newest window: time then goes on from there, because the store would drop an older window at once.
  */
 final class RequestLog {
     /** A lookup takes as many steps. */
@@ -30,6 +31,8 @@ final class RequestLog {
     private final WindowStore<String, byte[]> store;
     private final long retention;
     private final TreeMap<Long, Integer> countByWindow = new TreeMap<>();
+    /** Of the time of the windows to the clock, ms; 0 or positive. */
+    private long offset;
 
     RequestLog(ProcessorContext<?, ?> context, String name, Duration retention) {
         this.store = context.getStateStore(name);
@@ -50,7 +53,7 @@ final class RequestLog {
     /** Returns the fingerprint of the answered request with an id; empty if there is none. */
     Optional<String> fingerprint(String requestId, long now) {
         try (WindowStoreIterator<byte[]> found =
-                store.fetch(requestId, Math.max(0, now - retention - window(retention)), Long.MAX_VALUE)) {
+                store.fetch(requestId, Math.max(0, time(now) - retention - window(retention)), Long.MAX_VALUE)) {
             return found.hasNext()
                     ? Optional.of(new String(found.next().value, StandardCharsets.UTF_8))
                     : Optional.empty();
@@ -59,14 +62,22 @@ final class RequestLog {
 
     /** Whether no further id can be stored until the oldest window is dropped. */
     boolean isFull(long now) {
-        countByWindow.headMap(now - retention - 2 * window(retention)).clear();
+        countByWindow.headMap(time(now) - retention - 2 * window(retention)).clear();
         return countByWindow.values().stream().mapToInt(Integer::intValue).sum() >= Limits.REMEMBERED_REQUESTS;
     }
 
     void add(String requestId, String fingerprint, long now) {
-        long window = now - now % window(retention);
+        long time = time(now);
+        long window = time - time % window(retention);
         store.put(requestId, fingerprint.getBytes(StandardCharsets.UTF_8), window);
         count(window);
+    }
+
+    private long time(long now) {
+        if (!countByWindow.isEmpty()) {
+            offset = Math.max(offset, countByWindow.lastKey() - now);
+        }
+        return now + offset;
     }
 
     private void count(long window) {
