@@ -86,6 +86,15 @@ class PageRulesIT {
     }
 
     @Test
+    void readsABatteryInPercentIfAReportBeforeThePageWasOpenedShowsIt() {
+        assertThat(run(REPORT + """
+                const { chargeOf } = await import('/core/readings.js');
+                report('past', 'Battery', '', parse('{"battery": {"value": 1}}'));
+                store.applyPast([{ key: 'past', kind: 'event', time: time - 1, headers: { 'fiware-service': '', 'fiware-servicepath': '/' }, value: { id: 'past', type: 'Battery', ...parse('{"battery": {"value": 3}}') } }]);
+                return [`${chargeOf(store.entities.get('past').attributes)}`];""")).containsExactly("0.01");
+    }
+
+    @Test
     void showsNumbersUnchangedAndWithTheirUnits() {
         assertThat(run(REPORT + """
                 const { allAttributes, keyAttributes } = await import('/cards/attributes.js');

@@ -58,7 +58,7 @@ class GeoPackageFieldsTest {
 
     @Test
     void rejectsTooManyFeatures() throws Exception {
-        addView(NUMBERS + "NULL AS geom FROM n");
+        addView(NUMBERS + "NULL AS geom FROM n LIMIT 3000");
         assertThatThrownBy(() -> GeoPackageFields.read(
                         file, "v", new GeoPackageFields.Limits(Duration.ofHours(1), 1000, Long.MAX_VALUE)))
                 .isInstanceOf(InvalidFileException.class)
@@ -68,7 +68,9 @@ class GeoPackageFieldsTest {
     @Test
     void rejectsTooManyBytes() throws Exception {
         GeoPackageFields.Limits limits = new GeoPackageFields.Limits(Duration.ofHours(1), Integer.MAX_VALUE, 1 << 20);
-        for (String large : new String[] {"zeroblob(1000) AS geom FROM n", "NULL AS geom, hex(zeroblob(500)) FROM n"}) {
+        for (String large : new String[] {
+            "zeroblob(1000) AS geom FROM n LIMIT 3000", "NULL AS geom, hex(zeroblob(500)) FROM n LIMIT 3000"
+        }) {
             addView(NUMBERS + large);
             assertThatThrownBy(() -> GeoPackageFields.read(file, "v", limits))
                     .isInstanceOf(InvalidFileException.class)
