@@ -29,10 +29,10 @@ import io.furrow.model.text.FailureText;
  * broker. Thread-safe.
  */
 public final class BrokerClient {
-    /** Bytes of an error answer that are read for its message. */
     /** A member of an error of NGSI-v2 or NGSI-LD. */
     private static final Pattern ERROR = Pattern.compile("^\\{.*\"(error|type|title)\"\\s*:", Pattern.DOTALL);
 
+    /** Bytes of an error answer that are read for its message. */
     private static final int MAX_READ = 4000;
 
     private final HttpClient client;
