@@ -5,6 +5,9 @@ import { h, setText } from '../core/dom.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 
+/** Time after which a picture that could not be loaded now is requested again. */
+const RETRY_MILLIS = 2000;
+
 export class Picture {
   constructor() {
     this.image = h('img', { alt: '', hidden: true, decoding: 'async' });
@@ -20,7 +23,7 @@ export class Picture {
       setText(this.caption, t('cards.noPicture'));
       return;
     }
-    if (this.shown !== stored.sha256 && !this.loading) {
+    if (this.shown !== stored.sha256 && !this.loading && !(Date.now() < this.retryAt)) {
       await this.load(stored, entity);
     }
     if (this.takenAt) {
@@ -44,6 +47,10 @@ export class Picture {
       this.takenAt = null;
       this.image.hidden = true;
       setText(this.caption, t('cards.pictureFailed', { reason: error.message }));
+      if (error.status === 0 || error.status === 503) {
+        this.shown = null;
+        this.retryAt = Date.now() + RETRY_MILLIS;
+      }
     } finally {
       this.loading = false;
     }

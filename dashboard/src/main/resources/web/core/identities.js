@@ -63,6 +63,12 @@ export class Identities {
     return (all.find((each) => each.type === type) ?? all[0])?.key;
   }
 
+  /** The key of the entity of a device of the REST API: in its scope if there is one, else in any. */
+  keyOfDevice({ id, type, service, servicePath }) {
+    const all = this.all(id).filter((each) => !type || !each.type || isSameType(each.type, type));
+    return (all.find((each) => isIn(each, scope(service, servicePath))) ?? all[0])?.key;
+  }
+
   /** How an entity differs from others with its id; empty if there are none. */
   difference({ key, id }) {
     const all = this.all(id);
@@ -84,6 +90,11 @@ export class Identities {
 /** The whole identity of an entity as a key. */
 export function fullKey({ service, servicePath }, type, id) {
   return [service, servicePath, type, id].join('|');
+}
+
+/** Robots of FIROS write their type in upper case. */
+export function isSameType(one, other) {
+  return one.toLowerCase() === other.toLowerCase();
 }
 
 export function isIn(identity, { service, servicePath }) {

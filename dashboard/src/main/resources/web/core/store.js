@@ -1,6 +1,6 @@
 /** The state of the page. Feeds write it, elements subscribe to its changes. */
 import { stateOf } from './entity.js';
-import { Identities, scope } from './identities.js';
+import { Identities, isSameType, scope } from './identities.js';
 import { Reducers } from './reducers.js';
 
 /** Time for which an encounter that ended is shown, in the page's time, ms. */
@@ -107,17 +107,17 @@ class Store extends Reducers(Object) {
     return stateOf(entity, this.now(), this.isReplay ? entity.time : entity.heard, this.deviceOf(entity)?.period);
   }
 
-  /** The device of an entity in the REST API; robots of FIROS write their type in upper case. @returns {Object|undefined} */
+  /** The device of an entity in the REST API. @returns {Object|undefined} */
   deviceOf({ type, identity }) {
     const key = deviceKey(identity);
     const first = this.devices.get(identity.id);
     const device = first && deviceKey(first) === key ? first : this.devices.get(key);
-    return device?.type && device.type.toLowerCase() !== type.toLowerCase() ? undefined : device;
+    return device?.type && !isSameType(device.type, type) ? undefined : device;
   }
 
   /** The entity of a device of the REST API. @returns {import('./entity.js').Entity|undefined} */
   entityOf(device) {
-    return this.entities.get(this.identities.keyOf(device.id, scope(device.service, device.servicePath)));
+    return this.entities.get(this.identities.keyOfDevice(device));
   }
 
   /** Whether a replay is shown. */

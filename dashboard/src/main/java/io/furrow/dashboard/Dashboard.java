@@ -108,6 +108,9 @@ public final class Dashboard implements AutoCloseable {
             dashboard.close();
             throw e;
         }
+        if (!settings.page().images().isEmpty()) {
+            dashboard.images.start();
+        }
         LOG.info("the dashboard listens on {}", dashboard.uri());
         return dashboard;
     }

@@ -215,6 +215,41 @@ class PageRulesIT {
                         "|/|T|x");
     }
 
+    @Test
+    void findsForADeviceTheEntityOfItsType() {
+        assertThat(run(REPORT + """
+                report('pb-17', 'Camera', 'pbfarm', {});
+                report('pb-17', 'ROBOT', 'pbfarm', {});
+                const of = (type) => store.entityOf({ id: 'pb-17', type, service: 'pbfarm', servicePath: '/' })?.type ?? 'none';
+                return [of('Robot'), of('Camera'), of('Pump'), of(undefined)];
+                """)).containsExactly("ROBOT", "Camera", "none", "Camera");
+    }
+
+    /** A picture that cannot be loaded now is shown later. */
+    @Test
+    void loadsAPictureAgainThatTheServerDoesNotKnowYet() {
+        assertThat(run(REPORT + """
+                const { Picture } = await import('/cards/picture.js');
+                const [fetchPage, now] = [window.fetch, Date.now];
+                const problem = (status) => new Response('{"error":"e","reason":"r"}', { status });
+                const picture = new Picture();
+                report('pb-18', 'Camera', 'pbfarm', {});
+                const entity = store.entities.get('pb-18');
+                store.applyImage({ time, headers: { 'fiware-service': 'pbfarm' }, value: { entity: 'pb-18', type: 'Camera', sha256: 'a' } });
+                const shown = [];
+                let clock = 0;
+                Date.now = () => clock;
+                for (const [at, answer] of [[0, problem(503)], [1999, new Response('x')], [2000, problem(404)], [9000, new Response('x')]]) {
+                  clock = at;
+                  window.fetch = async () => (shown.push(answer.status), answer);
+                  await picture.draw(entity);
+                }
+                Object.assign(window, { fetch: fetchPage });
+                Date.now = now;
+                return shown.map(String);
+                """)).containsExactly("503", "404");
+    }
+
     /** The type need not be known. */
     @Test
     void showsForAnAlarmNoDeviceOfAnotherTenant() {

@@ -6,6 +6,8 @@ import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Properties;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.TimeUnit;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -14,16 +16,14 @@ import org.apache.kafka.common.errors.WakeupException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.dashboard.http.Problem;
 import io.furrow.kafka.BoundedMap;
 import io.furrow.kafka.CommittedReader;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/**
- * Indexes the images that {@code data.images} names by their SHA-256; at most the newest {@value #MAX}. A thread reads
- * the topic from the first request on.
- */
+/** Indexes by their SHA-256 the images that the newest {@value #MAX} records of {@code data.images} name. */
 public final class ImageIndex implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(ImageIndex.class);
     private static final int MAX = 100_000;
@@ -33,77 +33,84 @@ public final class ImageIndex implements AutoCloseable {
     private static final Pattern IMAGE_TYPE = Pattern.compile("image/(png|jpeg|webp|gif|avif|bmp)");
 
     private final Properties client;
-    private final Map<String, ImageLocation> images = BoundedMap.byInsertion(MAX);
-    private Thread reader;
+    private final int max;
+    private final Map<String, ImageLocation> images;
     private CommittedReader<byte[]> topic;
-    private boolean caughtUp;
-    private boolean closed;
+    private boolean isComplete;
+    private boolean isRequested;
+    private final CountDownLatch closed = new CountDownLatch(1);
 
     public ImageIndex(Properties client) {
+        this(client, MAX);
+    }
+
+    ImageIndex(Properties client, int max) {
         this.client = client;
+        this.max = max;
+        this.images = BoundedMap.byInsertion(max);
+    }
+
+    /** Starts to read the topic on another thread. */
+    public void start() {
+        Thread reader = new Thread(this::run, "dashboard-images");
+        reader.setDaemon(true);
+        reader.start();
     }
 
     /**
-     * Waits until the topic was read to its end, at most for the timeout.
+     * Does not wait.
      *
-     * @return empty if the topic does not name the image
+     * @return empty if none of the records names the image
+     * @throws Problem 503 if they have not all been read yet
      */
-    Optional<ImageLocation> find(String sha256, Duration timeout) throws InterruptedException {
+    Optional<ImageLocation> find(String sha256) {
         if (!SHA256.matcher(sha256).matches()) {
             return Optional.empty();
         }
-        long end = System.nanoTime() + timeout.toNanos();
         synchronized (images) {
-            startReading();
-            while (!images.containsKey(sha256) && !caughtUp && System.nanoTime() < end) {
-                images.wait(Math.max(1, (end - System.nanoTime()) / 1_000_000));
+            if (!isComplete && !images.containsKey(sha256)) {
+                isRequested = true;
+                images.notifyAll();
+                throw new Problem(503, "images-loading", "the list of images is being read; try again in a moment");
             }
             return Optional.ofNullable(images.get(sha256));
         }
     }
 
-    private void startReading() {
-        if (reader == null && !closed) {
-            reader = new Thread(this::run, "dashboard-images");
-            reader.setDaemon(true);
-            reader.start();
-        }
-    }
-
     private void run() {
-        while (!isClosed()) {
-            try {
-                readTopic();
-            } catch (WakeupException e) {
-                return; // closed
-            } catch (KafkaException e) {
-                LOG.warn("{} cannot be read; next attempt in {}", Topics.IMAGES, RETRY, e);
-                pause();
+        try {
+            while (!isClosed()) {
+                try {
+                    readTopic();
+                } catch (WakeupException e) {
+                    return; // closed
+                } catch (KafkaException e) {
+                    LOG.warn("{} cannot be read; next attempt in {}", Topics.IMAGES, RETRY, e);
+                    closed.await(RETRY.toMillis(), TimeUnit.MILLISECONDS);
+                }
             }
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
         }
     }
 
-    private void readTopic() {
+    private void readTopic() throws InterruptedException {
         try (CommittedReader<byte[]> opened = CommittedReader.openBytes(client, Topics.IMAGES)) {
             synchronized (images) {
-                if (closed) {
+                if (isClosed()) {
                     return;
                 }
                 topic = opened;
             }
+            opened.seekToNewest(max);
             while (!isClosed()) {
-                boolean exists = opened.isAssigned(Topics.IMAGES) || opened.assign(List.of(Topics.IMAGES));
-                if (exists) {
+                if (opened.isAssigned(Topics.IMAGES) || opened.assign(List.of(Topics.IMAGES))) {
                     opened.poll(POLL).forEach(record -> index(record.value()));
-                }
-                if (opened.isCaughtUp()) {
-                    synchronized (images) {
-                        caughtUp = true;
-                        images.notifyAll();
+                    if (opened.isCaughtUp()) {
+                        complete();
                     }
-                }
-                if (!exists) {
-                    pause();
+                } else {
+                    awaitRequest();
                 }
             }
         } finally {
@@ -129,7 +136,6 @@ public final class ImageIndex implements AutoCloseable {
                 synchronized (images) {
                     images.remove(sha256);
                     images.put(sha256, location);
-                    images.notifyAll();
                 }
             }
         } catch (UnreadableException | IllegalArgumentException e) {
@@ -137,29 +143,30 @@ public final class ImageIndex implements AutoCloseable {
         }
     }
 
-    private boolean isClosed() {
+    private void complete() {
         synchronized (images) {
-            return closed;
+            isComplete = true;
         }
     }
 
-    private void pause() {
+    /** Whoever knows the name of an image has it from the topic, which is created for the first image. */
+    private void awaitRequest() throws InterruptedException {
         synchronized (images) {
-            try {
-                if (!closed) {
-                    images.wait(RETRY.toMillis());
-                }
-            } catch (InterruptedException e) {
-                Thread.currentThread().interrupt();
-                closed = true;
+            while (!isRequested && !isClosed()) {
+                images.wait();
             }
+            isRequested = false;
         }
+    }
+
+    private boolean isClosed() {
+        return closed.getCount() == 0;
     }
 
     @Override
     public void close() {
+        closed.countDown();
         synchronized (images) {
-            closed = true;
             images.notifyAll();
             if (topic != null) {
                 topic.wakeup();

@@ -4,7 +4,6 @@ import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.List;
 import java.util.function.Consumer;
 
@@ -23,7 +22,6 @@ import io.furrow.model.text.Sha256;
  */
 public final class ImageServlet extends HttpServlet {
     private static final long serialVersionUID = 1L;
-    private static final Duration TIMEOUT = Duration.ofSeconds(10);
     private static final long MAX_BYTES = 32L << 20;
 
     private final transient UserCache users;
@@ -32,7 +30,7 @@ public final class ImageServlet extends HttpServlet {
     private final transient Consumer<Problem> onRejection;
 
     /**
-     * @param folders of stored images; empty if there are no images
+     * @param folders of stored images
      * @param onRejection is notified of each rejected request
      */
     public ImageServlet(UserCache users, ImageIndex index, List<Path> folders, Consumer<Problem> onRejection) {
@@ -63,18 +61,22 @@ public final class ImageServlet extends HttpServlet {
         } catch (Problem problem) {
             onRejection.accept(problem);
             response.setHeader("Cache-Control", "no-store");
+            if (problem.status() == HttpServletResponse.SC_SERVICE_UNAVAILABLE) {
+                response.setHeader("Retry-After", "1");
+            }
             problem.answer(response);
         }
     }
 
     private ImageLocation find(String sha256) {
-        try {
-            return index.find(sha256, TIMEOUT)
-                    .orElseThrow(
-                            () -> new Problem(404, "unknown-image", "data.images names no image with this SHA-256"));
-        } catch (InterruptedException e) {
-            throw Problem.stopping();
+        if (folders.isEmpty()) {
+            throw new Problem(
+                    404,
+                    "unknown-image",
+                    "the dashboard has no folder of images: mount their store as a folder, and name it with --images");
         }
+        return index.find(sha256)
+                .orElseThrow(() -> new Problem(404, "unknown-image", "data.images names no image with this SHA-256"));
     }
 
     private byte[] read(ImageLocation image) throws IOException {

@@ -137,6 +137,15 @@ public final class CommittedReader<K> implements AutoCloseable {
         return this;
     }
 
+    /** Continues with at most this number of records before the end, in equal shares of the partitions. */
+    public CommittedReader<K> seekToNewest(long records) {
+        long share = Math.max(1, records / Math.max(1, partitions.size()));
+        Map<TopicPartition, Long> begins = consumer.beginningOffsets(partitions);
+        partitions.forEach(
+                partition -> consumer.seek(partition, Math.max(begins.get(partition), ends.get(partition) - share)));
+        return this;
+    }
+
     /** Returns the records that have arrived, or waits for some. */
     public ConsumerRecords<K, byte[]> poll(Duration wait) {
         return consumer.poll(wait);

@@ -10,7 +10,6 @@ import java.nio.file.StandardOpenOption;
 import java.util.Optional;
 
 import static java.nio.file.StandardOpenOption.CREATE;
-import static java.nio.file.StandardOpenOption.READ;
 import static java.nio.file.StandardOpenOption.WRITE;
 
 /** The disk operations that a journal needs for writing; tests replace it by a failing one. */
@@ -55,15 +54,6 @@ interface Disk {
         }
     }
 
-    /** Makes a new or vanished name in the folder durable; file systems that cannot do that do not need it. */
-    static void syncFolder(Path folder) throws IOException {
-        if (!System.getProperty("os.name").startsWith("Windows")) {
-            try (FileChannel channel = FileChannel.open(folder, READ)) {
-                channel.force(true);
-            }
-        }
-    }
-
     /** Files through {@link FileChannel}. */
     final class FileDisk implements Disk {
         private static final int ZEROS_AT_ONCE = 1024 * 1024;
@@ -92,7 +82,7 @@ interface Disk {
                 throw e;
             }
             Files.move(temporary, file, StandardCopyOption.ATOMIC_MOVE);
-            syncFolder(file.getParent());
+            DurableFiles.syncFolder(file.getParent());
             return new ChannelFile(FileChannel.open(file, StandardOpenOption.WRITE));
         }
 

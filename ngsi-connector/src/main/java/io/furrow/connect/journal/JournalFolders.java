@@ -63,8 +63,8 @@ public final class JournalFolders {
      */
     public Journal take(int slot) {
         try {
-            create(own, Disk::syncFolder);
-            Disk.syncFolder(own);
+            create(own, DurableFiles::syncFolder);
+            DurableFiles.syncFolder(own);
             for (Path folder : foldersOf(own)) {
                 if (folder.getFileName().toString().startsWith(slot + "-")) {
                     Optional<Journal> journal = openUnlessDeleted(folder);
@@ -108,7 +108,7 @@ public final class JournalFolders {
         while (journal.isEmpty()) {
             Path made = own.resolve(slot + "-" + HexFormat.of().toHexDigits(RANDOM.nextLong()));
             try {
-                create(made, Disk::syncFolder);
+                create(made, DurableFiles::syncFolder);
                 journal = openUnlessDeleted(made);
             } catch (NoSuchFileException e) {
                 LOG.debug("another task has adopted and deleted {} just now", made, e);

@@ -6,7 +6,6 @@ import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.nio.file.StandardCopyOption;
 import java.nio.file.StandardOpenOption;
 import java.util.ArrayList;
 import java.util.List;
@@ -21,6 +20,8 @@ import com.fasterxml.jackson.databind.ObjectMapper;
 import com.fasterxml.jackson.databind.json.JsonMapper;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
+
+import io.furrow.connect.journal.DurableFiles;
 
 /**
  * Stores the status of entities as a file of lines: the sign of a kind and the identity as a JSON string. An unfinished
@@ -127,6 +128,11 @@ final class EntityIdFile implements AutoCloseable {
         out.flush();
     }
 
+    /** Makes the flushed lines durable. May run while changes are appended. */
+    void sync() throws IOException {
+        DurableFiles.sync(path);
+    }
+
     /** Whether the file is several times larger than necessary. */
     boolean isWasteful(long bytes) {
         return meanwhile == null && chars > SMALL && chars > 2 * bytes;
@@ -143,6 +149,7 @@ final class EntityIdFile implements AutoCloseable {
                 next.write(change.line());
             }
         }
+        DurableFiles.sync(aside());
     }
 
     void endRewrite() throws IOException {
@@ -153,7 +160,7 @@ final class EntityIdFile implements AutoCloseable {
                 next.write(change.line());
             }
             next.flush();
-            Files.move(aside(), path, StandardCopyOption.REPLACE_EXISTING, StandardCopyOption.ATOMIC_MOVE);
+            DurableFiles.replace(path, aside());
         } catch (IOException e) {
             next.close();
             throw e;

@@ -122,11 +122,14 @@ final class EntityIdSet implements AutoCloseable {
         }
     }
 
-    /** Flushes the changes to the operating system, and compacts the file if most of it is obsolete. */
+    /** Makes the changes durable, and compacts the file if most of it is obsolete. One thread at a time. */
     void flush() throws IOException {
         Iterable<Change> now;
         synchronized (this) {
             file.flush();
+        }
+        file.sync(); // without the lock, for which notifications would wait
+        synchronized (this) {
             if (!file.isWasteful(bytes)) {
                 return;
             }

@@ -166,13 +166,17 @@ public final class SubscriptionReconciler implements AutoCloseable {
         if (missing.isPresent()) {
             listings.demand(result instanceof Result.FirstPoll || kept.state() != SubscriptionStatus.State.AT_WORK);
         }
+        Optional<Instant> good = Optional.empty();
         if (settings.mode() == RepairSettings.Mode.OFF) {
             missing = Optional.empty();
             lateRecords.settle(late);
         } else {
-            repair(kept, result, now);
+            good = repair(kept, result, now);
         }
-        known.flush();
+        known.flush(); // before the watermark, behind which stale entities are not looked for
+        if (good.isPresent()) {
+            watermark.advanceTo(good.get());
+        }
     }
 
     /** The address for its notifications. */
@@ -222,7 +226,8 @@ public final class SubscriptionReconciler implements AutoCloseable {
         }
     }
 
-    private void repair(SubscriptionStatus kept, Result result, Instant now)
+    /** Returns the time up to which nothing is missing any more, if that is known. */
+    private Optional<Instant> repair(SubscriptionStatus kept, Result result, Instant now)
             throws BrokerException, IOException, InterruptedException {
         RepairPublisher emission = new RepairPublisher(services.output(), services.live(), known, kept.id());
         Repair repair = new Repair(entities, settings.reading(), services.live(), known, emission);
@@ -249,10 +254,9 @@ public final class SubscriptionReconciler implements AutoCloseable {
             // To the second: later notifications of earlier changes concern entities that were read or deleted.
             services.live().forgetUntil(kept.at().plusSeconds(1));
             gapDetector.repaired(services.live().arrivedOf(kept.id()));
-            watermark.advanceTo(kept.at());
-        } else if (result instanceof Result.Balanced balanced) {
-            watermark.advanceTo(balanced.until());
+            return Optional.of(kept.at());
         }
+        return result instanceof Result.Balanced balanced ? Optional.of(balanced.until()) : Optional.empty();
     }
 
     /**

@@ -1,15 +1,14 @@
 package io.furrow.connect.repair;
 
 import java.io.IOException;
-import java.nio.channels.FileChannel;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.nio.file.StandardCopyOption;
-import java.nio.file.StandardOpenOption;
 import java.time.DateTimeException;
 import java.time.Instant;
 import java.util.Optional;
+
+import io.furrow.connect.journal.DurableFiles;
 
 /** A time in a file, replaced as a whole: after a power cut the file holds the old time or the new one. */
 record TimeFile(Path path) {
@@ -28,10 +27,7 @@ record TimeFile(Path path) {
     void write(Instant time) throws IOException {
         Path next = path.resolveSibling(path.getFileName() + ".tmp");
         Files.writeString(next, time + "\n");
-        try (FileChannel channel = FileChannel.open(next, StandardOpenOption.WRITE)) {
-            channel.force(true);
-        }
-        Files.move(next, path, StandardCopyOption.REPLACE_EXISTING, StandardCopyOption.ATOMIC_MOVE);
+        DurableFiles.replace(path, next);
     }
 
     void delete() throws IOException {

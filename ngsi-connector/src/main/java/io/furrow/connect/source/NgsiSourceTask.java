@@ -135,13 +135,12 @@ public class NgsiSourceTask extends SourceTask {
         if (running == null) {
             return;
         }
+        String journal = SourceOffsets.journalOf(record.sourcePartition());
+        long sequence = SourceOffsets.sequenceOf(record.sourceOffset());
         if (metadata == null) {
-            running.journals()
-                    .skipped(
-                            SourceOffsets.journalOf(record.sourcePartition()),
-                            SourceOffsets.sequenceOf(record.sourceOffset()));
+            running.journals().skipped(journal, sequence);
         } else {
-            running.journals().produced();
+            running.journals().produced(journal, sequence);
             watch(metadata);
         }
     }

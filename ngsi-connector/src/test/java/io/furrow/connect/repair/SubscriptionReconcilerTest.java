@@ -4,8 +4,13 @@ import java.io.IOException;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
+import java.util.Comparator;
 import java.util.List;
 
+import jdk.jfr.Recording;
+import jdk.jfr.consumer.RecordedEvent;
+import jdk.jfr.consumer.RecordingFile;
+import org.assertj.core.api.InstanceOfAssertFactories;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -15,6 +20,7 @@ import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.repair.ModelSource.Bounds;
 import io.furrow.connect.repair.ModelSource.Topic;
 
+import static org.assertj.core.api.Assertions.as;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -87,6 +93,31 @@ class SubscriptionReconcilerTest {
             assertThat(source.ledger().gaps.sum()).isOne();
             assertThat(asked).anyMatch(path -> path.contains("orderBy=dateModified"));
         }
+    }
+
+    /** After a power cut the watermark must not be newer than the marks of entities that have to be read again. */
+    @Test
+    void syncsItsEntitiesBeforeTheWatermark() throws Exception {
+        Path events = folder.resolve("events.jfr");
+        try (Recording forced = new Recording()) {
+            forced.enable("jdk.FileForce").withoutThreshold();
+            forced.start();
+            try (ModelSource source = source()) {
+                broker.put("e", "Probe", "v");
+                source.look();
+            }
+            forced.stop();
+            forced.dump(events);
+        }
+
+        assertThat(RecordingFile.readAllEvents(events).stream()
+                        .sorted(Comparator.comparing(RecordedEvent::getStartTime))
+                        .map(event ->
+                                Path.of(event.getString("path")).getFileName().toString()))
+                .containsSubsequence("known.tmp", "known", "watermark.tmp")
+                .last(as(InstanceOfAssertFactories.STRING))
+                .as("the folder with the name of the watermark")
+                .startsWith("agri@");
     }
 
     /** Neither the queue nor the counters show it: what was lost had not been counted for good. */

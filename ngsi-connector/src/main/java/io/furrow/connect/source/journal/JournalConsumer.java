@@ -27,10 +27,11 @@ final class JournalConsumer implements AutoCloseable {
     private final Duration retention;
     private final Deque<Done> done = new ArrayDeque<>();
     private volatile long released;
-    private long outdated;
+    private volatile long outdated;
     private boolean closed;
     /**
-     * From and to (exclusive) of records that will never be in Kafka, because the worker was configured to skip them.
+     * From and to (exclusive) of records that need no offset: those that will never be in Kafka, and those that are there
+     * again although the committed position is still an outdated one.
      */
     private final TreeMap<Long, Long> skipped = new TreeMap<>();
 
@@ -45,7 +46,8 @@ final class JournalConsumer implements AutoCloseable {
     /**
      * Begins at a record before the committed position, because Kafka lost it.
      *
-     * @param outdated the committed position, to be ignored until another one is committed
+     * @param outdated the committed position, to be ignored until another one is committed or Kafka has all records before
+     *     it again
      */
     JournalConsumer(Journal journal, long start, long outdated, Duration retention) {
         this.journal = journal;
@@ -78,19 +80,48 @@ final class JournalConsumer implements AutoCloseable {
     /** The next records; empty after the consumer was closed. */
     List<JournalRecord> read(int maxRecords, long maxBytes, Duration wait) throws InterruptedException {
         synchronized (reader) {
-            return closed ? List.of() : reader.read(maxRecords, maxBytes, wait);
+            if (closed) {
+                return List.of();
+            }
+            long next = reader.position();
+            List<JournalRecord> records = reader.read(maxRecords, maxBytes, wait);
+            if (next < outdated) {
+                skipMissing(next, records);
+            }
+            return records;
+        }
+    }
+
+    /** Numbers without a readable record. */
+    private void skipMissing(long from, List<JournalRecord> records) {
+        long next = from;
+        for (JournalRecord record : records) {
+            skip(next, record.sequence());
+            next = record.sequence() + 1;
+        }
+        skip(next, reader.position());
+    }
+
+    /** Kafka has acknowledged a record of some journal. */
+    void acknowledged(String ofJournal, long sequence) {
+        if (sequence < outdated && journal.id().equals(ofJournal)) {
+            skip(sequence);
         }
     }
 
     /** Marks a record that will never be in Kafka. */
-    synchronized void skip(long sequence) {
-        Map.Entry<Long, Long> before = skipped.floorEntry(sequence);
-        if (before != null && before.getValue() > sequence) {
+    void skip(long sequence) {
+        skip(sequence, sequence + 1);
+    }
+
+    private synchronized void skip(long first, long end) {
+        Map.Entry<Long, Long> before = skipped.floorEntry(first);
+        if (first >= end || before != null && before.getValue() >= end) {
             return;
         }
-        long from = before != null && before.getValue() == sequence ? before.getKey() : sequence;
-        Long behind = skipped.remove(sequence + 1);
-        skipped.put(from, behind == null ? sequence + 1 : behind);
+        long from = before != null && before.getValue() >= first ? before.getKey() : first;
+        Long behind = skipped.remove(end);
+        skipped.put(from, behind == null ? end : behind);
     }
 
     /** Records that were not in the offset store when it was last read, without skipped ones. */
@@ -104,7 +135,7 @@ final class JournalConsumer implements AutoCloseable {
      */
     boolean release(OptionalLong committed) {
         long known = committed.orElse(0);
-        if (known == outdated) {
+        if (known == outdated && behindSkipped(start) < outdated) {
             return false;
         }
         outdated = NOTHING;

@@ -191,9 +191,11 @@ public final class TaskJournals implements AutoCloseable {
     }
 
     /** Kafka has acknowledged a record. */
-    public void produced() {
+    public void produced(String journal, long sequence) {
         ledger.produced.increment();
         inFlight.decrementAndGet();
+        own.acknowledged(journal, sequence);
+        adopted.forEach(drain -> drain.acknowledged(journal, sequence));
     }
 
     /** The worker skipped a record, which is then complete, too. */

@@ -195,6 +195,27 @@ class TaskJournalsTest {
     }
 
     @Test
+    void deletesAJournalOfWhichKafkaHasTheLostRecordsAgainThoughItsOffsetIsTheSame() throws Exception {
+        Path left = left(2);
+        String id = left.getFileName().toString();
+        offsets.put(id, 1_000_000_000_000L);
+        left(1);
+        offsets.put(id, 1_000_000_000_001L);
+        safety = new TaskJournals.Safety(Duration.ZERO, (journal, committed) -> 0);
+        try (TaskJournals journals = open(0)) {
+            journals.adopt();
+            assertThat(numbers(journals)).containsExactly(0L, 1L, 1_000_000_000_000L);
+            journals.produced(id, 1_000_000_000_000L);
+            journals.skipped(id, 1);
+            journals.release();
+            assertThat(left).as("Kafka does not have record 0 yet").exists();
+            journals.produced(id, 0);
+            journals.release();
+            assertThat(left).doesNotExist();
+        }
+    }
+
+    @Test
     void keepsForAWhileWhatKafkaHas() throws Exception {
         Path left = left(1);
         safety = new TaskJournals.Safety(Duration.ofHours(1), TaskJournals.Verification.NONE);

@@ -32,6 +32,15 @@ class ClockWarningTest {
     }
 
     @Test
+    void forgetsTheDeviceThatWasSilentLongest() {
+        ClockWarning report = new ClockWarning(2);
+        List.of("a", "b", "a", "c").forEach(id -> report.note(device(id), EventTime.Fault.AHEAD));
+
+        assertThat(report.note(device("a"), EventTime.Fault.AHEAD)).isFalse();
+        assertThat(report.note(device("b"), EventTime.Fault.AHEAD)).isTrue();
+    }
+
+    @Test
     void namesEachFaultOfADevice() {
         ClockWarning report = new ClockWarning();
 
