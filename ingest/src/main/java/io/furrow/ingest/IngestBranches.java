@@ -16,6 +16,8 @@ import io.furrow.flink.kafka.TopicOptions;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.DeduplicateById;
+import io.furrow.flink.time.KeyedLatenessOperator;
 import io.furrow.ingest.catalog.CatalogStage;
 import io.furrow.ingest.image.ImageStage;
 import io.furrow.ingest.latest.MergeLatest;
@@ -24,6 +26,7 @@ import io.furrow.ingest.mission.MissionEvent;
 import io.furrow.ingest.mission.MissionStage;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.ingest.route.RouteEvents;
+import io.furrow.model.event.HeaderNames;
 
 /** The branches of the job, as configured. Each branch receives every event once, with domain, mission and stamps. */
 final class IngestBranches {
@@ -96,6 +99,24 @@ final class IngestBranches {
                 dead.add(stage.getSideOutput(DeadLetters.TAG));
             }
         }
+    }
+
+    /** Adds one dead letter per event of the stage before {@link DeduplicateById}, which receives each copy. */
+    void setAsideNames(SingleOutputStreamOperator<ReportedEvent> assigned) {
+        if (options.does(IngestBranch.ROUTES)) {
+            dead.add(assigned.getSideOutput(DeadLetters.TAG)
+                    .keyBy(IngestBranches::eventId)
+                    .transform(
+                            "Deduplicate dead letters by event id",
+                            TypeInformation.of(TopicRecord.class),
+                            new KeyedLatenessOperator<>(
+                                    new DeduplicateById<>(options.repeatWindow(), IngestBranches::eventId)))
+                    .uid("deduplicate-dead-letters"));
+        }
+    }
+
+    private static String eventId(TopicRecord record) {
+        return record.headers().get(HeaderNames.CE_ID);
     }
 
     /** Writes all dead letters added, and those of missions. */

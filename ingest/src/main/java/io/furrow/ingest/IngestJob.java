@@ -102,7 +102,8 @@ public final class IngestJob {
         branches.listImages(moved);
         branches.storeCatalog(events);
         branches.storeMissions(events);
-        branches.setAside(IngestBranch.ROUTES, recognized, devices, assigned);
+        branches.setAside(IngestBranch.ROUTES, recognized, devices);
+        branches.setAsideNames(assigned);
         branches.setAside(IngestBranch.IMAGES, moved);
         branches.writeDead();
     }

@@ -10,6 +10,7 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import io.furrow.flink.TestClusters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
+import io.furrow.model.event.HeaderNames;
 
 import static io.furrow.ingest.ReportedRecords.at;
 import static io.furrow.ingest.ReportedRecords.options;
@@ -75,5 +76,17 @@ class IngestDeadLettersTest {
                 .extracting(record -> record.topic() + " " + record.headers().get(DeadLetter.REASON))
                 .containsExactlyInAnyOrder(
                         "data.raw.dead not-an-entity", "data.raw.dead too-deep", "data.farm.realtime null");
+    }
+
+    @Test
+    void setsAsideAnUnknownMissionOncePerEvent() throws Exception {
+        TopicRecord unknown = record("x", thermometer("t1", "farm", "typo"));
+        TopicRecord other = record("y", thermometer("t1", "farm", "typo"));
+
+        assertThat(run(options("--other-names", "0"), unknown, unknown, other))
+                .filteredOn(record -> record.topic().equals("data.raw.dead"))
+                .extracting(record -> record.headers().get(HeaderNames.CE_ID) + " "
+                        + record.headers().get(DeadLetter.REASON))
+                .containsExactlyInAnyOrder("x unknown-mission", "y unknown-mission");
     }
 }

@@ -1,9 +1,9 @@
 package io.furrow.analytics.clock;
 
 import java.time.Duration;
+import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.Map;
-import java.util.Optional;
 import java.util.Set;
 
 import org.apache.flink.api.common.functions.OpenContext;
@@ -40,7 +40,8 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
 
     private final ReceiptTime receiptTime;
     private final long maxBehindMillis;
-    private transient Map<String, Run> runs;
+    /** By type, for entities of one id. */
+    private transient Map<String, Map<String, Run>> runs;
 
     private record Run(LagStreak lag, long newest) {}
 
@@ -53,7 +54,7 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
     public void open(OpenContext context) {
         runs = new LinkedHashMap<>() {
             @Override
-            protected boolean removeEldestEntry(Map.Entry<String, Run> eldest) {
+            protected boolean removeEldestEntry(Map.Entry<String, Map<String, Run>> eldest) {
                 return size() > MAX_DEVICES;
             }
         };
@@ -67,13 +68,25 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
             return;
         }
         String device = CorrectClocks.deviceOf(record);
-        Run before = runs.remove(device);
+        Map<String, Run> byType = runs.remove(device);
+        if (byType == null) {
+            if (!isBehind) {
+                return;
+            }
+            byType = new HashMap<>();
+        }
+        Entity entity = entityOf(record);
         if (isBehind) {
-            runs.put(device, after(before, record, received, out));
+            byType.put(entity.type(), after(byType.get(entity.type()), record, received, entity, out));
+        } else {
+            byType.remove(entity.type());
+        }
+        if (!byType.isEmpty()) {
+            runs.put(device, byType);
         }
     }
 
-    private static Run after(Run before, TopicRecord record, long received, Collector<ClockReport> out) {
+    private static Run after(Run before, TopicRecord record, long received, Entity entity, Collector<ClockReport> out) {
         if (before != null && record.timestamp() <= before.newest) {
             return before;
         }
@@ -88,10 +101,8 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
         LagStreak lag = LagStreak.after(before == null ? null : before.lag, position);
         boolean catchesUp = record.timestamp() - lag.first() > CATCHES_UP * (received - lag.since());
         if (!catchesUp && lag.isDue(MIN_RECORDS)) {
-            Optional<Entity> entity = entityOf(record);
-            String type = entity.map(Entity::type).orElse("");
-            String mission = entity.flatMap(one -> one.text("Mission")).orElse("");
-            out.collect(ClockReport.delayed(position, type, mission, lag.positions()));
+            String mission = entity.text("Mission").orElse("");
+            out.collect(ClockReport.delayed(position, entity.type(), mission, lag.positions()));
             lag = lag.afterReport();
         }
         return new Run(lag, record.timestamp());
@@ -102,11 +113,11 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
                 && !Origin.REPAIR.code().equals(record.headers().get(HeaderNames.ORIGIN));
     }
 
-    private static Optional<Entity> entityOf(TopicRecord record) {
+    private static Entity entityOf(TopicRecord record) {
         try {
-            return Optional.of(Entity.parse(record.value(), Set.of("Mission")));
+            return Entity.parse(record.value(), Set.of("Mission"));
         } catch (UnreadableException e) { // another stage emits its dead letter
-            return Optional.empty();
+            return Entity.builder(CorrectClocks.id(record), "").build();
         }
     }
 }

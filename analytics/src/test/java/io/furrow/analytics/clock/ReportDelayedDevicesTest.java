@@ -13,8 +13,8 @@ import org.junit.jupiter.api.Test;
 import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.Entity;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 
@@ -91,6 +91,19 @@ class ReportDelayedDevicesTest {
         assertThat(harness.extractOutputValues()).isEmpty();
     }
 
+    @Test
+    void reportsADeviceThoughAnotherOfItsIdIsRight() throws Exception {
+        for (int second = 0; second < 40; second++) {
+            receive(record("one", "Robot", now));
+            receive(record("one", "Thermometer", now - HOUR));
+            receive(record("one", "Station", now - 2 * HOUR));
+            now += SECOND;
+        }
+        assertThat(harness.extractOutputValues())
+                .extracting(ClockReport::type, ClockReport::millis)
+                .containsExactlyInAnyOrder(tuple("Thermometer", HOUR), tuple("Station", 2 * HOUR));
+    }
+
     private int reports(long period, int times, LongUnaryOperator clock) throws Exception {
         int before = harness.extractOutputValues().size();
         for (int i = 0; i < times; i++) {
@@ -109,8 +122,12 @@ class ReportDelayedDevicesTest {
     }
 
     private TopicRecord record(String device, long time) {
+        return record(device, "Thermometer", time);
+    }
+
+    private TopicRecord record(String device, String type, long time) {
         byte[] entity =
-                ("{\"id\":\"" + device + "\",\"type\":\"Thermometer\",\"Mission\":{\"value\":\"m\"}}").getBytes(UTF_8);
+                Entity.builder(device, type).text("Mission", "m").build().toBytes();
         return TopicRecord.of("data.raw", time, device, entity, Map.of(HeaderNames.TS_SOURCE, Long.toString(now)));
     }
 }

@@ -9,10 +9,13 @@ import org.apache.flink.metrics.Counter;
 import org.apache.flink.metrics.MetricGroup;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.flink.record.DeadLetterCounters;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
+import io.furrow.model.event.ClockFaults;
 import io.furrow.model.event.EntityRecord;
 import io.furrow.model.event.EventTime;
 import io.furrow.model.event.FiwareScope;
@@ -32,6 +35,7 @@ import io.furrow.model.ngsi.UnreadableException;
  */
 public final class NormalizeNotifications extends ProcessFunction<TopicRecord, TopicRecord> {
     private static final long serialVersionUID = 1L;
+    private static final Logger LOG = LoggerFactory.getLogger(NormalizeNotifications.class);
     static final String STAGE = "normalize";
     private static final String ATTRS_FORMAT = "ngsiv2-attrsformat";
 
@@ -41,6 +45,7 @@ public final class NormalizeNotifications extends ProcessFunction<TopicRecord, T
     private transient Counter accepted;
     private transient Counter excluded;
     private transient Map<EventTime.Fault, Counter> faults;
+    private transient ClockFaults clocks;
     private transient DeadLetterCounters dead;
 
     NormalizeNotifications(Settings settings) {
@@ -56,6 +61,7 @@ public final class NormalizeNotifications extends ProcessFunction<TopicRecord, T
                 EventTime.Fault.AHEAD, metrics.counter("clockAhead"),
                 EventTime.Fault.UNSET, metrics.counter("clockUnset"),
                 EventTime.Fault.UNREADABLE, metrics.counter("unreadableTime"));
+        clocks = new ClockFaults(NormalizeOptions.MAX_CLOCK_SKEW);
         dead = new DeadLetterCounters(metrics);
     }
 
@@ -102,6 +108,7 @@ public final class NormalizeNotifications extends ProcessFunction<TopicRecord, T
                 .record(entity, scope, received(record), settings.rules().source(notification));
         if (translated.fault() != null) {
             faults.get(translated.fault()).inc();
+            clocks.describe(scope.identity(entity.id()), translated.fault()).ifPresent(LOG::warn);
         }
         TopicRecord event = TopicRecord.of(
                 settings.output(),

@@ -27,6 +27,7 @@ import io.furrow.model.topic.Topics;
         defaultValueProvider = NormalizeOptions.OwnDefaults.class,
         modelTransformer = WithoutEventTime.class)
 public final class NormalizeOptions extends JobOptions {
+    static final String MAX_CLOCK_SKEW = "--max-clock-skew";
     private static final Duration HOUR = Duration.ofHours(1);
 
     @Mixin
@@ -51,7 +52,7 @@ public final class NormalizeOptions extends JobOptions {
     private List<String> excludeTypes;
 
     @Option(
-            names = "--max-clock-skew",
+            names = MAX_CLOCK_SKEW,
             paramLabel = "DURATION",
             defaultValue = "5min",
             description =
@@ -114,7 +115,7 @@ public final class NormalizeOptions extends JobOptions {
 
     private EventTimeRule times() {
         if (maxClockSkew.compareTo(HOUR) >= 0) {
-            throw refused("--max-clock-skew is an hour or more; write for instance 5min", null);
+            throw refused(MAX_CLOCK_SKEW + " is an hour or more; write for instance 5min", null);
         }
         try {
             return EventTimeRule.of(eventTime, maxClockSkew);

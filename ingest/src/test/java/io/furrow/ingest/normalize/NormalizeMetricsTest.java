@@ -5,6 +5,7 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
+import java.util.concurrent.CopyOnWriteArrayList;
 
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.configuration.Configuration;
@@ -14,6 +15,13 @@ import org.apache.flink.runtime.testutils.InMemoryReporter;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.apache.logging.log4j.Level;
+import org.apache.logging.log4j.LogManager;
+import org.apache.logging.log4j.core.LogEvent;
+import org.apache.logging.log4j.core.Logger;
+import org.apache.logging.log4j.core.appender.AbstractAppender;
+import org.apache.logging.log4j.core.config.Configurator;
+import org.apache.logging.log4j.core.config.Property;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 
@@ -53,12 +61,36 @@ class NormalizeMetricsTest {
         CollectedOutput out = new CollectedOutput();
         NormalizeJob.define(notifications, out, options);
 
-        out.run();
+        List<String> warnings = warningsOf(out);
 
+        assertThat(warnings)
+                .singleElement()
+                .satisfies(warning ->
+                        assertThat(warning).contains("|d ", "too far ahead").endsWith("raise --max-clock-skew"));
         assertThat(counted("accepted")).containsEntry("", 3L);
         assertThat(counted("excluded")).containsEntry("", 1L);
         assertThat(counted("clockAhead")).containsEntry("", 1L);
         assertThat(counted("dead")).containsAllEntriesOf(Map.of("", 2L, "not-json", 1L, "not-an-entity", 1L));
+    }
+
+    private static List<String> warningsOf(CollectedOutput out) throws Exception {
+        List<String> warnings = new CopyOnWriteArrayList<>();
+        AbstractAppender recorder = new AbstractAppender("recorder", null, null, true, Property.EMPTY_ARRAY) {
+            @Override
+            public void append(LogEvent event) {
+                warnings.add(event.getMessage().getFormattedMessage());
+            }
+        };
+        Logger logger = (Logger) LogManager.getLogger(NormalizeNotifications.class);
+        recorder.start();
+        logger.addAppender(recorder);
+        Configurator.setLevel(logger, Level.WARN);
+        try {
+            out.run();
+        } finally {
+            logger.removeAppender(recorder);
+        }
+        return warnings;
     }
 
     private static TopicRecord notification(String body) {

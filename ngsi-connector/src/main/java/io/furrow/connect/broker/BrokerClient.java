@@ -21,8 +21,8 @@ import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
 import java.util.regex.Pattern;
 
-import io.furrow.connect.LogText;
 import io.furrow.model.text.FailureText;
+import io.furrow.model.text.LogText;
 
 /**
  * Sends requests to a context broker over persistent connections; never throws for failures of the network or the

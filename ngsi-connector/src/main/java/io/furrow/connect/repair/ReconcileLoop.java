@@ -15,7 +15,6 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerBackoff;
 import io.furrow.connect.broker.BrokerException;
 import io.furrow.connect.broker.BrokerRequest;
@@ -25,6 +24,7 @@ import io.furrow.connect.repair.SubscriptionReconciler.SharedServices;
 import io.furrow.connect.subscription.DesiredSubscription;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.text.FailureText;
+import io.furrow.model.text.LogText;
 
 /**
  * Manages all subscriptions of a task on its own thread. Requests that fail because the context broker is unavailable

@@ -10,9 +10,9 @@ import java.util.concurrent.ExecutionException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.connect.LogText;
 import io.furrow.connect.repair.RecordTracker.Appended;
 import io.furrow.model.text.FailureText;
+import io.furrow.model.text.LogText;
 
 /** Emits findings in small batches and waits until they are durable, which leaves room for concurrent notifications. */
 record RepairPublisher(RepairOutput output, RecordTracker live, EntityIdSet known, String subscription) {

@@ -6,7 +6,6 @@ import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 
-import io.furrow.connect.LogText;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.repair.MissedChange;
@@ -19,6 +18,7 @@ import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.LogText;
 
 /** Creates records from the findings of the repair and appends them to the intake. */
 record RepairRecordWriter(NotificationTranslator.Settings settings, JournalRecordLog recordLog, Ledger ledger)

@@ -14,12 +14,12 @@ import com.fasterxml.jackson.databind.JsonNode;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerException;
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.subscription.SubscriptionPlan.Step;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.text.LogText;
 
 /** Maintains one subscription of one tenant in its desired state. Stateless: it looks up its subscription each time. */
 public final class SubscriptionClient {

@@ -122,7 +122,6 @@ class SilenceDetectorTest {
         assertThat(signs.get(signs.size() - 1).heard()).isGreaterThan(now - 60_000);
     }
 
-    /** Also with another time: reports of a device without a clock have that of the context broker. */
     /** The IoT Agent stamps each report with the time of its receipt. */
     @Test
     void acceptsAReportWithTheSameValueFromADeviceWhoseClockStandsStill() {
@@ -134,6 +133,7 @@ class SilenceDetectorTest {
         assertThat(signs).isNotEmpty().noneMatch(Heartbeat::silent);
     }
 
+    /** Also with another time: reports of a device without a clock have that of the context broker. */
     @Test
     void ignoresChangesOfCommandAttributes() {
         addDesired(PERIOD);

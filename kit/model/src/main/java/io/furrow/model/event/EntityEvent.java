@@ -1,9 +1,13 @@
 package io.furrow.model.event;
 
 import java.time.Instant;
+import java.time.temporal.ChronoUnit;
 import java.util.LinkedHashMap;
 import java.util.Map;
+import java.util.Optional;
 import java.util.stream.Collectors;
+
+import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.time.Instants;
@@ -48,23 +52,36 @@ public record EntityEvent(Entity entity, FiwareScope scope, EventTime time, Inst
     }
 
     /**
-     * Returns the attributes that are later than the measure. The IoT Agent stamps each attribute and the entity with
-     * the time of the measure, and merging retains newer attributes.
+     * Returns the attributes that are later than the measure, of which the context broker retains newer ones. What writes
+     * the entity stamps each attribute: an IoT Agent perhaps with the time of arrival, so that the stamp of the measure
+     * counts if it is after the device's time. The device's time may be truncated to the second.
      */
     private String laterAttributes() {
-        Instant measured = entity.value(TIME_INSTANT)
-                .flatMap(Instants::of)
-                .map(stamp -> stamp.isAfter(time.time()) ? stamp : time.time()) // the stamp may be impossible
-                .orElse(Instant.MAX);
+        if (time.basis() != EventTime.Basis.DEVICE) {
+            return "";
+        }
+        Instant measured =
+                stampOfMeasure().filter(stamp -> stamp.isAfter(time.time())).orElse(time.time());
         return entity.attributes().stream()
-                .filter(attribute -> Instants.of(attribute
-                                .getValue()
-                                .path("metadata")
-                                .path(TIME_INSTANT)
-                                .path("value"))
+                .filter(attribute -> stampOf(attribute.getValue())
+                        .map(stamp -> stamp.truncatedTo(ChronoUnit.SECONDS))
                         .filter(measured::isBefore)
                         .isPresent())
                 .map(Map.Entry::getKey)
                 .collect(Collectors.joining(","));
+    }
+
+    /** Returns {@code TimeInstant}, or else the stamp of the attribute with the device's time. */
+    private Optional<Instant> stampOfMeasure() {
+        return entity.value(TIME_INSTANT)
+                .flatMap(Instants::of)
+                .or(() -> EventTimeRule.Source.DEVICE_TIMES.stream()
+                        .filter(name -> entity.value(name).flatMap(Instants::of).isPresent())
+                        .findFirst()
+                        .flatMap(name -> stampOf(entity.json().path(name))));
+    }
+
+    private static Optional<Instant> stampOf(JsonNode attribute) {
+        return Instants.of(attribute.path("metadata").path(TIME_INSTANT).path("value"));
     }
 }

@@ -4,8 +4,11 @@ import java.time.Duration;
 import java.time.Instant;
 
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.NgsiJson;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -77,12 +80,47 @@ class EntityEventTest {
         assertThat(received(entity, RECEIVED).headers("s")).doesNotContainKey(HeaderNames.LATER_ATTRIBUTES);
     }
 
+    /** After an outage, a robot sends a measure with its own old time; the agent stamps all with the time of arrival. */
+    @ParameterizedTest
+    @ValueSource(strings = {"Time", "dateObserved"})
+    void takesTheAttributesOfABacklogForThoseOfItsEvents(String own) throws Exception {
+        Entity entity = Entity.parse("""
+                {"id": "a", "type": "T",
+                 "%s": {"value": "2026-11-20T01:00:00Z", "metadata": {"TimeInstant": {"value": "2026-11-21T01:10:00.000Z"}}},
+                 "Latitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:10:00.000Z"}}}}""".formatted(own).getBytes(UTF_8));
+
+        assertThat(received(entity, RECEIVED).headers("s")).doesNotContainKey(HeaderNames.LATER_ATTRIBUTES);
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"Time", "dateObserved", "timestamp"})
+    void comparesObservationsWithTheDevicesTimeIfThereIsNoOtherStamp(String own) throws Exception {
+        Entity entity = Entity.ofAnyForm(NgsiJson.read("""
+                {"id": "a", "type": "T", "%s": {"type": "Property", "value": "2026-11-21T01:00:00Z"},
+                 "temp": {"type": "Property", "value": 5, "observedAt": "2026-11-21T01:00:00.900Z"},
+                 "location": {"type": "GeoProperty", "value": {"type": "Point", "coordinates": [1, 2]},
+                              "observedAt": "2026-11-21T01:00:01Z"}}""".formatted(own).getBytes(UTF_8)));
+
+        assertThat(received(entity, RECEIVED).headers("s")).containsEntry(HeaderNames.LATER_ATTRIBUTES, "location");
+    }
+
     /** As of a device that started without its time; the event has the time of its receipt. */
-    @Test
-    void comparesTheAttributesWithTheEventTimeIfTheTimeInstantCannotBeTrue() throws Exception {
+    @ParameterizedTest
+    @ValueSource(strings = {"2026-11-21T00:00:00.000Z", "2026-11-21T01:12:00.000Z"})
+    void namesNoLaterAttributesIfTheTimeInstantCannotBeTrue(String stamp) throws Exception {
         Entity entity = Entity.parse("""
                 {"id": "a", "type": "T", "TimeInstant": {"value": "1970-01-01T00:01:40Z"},
-                 "Latitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T00:00:00.000Z"}}}}""".getBytes(UTF_8));
+                 "Latitude": {"value": 1, "metadata": {"TimeInstant": {"value": "%s"}}}}""".formatted(stamp).getBytes(UTF_8));
+
+        assertThat(received(entity, RECEIVED).headers("s")).doesNotContainKey(HeaderNames.LATER_ATTRIBUTES);
+    }
+
+    @Test
+    void comparesTheAttributesWithTheTimeOfTheDeviceIfTheTimeInstantIsEarlier() throws Exception {
+        Entity entity = Entity.parse("""
+                {"id": "a", "type": "T", "Time": {"value": "2026-11-21T01:09:59Z"},
+                 "TimeInstant": {"value": "1970-01-01T00:01:40Z"},
+                 "Latitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:09:59Z"}}}}""".getBytes(UTF_8));
 
         assertThat(received(entity, RECEIVED).headers("s")).doesNotContainKey(HeaderNames.LATER_ATTRIBUTES);
     }

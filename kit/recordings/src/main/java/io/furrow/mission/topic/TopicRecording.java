@@ -1,16 +1,8 @@
 package io.furrow.mission.topic;
 
-import java.io.IOException;
-import java.nio.file.Files;
-import java.nio.file.Path;
 import java.util.ArrayList;
-import java.util.Comparator;
 import java.util.List;
 import java.util.Optional;
-import java.util.stream.Stream;
-
-import org.slf4j.Logger;
-import org.slf4j.LoggerFactory;
 
 import io.furrow.mission.Cursor;
 import io.furrow.mission.EventPage;
@@ -27,9 +19,7 @@ import io.furrow.mission.SkippedRecords;
  * @param folder of the file
  * @param skipped records of the topic that are not events
  */
-record TopicRecording(Recording lines, Path folder, List<SkippedRecords> skipped) implements Recording {
-    private static final Logger LOG = LoggerFactory.getLogger(TopicRecording.class);
-
+record TopicRecording(Recording lines, TemporaryFolder folder, List<SkippedRecords> skipped) implements Recording {
     @Override
     public Optional<RecordingExtent> span() throws RecordingException {
         return lines.span();
@@ -49,20 +39,6 @@ record TopicRecording(Recording lines, Path folder, List<SkippedRecords> skipped
     @Override
     public void close() {
         lines.close();
-        delete(folder);
-    }
-
-    /** Deletes a folder and its files if it exists. */
-    static void delete(Path folder) {
-        if (!Files.exists(folder)) {
-            return;
-        }
-        try (Stream<Path> found = Files.walk(folder)) {
-            for (Path path : found.sorted(Comparator.reverseOrder()).toList()) {
-                Files.deleteIfExists(path);
-            }
-        } catch (IOException e) {
-            LOG.warn("The temporary folder {} cannot be deleted; delete it", folder, e);
-        }
+        folder.close();
     }
 }

@@ -2,7 +2,6 @@ package io.furrow.mission.topic;
 
 import java.io.IOException;
 import java.nio.channels.ClosedByInterruptException;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
@@ -32,7 +31,7 @@ import io.furrow.model.text.FailureText;
  * is opened. Event time is the record's timestamp; the event id is the header {@code ce_id}, or topic, partition and
  * offset without one; the value is an entity in normalized form, or null for a deletion. Other records are skipped and
  * counted. Opening reads the whole topic and sorts it on disk, which needs twice its size and some free space; the file
- * is deleted when the recording is closed.
+ * is deleted when the recording is closed, or, after its process was killed, when another topic is opened.
  *
  * @param kafka settings of a consumer: {@code bootstrap.servers}, security, and {@code default.api.timeout.ms}, the
  * timeout of requests, 30 s by default
@@ -73,7 +72,7 @@ public record TopicRecordings(TreeMap<String, String> kafka, long until, String 
             throw new RecordingDeletedException(
                     "Topic %s holds no events; name one that begins with %s".formatted(topic, EVENTS));
         }
-        Path temporary = null;
+        TemporaryFolder temporary = null;
         Recording opened = null;
         try (KafkaConsumer<byte[], byte[]> consumer = new KafkaConsumer<>(settings())) {
             List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
@@ -82,8 +81,8 @@ public record TopicRecordings(TreeMap<String, String> kafka, long until, String 
             if (partitions.isEmpty()) {
                 return Optional.empty();
             }
-            temporary = Files.createTempDirectory(Files.createDirectories(Path.of(folder)), "furrow-topic-");
-            opened = sort(topic, new Input(consumer, partitions, diskSpace.in(temporary)));
+            temporary = TemporaryFolder.in(Path.of(folder));
+            opened = sort(topic, new Input(consumer, partitions, temporary, diskSpace.in(temporary.path())));
             return Optional.of(opened);
         } catch (RecordingException e) {
             throw e;
@@ -101,28 +100,31 @@ public record TopicRecordings(TreeMap<String, String> kafka, long until, String 
                     e);
         } finally {
             if (temporary != null && opened == null) {
-                TopicRecording.delete(temporary);
+                temporary.close();
             }
         }
     }
 
     /** The input of the sort. */
     private record Input(
-            KafkaConsumer<byte[], byte[]> consumer, List<TopicPartition> partitions, DiskSpace diskSpace) {}
+            KafkaConsumer<byte[], byte[]> consumer,
+            List<TopicPartition> partitions,
+            TemporaryFolder folder,
+            DiskSpace diskSpace) {}
 
     private Recording sort(String topic, Input input) throws IOException {
         EventSorter sorter = new EventSorter(input.diskSpace(), SORTED_BYTES);
         EventTopicReader reader = new EventTopicReader(input.consumer(), input.partitions(), until, sorter);
         String timeout = kafka.getOrDefault(ConsumerConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, TIMEOUT_MILLIS);
         reader.read(Duration.ofMillis(Long.parseLong(timeout)));
-        Path lines = input.diskSpace().folder().resolve("events.ndjson");
+        Path lines = input.folder().path().resolve("events.ndjson");
         sorter.writeLines(lines);
         List<SkippedRecords> skipped = reader.skipped() == 0
                 ? List.of()
                 : List.of(new SkippedRecords(
                         "records of " + topic, "the first is " + reader.example(), reader.skipped()));
         Recording events = new FileRecordings(lines.toString()).open(topic).orElseThrow();
-        return new TopicRecording(events, input.diskSpace().folder(), skipped);
+        return new TopicRecording(events, input.folder(), skipped);
     }
 
     private Properties settings() {

@@ -7,10 +7,10 @@ import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
 
-import io.furrow.connect.LogText;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.sink.api.Batches.Rendered;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.LogText;
 
 /**
  * Sends updates or deletions of different entities in batches. A batch that is not accepted is halved until the

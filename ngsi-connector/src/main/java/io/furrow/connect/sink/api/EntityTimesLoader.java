@@ -12,12 +12,12 @@ import java.util.Set;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
+import io.furrow.model.text.LogText;
 
 /** Reads the times of entities that are not cached, or have expired, from the context broker, many per request. */
 record EntityTimesLoader(BrokerClient client, ContextBrokerApi api, EntityTimesCache known) {

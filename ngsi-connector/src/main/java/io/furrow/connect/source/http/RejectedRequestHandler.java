@@ -7,9 +7,9 @@ import java.util.function.Function;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.connect.LogText;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.http.Decision;
+import io.furrow.model.text.LogText;
 
 /**
  * Answers and counts requests that name another host or come from a page of another origin. Logs each reason once,

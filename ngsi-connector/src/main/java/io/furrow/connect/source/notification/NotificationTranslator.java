@@ -8,11 +8,16 @@ import java.util.concurrent.atomic.LongAdder;
 import java.util.function.Consumer;
 import java.util.regex.Pattern;
 
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.repair.EntityVersion;
 import io.furrow.connect.source.notification.Translation.Refusal;
+import io.furrow.connect.source.option.EntityOptions;
 import io.furrow.connect.source.option.JournalOptions;
+import io.furrow.model.event.ClockFaults;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.EntityRecord;
 import io.furrow.model.event.EventTime;
@@ -35,6 +40,7 @@ import io.furrow.model.ngsi.UnreadableException;
 public final class NotificationTranslator {
     public static final String STAGE = "ngsi-source";
 
+    private static final Logger LOG = LoggerFactory.getLogger(NotificationTranslator.class);
     private static final int MAX_MESSAGE_LENGTH = 500;
     private static final int HEADERS_AT_MOST = 32 * 1024;
     /** The bytes that the journal adds to a record. */
@@ -65,7 +71,7 @@ public final class NotificationTranslator {
     private final NotificationRules rules;
     private final Ledger ledger;
     private final Consumer<String> arrived;
-    private final ClockWarning clocks = new ClockWarning();
+    private final ClockFaults clocks = new ClockFaults(EntityOptions.MAX_CLOCK_SKEW);
     private final UndatedWarning undated = new UndatedWarning();
 
     public NotificationTranslator(Settings settings, Ledger ledger) {
@@ -174,7 +180,7 @@ public final class NotificationTranslator {
         }
         if (translated.fault() != null) {
             counterOf(translated.fault()).increment();
-            clocks.note(scope.identity(entity.id()), translated.fault());
+            clocks.describe(scope.identity(entity.id()), translated.fault()).ifPresent(LOG::warn);
         }
         if (entity.value(Entity.MODIFIED).isEmpty()) {
             ledger.undated.increment();

@@ -16,8 +16,8 @@ import io.furrow.model.event.EventTimeRule;
 
 /** Options for the entities that the source accepts and the clock skew that it tolerates. */
 public record EntityOptions(AbstractConfig config) {
+    public static final String MAX_CLOCK_SKEW = "max.clock.skew.ms";
     static final String EXCLUDE_TYPES = "exclude.types";
-    static final String MAX_CLOCK_SKEW = "max.clock.skew.ms";
     static final String EVENT_TIME = "event.time";
 
     private static final String DEFAULT_TIMES =

@@ -2,10 +2,18 @@ package io.furrow.connect.source.notification;
 
 import java.time.Duration;
 import java.time.Instant;
+import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
 import java.util.regex.Pattern;
 
+import org.apache.logging.log4j.Level;
+import org.apache.logging.log4j.LogManager;
+import org.apache.logging.log4j.core.LogEvent;
+import org.apache.logging.log4j.core.Logger;
+import org.apache.logging.log4j.core.appender.AbstractAppender;
+import org.apache.logging.log4j.core.config.Configurator;
+import org.apache.logging.log4j.core.config.Property;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.ledger.Ledger;
@@ -207,6 +215,28 @@ class NotificationTranslatorTest {
         assertThat(ahead.records().get(0).time()).isEqualTo(NOW);
         assertThat(tolerated.records().get(0).time()).isEqualTo(NOW.plusSeconds(299));
         assertThat(ledger.clockAhead.sum()).isEqualTo(1);
+    }
+
+    @Test
+    void namesADeviceWhoseTimeCannotBeRead() {
+        List<String> warnings = new ArrayList<>();
+        AbstractAppender recorder = new AbstractAppender("recorder", null, null, true, Property.EMPTY_ARRAY) {
+            @Override
+            public void append(LogEvent event) {
+                warnings.add(event.getMessage().getFormattedMessage());
+            }
+        };
+        Logger logger = (Logger) LogManager.getLogger(NotificationTranslator.class);
+        recorder.start();
+        logger.addAppender(recorder);
+        Configurator.setLevel(logger, Level.WARN);
+        try {
+            translate("{\"id\": \"a\", \"Time\": \"noon\"}");
+        } finally {
+            logger.removeAppender(recorder);
+        }
+
+        assertThat(warnings).singleElement().asString().contains("agri|/plot1|a ", "cannot be read");
     }
 
     private Translation translate(String body) {

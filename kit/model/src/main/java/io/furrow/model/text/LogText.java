@@ -1,4 +1,4 @@
-package io.furrow.connect;
+package io.furrow.model.text;
 
 /** Sanitizes external text for a log, in which each line has one author. */
 public final class LogText {

@@ -1,4 +1,4 @@
-package io.furrow.connect;
+package io.furrow.model.text;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
