@@ -20,7 +20,7 @@ import io.furrow.flink.job.JobCommandLine;
 
 /** Commands that start nothing: they use the control plane, Kafka and stored missions wherever these run. */
 public final class Commands {
-    private static final List<Class<?>> ALL = List.of(
+    public static final List<Class<?>> ALL = List.of(
             DomainCommandGroup.class,
             MissionCommandGroup.class,
             TemplateCommandGroup.class,
@@ -34,10 +34,10 @@ public final class Commands {
 
     private Commands() {}
 
-    /** Adds the commands to those of a root; a {@link CommandException} is printed as one line. */
-    public static CommandLine commandLine(Object root) {
+    /** Adds commands to a root; a {@link CommandException} is printed as one line. */
+    public static CommandLine commandLine(Object root, List<Class<?>> commands) {
         CommandSpec spec = CommandSpec.forAnnotatedObject(root);
-        ALL.forEach(command -> spec.addSubcommand(null, new CommandLine(command)));
+        commands.forEach(command -> spec.addSubcommand(null, new CommandLine(command)));
         CommandLine line = JobCommandLine.of(spec).setExecutionExceptionHandler((failure, command, parsed) -> {
             if (failure instanceof CommandException rejected) {
                 command.getErr().println(rejected.getMessage());
@@ -45,8 +45,14 @@ public final class Commands {
             }
             throw failure;
         });
-        // -3 is a number of events, not an option.
-        line.getSubcommands().get("replay").getSubcommands().get("step").setUnmatchedOptionsArePositionalParams(true);
+        if (commands.contains(ReplayCommandGroup.class)) {
+            // -3 is a number of events, not an option.
+            line.getSubcommands()
+                    .get("replay")
+                    .getSubcommands()
+                    .get("step")
+                    .setUnmatchedOptionsArePositionalParams(true);
+        }
         return line;
     }
 }

@@ -160,7 +160,7 @@ class CatalogIT {
 
     private static String output(String... args) {
         StringWriter output = new StringWriter();
-        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
+        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"), Commands.ALL);
         line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
         line.execute(args);
         return output.toString();

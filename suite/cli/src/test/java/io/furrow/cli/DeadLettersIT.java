@@ -207,7 +207,7 @@ class DeadLettersIT {
         arguments.addAll(List.of(options));
         StringWriter output = new StringWriter();
         PrintWriter printer = new PrintWriter(output, true);
-        Commands.commandLine(CommandSpec.create().name("furrow"))
+        Commands.commandLine(CommandSpec.create().name("furrow"), Commands.ALL)
                 .setOut(printer)
                 .setErr(printer)
                 .execute(arguments.toArray(String[]::new));

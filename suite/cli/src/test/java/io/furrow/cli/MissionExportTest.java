@@ -31,8 +31,8 @@ class MissionExportTest {
     Path folder;
 
     private final StringWriter out = new StringWriter();
-    private final CommandLine furrow =
-            Commands.commandLine(CommandSpec.create().name("furrow")).setOut(new PrintWriter(out));
+    private final CommandLine furrow = Commands.commandLine(CommandSpec.create().name("furrow"), Commands.ALL)
+            .setOut(new PrintWriter(out));
 
     @Test
     void writesAMissionInEachFormat() throws Exception {

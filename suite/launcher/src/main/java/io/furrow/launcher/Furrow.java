@@ -1,5 +1,8 @@
 package io.furrow.launcher;
 
+import java.util.List;
+import java.util.stream.Stream;
+
 import picocli.AutoComplete.GenerateCompletion;
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
@@ -25,18 +28,21 @@ import io.furrow.simulators.host.DeviceHostCommand;
         name = "furrow",
         description = "Stream processing for FIWARE farms: from the context broker through Kafka and Flink and back.",
         synopsisSubcommandLabel = "COMMAND",
-        footer = {"", "./furrow bench measures the suite on this machine, ./furrow soak runs long checks."},
-        subcommands = {
-            DemoCommand.class,
-            UpCommand.class,
-            ControlPlaneCommand.class,
-            DashboardCommand.class,
-            DeviceHostCommand.class,
-            ScenarioCommand.class,
-            SecretCommandGroup.class,
-            InitCommand.class
-        })
+        footer = {"", "./furrow bench measures the suite on this machine, ./furrow soak runs long checks."})
 public final class Furrow {
+    private static final List<Class<?>> COMMANDS = Stream.concat(
+                    Stream.of(
+                            DemoCommand.class,
+                            UpCommand.class,
+                            ControlPlaneCommand.class,
+                            DashboardCommand.class,
+                            DeviceHostCommand.class,
+                            ScenarioCommand.class,
+                            SecretCommandGroup.class,
+                            InitCommand.class),
+                    Commands.ALL.stream())
+            .toList();
+
     @Mixin
     private HelpOption help;
 
@@ -51,14 +57,26 @@ public final class Furrow {
     public static void main(String... args) {
         // Kafka and Connect log through log4j, which must know its file before the first of them loads.
         System.setProperty("java.awt.headless", "true");
-        int exitCode = commandLine().execute(args);
+        int exitCode = commandLine(args).execute(args);
         System.exit(exitCode);
     }
 
     /** The command with all subcommands. */
     public static CommandLine commandLine() {
-        CommandLine furrow = Commands.commandLine(new Furrow());
-        furrow.getSubcommands().get("replay").addSubcommand(new AnalyticsCommand());
+        return commandLine(new String[0]);
+    }
+
+    /** The command with the subcommand that the first argument names, else with all: their models take most of a short run. */
+    static CommandLine commandLine(String... args) {
+        List<Class<?>> named = COMMANDS.stream()
+                .filter(command -> args.length > 0
+                        && command.getAnnotation(Command.class).name().equals(args[0]))
+                .toList();
+        CommandLine furrow = Commands.commandLine(new Furrow(), named.isEmpty() ? COMMANDS : named);
+        CommandLine replay = furrow.getSubcommands().get("replay");
+        if (replay != null) {
+            replay.addSubcommand(new AnalyticsCommand());
+        }
         furrow.addSubcommand(new GenerateCompletion());
         furrow.getCommandSpec().version(Version.TEXT);
         IExecutionStrategy strategy = furrow.getExecutionStrategy();

@@ -179,7 +179,7 @@ class FieldsCommandGroupIT {
 
     private String output(int exitCode, String... args) {
         StringWriter output = new StringWriter();
-        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
+        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"), Commands.ALL);
         line.setOut(new PrintWriter(output, true)).setErr(new PrintWriter(err, true));
         List<String> all = new ArrayList<>(List.of("fields"));
         all.addAll(List.of(args));

@@ -85,7 +85,7 @@ class MissionCommandGroupTest {
     }
 
     private int run(String... args) {
-        CommandLine furrow = Commands.commandLine(CommandSpec.create().name("furrow"));
+        CommandLine furrow = Commands.commandLine(CommandSpec.create().name("furrow"), Commands.ALL);
         furrow.setOut(new PrintWriter(out, true));
         furrow.setErr(new PrintWriter(err, true));
         String[] all = new String[args.length + 3];

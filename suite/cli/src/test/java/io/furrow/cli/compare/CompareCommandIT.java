@@ -129,7 +129,7 @@ class CompareCommandIT {
     }
 
     private static int run(StringWriter output, String... args) {
-        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
+        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"), Commands.ALL);
         line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
         String[] all = java.util.stream.Stream.of(
                         List.of("replay", "compare"), List.of(args), List.of("--kafka", kafka.bootstrapServers()))

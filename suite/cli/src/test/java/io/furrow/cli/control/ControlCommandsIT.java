@@ -292,7 +292,7 @@ class ControlCommandsIT {
     }
 
     private CommandLine furrow() {
-        return Commands.commandLine(CommandSpec.create().name("furrow"))
+        return Commands.commandLine(CommandSpec.create().name("furrow"), Commands.ALL)
                 .setOut(new PrintWriter(out, true))
                 .setErr(new PrintWriter(err, true));
     }

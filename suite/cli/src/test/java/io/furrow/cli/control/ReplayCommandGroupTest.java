@@ -180,7 +180,7 @@ class ReplayCommandGroupTest {
     }
 
     private int run(String... arguments) {
-        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
+        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"), Commands.ALL);
         line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
         List<String> all = new ArrayList<>(List.of(arguments));
         all.add("--api=" + control.uri(""));

@@ -123,7 +123,7 @@ class ReplayWatchTest {
     /** What the command prints where there is no terminal. */
     private String watch() {
         StringWriter output = new StringWriter();
-        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
+        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"), Commands.ALL);
         line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
         assertThat(line.execute(
                         "replay",
