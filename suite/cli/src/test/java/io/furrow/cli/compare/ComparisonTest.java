@@ -170,6 +170,11 @@ class ComparisonTest {
                 .filteredOn(match -> match.verdict() != Verdict.SAME)
                 .singleElement()
                 .satisfies(match -> assertThat(match.subject().types()).isEqualTo("Camera"));
+        assertThat(comparison.matches().get(ResultKind.STAYS))
+                .as("the page sorts them by subject")
+                .extracting(ResultMatch::subject)
+                .usingElementComparator(ResultSubject::compareTo)
+                .doesNotHaveDuplicates();
     }
 
     /** The job's own entity, in an epoch that is not the first. */
