@@ -23,7 +23,7 @@ export class Picture {
       setText(this.caption, t('cards.noPicture'));
       return;
     }
-    if (this.shown !== stored.sha256 && !this.loading && !(Date.now() < this.retryAt)) {
+    if (this.shown !== stored.sha256 && !this.loading && !(this.failed === stored.sha256 && Date.now() < this.retryAt)) {
       await this.load(stored, entity);
     }
     if (this.takenAt) {
@@ -49,6 +49,7 @@ export class Picture {
       setText(this.caption, t('cards.pictureFailed', { reason: error.message }));
       if (error.status === 0 || error.status === 503) {
         this.shown = null;
+        this.failed = stored.sha256;
         this.retryAt = Date.now() + RETRY_MILLIS;
       }
     } finally {

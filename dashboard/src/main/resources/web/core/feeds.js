@@ -103,7 +103,7 @@ class Feeds {
       if (!list.error) {
         store[name] = new Map();
         (list.value ?? []).forEach((each) => store[name].set(key(each, store[name]), each));
-        name === 'devices' && store.entities.forEach((entity) => store.applyHealth(entity));
+        name === 'devices' && store.entities.forEach((entity, key) => store.applyHealth(entity) && store.notify('entities', key));
       }
       store.notify(name);
     });

@@ -71,9 +71,16 @@ export function isPercent(attribute) {
   return unitOf(attribute) === '' && finite(attribute.value) > 1;
 }
 
-/** Marks the battery as one of a device that reports percent without naming a unit. @param {Object<string, Object>} attributes */
+/**
+ * Marks the battery as one of a device that reports percent without naming a unit.
+ *
+ * @param {Object<string, Object>} attributes
+ * @returns {boolean} whether it was not marked
+ */
 export function markPercent(attributes) {
-  BATTERIES.forEach((name) => attributes[name] && (attributes[name].percent = true));
+  const unmarked = BATTERIES.map((name) => attributes[name]).filter((battery) => battery && !battery.percent);
+  unmarked.forEach((battery) => (battery.percent = true));
+  return unmarked.length > 0;
 }
 
 /** The charge of a battery, 0 to 1. @param {Object<string, Object>} attributes as parsed by `core/entity.js` @returns {number|null} */

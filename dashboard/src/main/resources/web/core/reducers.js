@@ -41,12 +41,9 @@ export const Reducers = (Base) => class extends Base {
     return [key];
   }
 
-  /** Applies what the control plane remembers of a device: whether it ever reported its battery in percent. */
+  /** Applies what the control plane remembers of a device: whether it ever reported its battery in percent. @returns {boolean} whether it is news */
   applyHealth(entity) {
-    if (this.deviceOf(entity)?.health?.percent) {
-      markPercent(entity.attributes);
-      this.notify('entities', entity.id);
-    }
+    return Boolean(this.deviceOf(entity)?.health?.percent) && markPercent(entity.attributes);
   }
 
   forgetEntity(key) {

@@ -1,7 +1,6 @@
 package io.furrow.analytics.clock;
 
 import java.time.Duration;
-import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Set;
@@ -36,6 +35,7 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
     private static final int MIN_RECORDS = 3;
 
     private static final int MAX_DEVICES = 10_000;
+    private static final int MAX_TYPES = 10;
     private static final int CATCHES_UP = 2;
 
     private final ReceiptTime receiptTime;
@@ -73,7 +73,12 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
             if (!isBehind) {
                 return;
             }
-            byType = new HashMap<>();
+            byType = new LinkedHashMap<>() {
+                @Override
+                protected boolean removeEldestEntry(Map.Entry<String, Run> eldest) {
+                    return size() > MAX_TYPES;
+                }
+            };
         }
         Entity entity = entityOf(record);
         if (isBehind) {

@@ -29,6 +29,8 @@ public final class ImageIndex implements AutoCloseable {
     private static final int MAX = 100_000;
     private static final Duration POLL = Duration.ofMillis(500);
     private static final Duration RETRY = Duration.ofSeconds(2);
+    private static final Duration TIMEOUT = Duration.ofSeconds(1);
+    private static final int MAX_WAITING = 16;
     private static final Pattern SHA256 = Pattern.compile("[0-9a-f]{64}");
     private static final Pattern IMAGE_TYPE = Pattern.compile("image/(png|jpeg|webp|gif|avif|bmp)");
 
@@ -38,6 +40,7 @@ public final class ImageIndex implements AutoCloseable {
     private CommittedReader<byte[]> topic;
     private boolean isComplete;
     private boolean isRequested;
+    private int waiting;
     private final CountDownLatch closed = new CountDownLatch(1);
 
     public ImageIndex(Properties client) {
@@ -58,7 +61,8 @@ public final class ImageIndex implements AutoCloseable {
     }
 
     /**
-     * Does not wait.
+     * Waits for the image at most {@code TIMEOUT}, and not at all if many wait already: the record that names it to others
+     * may not have been read here.
      *
      * @return empty if none of the records names the image
      * @throws Problem 503 if they have not all been read yet
@@ -68,12 +72,30 @@ public final class ImageIndex implements AutoCloseable {
             return Optional.empty();
         }
         synchronized (images) {
+            isRequested = true;
+            images.notifyAll();
+            await(sha256);
             if (!isComplete && !images.containsKey(sha256)) {
-                isRequested = true;
-                images.notifyAll();
                 throw new Problem(503, "images-loading", "the list of images is being read; try again in a moment");
             }
             return Optional.ofNullable(images.get(sha256));
+        }
+    }
+
+    private void await(String sha256) {
+        long end = System.nanoTime() + TIMEOUT.toNanos();
+        boolean isCrowded = waiting >= MAX_WAITING;
+        waiting++;
+        try {
+            long left = TIMEOUT.toMillis();
+            while (!images.containsKey(sha256) && !isCrowded && left > 0 && !isClosed()) {
+                images.wait(left);
+                left = (end - System.nanoTime()) / 1_000_000;
+            }
+        } catch (InterruptedException e) {
+            throw Problem.stopping();
+        } finally {
+            waiting--;
         }
     }
 
@@ -136,6 +158,7 @@ public final class ImageIndex implements AutoCloseable {
                 synchronized (images) {
                     images.remove(sha256);
                     images.put(sha256, location);
+                    images.notifyAll();
                 }
             }
         } catch (UnreadableException | IllegalArgumentException e) {

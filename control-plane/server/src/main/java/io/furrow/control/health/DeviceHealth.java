@@ -84,6 +84,14 @@ public record DeviceHealth(
                         heartbeat.off()));
     }
 
+    /** Whether a heartbeat is of another entity with the same id, while that of the desired type reports. */
+    boolean isOfOtherType(Heartbeat heartbeat, DesiredDevice desired) {
+        return report.heard != null
+                && !silent
+                && device.type.equalsIgnoreCase(desired.type())
+                && !heartbeat.type().equalsIgnoreCase(desired.type());
+    }
+
     DeviceHealth silent(long now) {
         return new DeviceHealth(device, true, now, report);
     }

@@ -54,8 +54,8 @@ final class DeviceHealthTracker {
         DeviceHealth stored = health.get(key);
         DeviceHealth existing = stored == null ? DeviceHealth.unreported(device.get(), now) : stored.of(device.get());
         long newest = heard(existing, now);
-        if (heartbeat.heard() < newest) {
-            return; // another detector has a newer report
+        if (heartbeat.heard() < newest || existing.isOfOtherType(heartbeat, device.get())) {
+            return; // another detector has a newer report, or a new one does not know the device yet
         }
         DeviceHealth reported = existing.silent() && heartbeat.silent() ? existing : existing.reported(heartbeat, now);
         DeviceHealth next = heartbeat.silent() && !reported.silent() ? reported.silent(now) : reported;

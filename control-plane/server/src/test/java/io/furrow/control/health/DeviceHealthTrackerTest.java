@@ -193,6 +193,20 @@ class DeviceHealthTrackerTest {
         assertThat(existing().report().percent()).isTrue();
     }
 
+    /** After a start the detector does not know yet which of two entities with one id the device is. */
+    @Test
+    void keepsTheDesiredTypeUntilItIsSilent() {
+        addDesired("m", START);
+        tracker.take(KEY, heartbeat(false, START), START);
+        Heartbeat other = new Heartbeat(ID, "Other", false, START + 1, 77, null, null, null, false);
+
+        tracker.take(KEY, other, START + 1);
+        assertThat(existing().device().type()).isEqualTo("T");
+        tracker.take(KEY, heartbeat(true, START + 2), START + 2);
+        tracker.take(KEY, new Heartbeat(ID, "Other", false, START + 3, 77, null, null, null, false), START + 3);
+        assertThat(existing().device().type()).isEqualTo("Other");
+    }
+
     private static Heartbeat battery(double battery, Boolean percent, long heard) {
         return new Heartbeat(ID, "T", false, heard, 77, null, battery, percent, false);
     }

@@ -37,12 +37,14 @@ final class TemporaryFolder implements AutoCloseable {
         Files.createDirectories(parent);
         deleteAbandoned(parent);
         Path path = Files.createTempDirectory(parent, ownPrefix());
-        FileChannel lock =
-                FileChannel.open(path.resolve(LOCK), StandardOpenOption.CREATE_NEW, StandardOpenOption.WRITE);
-        if (lock.tryLock() == null) {
-            lock.close();
-            throw new IOException("another process deletes " + path);
+        Path file = path.resolve("new-lock");
+        FileChannel lock = FileChannel.open(file, StandardOpenOption.CREATE_NEW, StandardOpenOption.WRITE);
+        try {
+            lock.lock();
+        } catch (IOException e) {
+            LOG.debug("{} has no locks, so nobody deletes {} after a kill", parent, path, e);
         }
+        Files.move(file, path.resolve(LOCK)); // under this name other processes try to lock it
         return new TemporaryFolder(path, lock);
     }
 

@@ -135,7 +135,7 @@ final class JournalConsumer implements AutoCloseable {
      */
     boolean release(OptionalLong committed) {
         long known = committed.orElse(0);
-        if (known == outdated && behindSkipped(start) < outdated) {
+        if (known == outdated && behindSkipped(start) < Math.min(outdated, journal.end())) {
             return false;
         }
         outdated = NOTHING;
