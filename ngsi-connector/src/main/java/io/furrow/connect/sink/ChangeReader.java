@@ -24,7 +24,8 @@ import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * Reads the change and its entity from a record. The value is the output of a converter: bytes or text of JSON, a map
- * of JSON values, or a struct; a tombstone deletes the entity whose id is the record's key.
+ * of JSON values, or a struct; a tombstone deletes the entity whose id is the record's key, of the type in the
+ * header {@code entity-type}, without it of all types.
  *
  * @param defaultScope of records without headers
  * @param defaultType of entities without type, empty for {@code Thing}
@@ -40,14 +41,15 @@ record ChangeReader(FiwareScope defaultScope, String defaultType) {
         FiwareScope scope = scope(record);
         long time = time(record);
         if (record.value() == null) {
-            return new EntityChange(new EntityKey(scope, key(record)), null, time, source);
+            String type = RecordHeaders.name(record, HeaderNames.ENTITY_TYPE, "");
+            return new EntityChange(new EntityKey(scope, key(record)), type, null, time, source);
         }
         JsonNode json = record.value() instanceof Struct struct ? json(struct) : json(record.value());
         if (json instanceof ObjectNode object) {
             complete(object, record);
         }
         Entity entity = Entity.ofAnyForm(json);
-        return new EntityChange(new EntityKey(scope, entity.id()), entity, time, source);
+        return new EntityChange(new EntityKey(scope, entity.id()), entity.type(), entity, time, source);
     }
 
     private void complete(ObjectNode entity, SinkRecord record) throws UnreadableException {

@@ -50,8 +50,10 @@ final class SinkEntityOptions {
 
     private static void defineSkipped(OptionGroup group) {
         group.flag(DELETE_ON_NULL, false, "Delete on null")
-                .help("Whether a tombstone deletes the entity whose id is its key, unless a newer value is known."
-                        + " Otherwise tombstones are skipped.");
+                .help(
+                        "Whether a tombstone deletes the entity whose id is its key and whose type is in the header entity-type, if"
+                                + " it has one, unless a newer value is known."
+                                + " Otherwise tombstones are skipped.");
         group.list(ECHO_SOURCES, "/ngsi/.*", Validators.patterns(), "Echo sources")
                 .help("Regular expressions; a record whose header ce_source matches one as a whole came from a context"
                         + " broker and is skipped, because writing it back would make the broker notify it again,"

@@ -107,6 +107,44 @@ class DeletionsTest extends SinkFixture {
                 .satisfies(request -> assertThat(request.method()).isEqualTo("DELETE"));
     }
 
+    @Test
+    void leaveEntitiesOfOtherTypesAndTheirValues() {
+        startOf("ngsi-v2");
+        task.put(List.of(record("x", entity("x", "a", 1), 10)));
+        broker.requests.clear();
+
+        task.put(List.of(deletion("Other", "x", 20), record("x", entity("x", "a", 2), 15), deletion("Other", "y", 20)));
+
+        assertThat(broker.requests).hasSize(2);
+        assertThat(broker.requests.get(0).body().path("entities"))
+                .hasToString("[{\"id\":\"x\",\"type\":\"Other\"},{\"id\":\"y\",\"type\":\"Other\"}]");
+        assertThat(broker.value("x", "a").asInt()).isEqualTo(2);
+        task.put(List.of(deletion("Other", "x", 30)));
+        assertThat(broker.requests.get(2).path()).endsWith("/v2/entities/x?type=Other");
+        task.put(List.of(deletion("T", "x", 30)));
+        assertThat(broker.entities).isEmpty();
+    }
+
+    /** The id that is no URI becomes one with the type. */
+    @ParameterizedTest
+    @ValueSource(ints = {1, 3})
+    void findTheEntityOfNgsiLdByItsType(int count) {
+        startOf("ngsi-ld");
+        List<String> ids = IntStream.range(0, count).mapToObj(i -> "probe-" + i).toList();
+        task.put(ids.stream().map(id -> record(id, entity(id, "a", 1), 10)).toList());
+        assertThat(broker.entities).hasSize(count).containsKey("urn:ngsi-ld:T:probe-0");
+
+        task.put(ids.stream().map(id -> deletion("T", id, 20)).toList());
+
+        assertThat(broker.entities).isEmpty();
+    }
+
+    private static SinkRecord deletion(String type, String id, long time) {
+        SinkRecord deletion = deletion(id, time);
+        deletion.headers().addString("entity-type", type);
+        return deletion;
+    }
+
     private void startOf(String api) {
         start("api", api, "parallel.requests", "1", "delete.on.null", "true");
     }

@@ -137,7 +137,8 @@ final class FakeContextBroker implements AutoCloseable {
         if (isLdDeletion || update.body().path("actionType").asText().equals("delete")) {
             return deleted(update, isLdDeletion, reply);
         }
-        String[] attribute = update.path().split("/attrs/");
+        String[] pathAndType = update.path().split("[?]type=");
+        String[] attribute = pathAndType[0].split("/attrs/");
         if (update.method().equals("DELETE") && attribute.length == 2) {
             String id =
                     attribute[0].substring(attribute[0].lastIndexOf('/') + 1).replace("%3A", ":");
@@ -145,8 +146,10 @@ final class FakeContextBroker implements AutoCloseable {
             return isThere ? reply : new Reply(404, "{\"error\":\"NotFound\"}");
         }
         if (update.method().equals("DELETE")) {
-            String id = update.path().substring(update.path().lastIndexOf('/') + 1);
-            return entities.remove(id.replace("%3A", ":")) == null ? new Reply(404, "{\"error\":\"NotFound\"}") : reply;
+            String id = pathAndType[0].substring(pathAndType[0].lastIndexOf('/') + 1);
+            return remove(id.replace("%3A", ":"), pathAndType.length == 1 ? "" : pathAndType[1])
+                    ? reply
+                    : new Reply(404, "{\"error\":\"NotFound\"}");
         }
         for (JsonNode entity : update.elements()) {
             String id = entity.path("id").textValue();
@@ -160,14 +163,18 @@ final class FakeContextBroker implements AutoCloseable {
 
     /** Those that are there, and what context brokers answer where others are not. */
     private Reply deleted(Update update, boolean isLd, Reply reply) {
-        List<String> ids = new ArrayList<>();
-        update.elements()
-                .forEach(one -> ids.add(isLd ? one.textValue() : one.path("id").textValue()));
-        List<String> absent =
-                ids.stream().filter(id -> entities.remove(id) == null).toList();
+        List<String> absent = new ArrayList<>();
+        int asked = 0;
+        for (JsonNode one : update.elements()) {
+            String id = isLd ? one.textValue() : one.path("id").textValue();
+            asked++;
+            if (!remove(id, one.path("type").asText())) {
+                absent.add(id);
+            }
+        }
         if (absent.isEmpty()) {
             return reply;
-        } else if (absent.size() == ids.size()) {
+        } else if (absent.size() == asked) {
             return new Reply(404, "{\"error\":\"NotFound\"}");
         } else if (!isLd) {
             return new Reply(422, "{\"error\": \"PartialUpdate\"}");
@@ -179,6 +186,14 @@ final class FakeContextBroker implements AutoCloseable {
                 .putObject("error")
                 .put("status", 404));
         return new Reply(207, answer.toString());
+    }
+
+    /** @param type empty for any */
+    private boolean remove(String id, String type) {
+        JsonNode entity = entities.get(id);
+        return entity != null
+                && (type.isEmpty() || entity.path("type").asText().equals(type))
+                && entities.remove(id) != null;
     }
 
     @Override

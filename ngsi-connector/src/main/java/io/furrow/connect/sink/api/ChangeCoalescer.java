@@ -1,11 +1,14 @@
 package io.furrow.connect.sink.api;
 
 import java.util.ArrayList;
+import java.util.Comparator;
 import java.util.HashMap;
+import java.util.HashSet;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
@@ -35,30 +38,40 @@ final class ChangeCoalescer {
     private static final class Pending {
         private final EntityTimes known;
         private final Map<String, Merged> byType = new LinkedHashMap<>(2);
-        private EntityChange deletion;
-        private boolean deletes;
+        /** By type, empty for all types. */
+        private final Map<String, EntityChange> deletions = new LinkedHashMap<>(2);
+        /** The keys of those that no attribute outlives. */
+        private final Set<String> complete = new HashSet<>(2);
 
         Pending(EntityTimes known) {
             this.known = known;
         }
 
-        long newest() {
-            long newest = deletes ? EntityChange.NO_TIME : known.newest();
-            for (Merged merged : byType.values()) {
-                for (long time : merged.times.values()) {
-                    newest = Math.max(newest, time);
-                }
-            }
-            return newest;
+        /** The newest time of what a deletion is about. */
+        long newest(EntityChange deletion) {
+            return Stream.concat(
+                            Stream.of(known.newest(type -> deletion.deletes(type) && !isDeleted(type))),
+                            byType.entrySet().stream()
+                                    .filter(of -> deletion.deletes(of.getKey()))
+                                    .flatMap(of -> of.getValue().times.values().stream()))
+                    .max(Comparator.naturalOrder())
+                    .orElseThrow();
         }
 
-        long deletedAt() {
-            return Math.max(known.deletedAt(), deletion == null ? EntityChange.NO_TIME : deletion.time());
+        private boolean isDeleted(String type) {
+            return complete.contains("") || complete.contains(type);
+        }
+
+        long deletedAt(String type) {
+            return Stream.of("", type)
+                    .filter(deletions::containsKey)
+                    .map(of -> deletions.get(of).time())
+                    .reduce(known.deletedAt(type), Math::max);
         }
 
         long time(Merged merged, String type, String name) {
             Long pending = merged.times.get(name);
-            return pending != null ? pending : deletes ? EntityChange.NO_TIME : known.of(type, name);
+            return pending != null ? pending : isDeleted(type) ? EntityChange.NO_TIME : known.of(type, name);
         }
     }
 
@@ -72,27 +85,25 @@ final class ChangeCoalescer {
         Pending pending = entities.computeIfAbsent(entityChange.key(), key -> new Pending(known.of(key)));
         if (entityChange.isDeletion()) {
             delete(pending, entityChange);
-        } else if (entityChange.time() < pending.deletedAt()) {
+        } else if (entityChange.time() < pending.deletedAt(entityChange.type())) {
             stale++;
         } else {
             merge(pending, entityChange);
         }
     }
 
-    private void delete(Pending pending, EntityChange entityChange) {
-        if (entityChange.time() < pending.deletedAt()) {
+    private void delete(Pending pending, EntityChange deletion) {
+        if (deletion.time() < pending.deletedAt(deletion.type())) {
             stale++;
             return;
         }
-        coalesced += pending.deletion == null ? 0 : 1;
-        if (pending.newest() > entityChange.time()) {
-            pending.byType.values().removeIf(merged -> wiped(merged, entityChange.time()));
-        } else {
-            pending.byType.values().forEach(merged -> coalesced += merged.changes.size());
-            pending.byType.clear();
-            pending.deletes = true;
+        if (pending.newest(deletion) <= deletion.time()) {
+            pending.complete.add(deletion.type());
         }
-        pending.deletion = entityChange;
+        pending.byType
+                .entrySet()
+                .removeIf(of -> deletion.deletes(of.getKey()) && wiped(of.getValue(), deletion.time()));
+        coalesced += pending.deletions.put(deletion.type(), deletion) == null ? 0 : 1;
     }
 
     /** Removes the attributes that are not newer; true if nothing is left. */
@@ -106,7 +117,7 @@ final class ChangeCoalescer {
     }
 
     private void merge(Pending pending, EntityChange entityChange) {
-        String type = entityChange.entity().type();
+        String type = entityChange.type();
         Merged merged = pending.byType.computeIfAbsent(type, any -> new Merged());
         boolean says = false;
         boolean bare = true;
@@ -140,9 +151,8 @@ final class ChangeCoalescer {
         int merges = 0;
         for (Map.Entry<EntityKey, Pending> entity : entities.entrySet()) {
             Pending pending = entity.getValue();
-            if (pending.deletion != null) {
-                (pending.deletes ? deletions : partial).add(pending.deletion);
-            }
+            pending.deletions.forEach(
+                    (type, deletion) -> (pending.complete.contains(type) ? deletions : partial).add(deletion));
             for (Map.Entry<String, Merged> of : pending.byType.entrySet()) {
                 Merged merged = of.getValue();
                 updates.add(new AttributeUpdate(

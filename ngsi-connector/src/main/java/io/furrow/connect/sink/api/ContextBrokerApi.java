@@ -14,8 +14,12 @@ public interface ContextBrokerApi {
     /** The name of the API, as in the option. */
     String name();
 
-    /** The id under which the context broker stores an entity. */
-    String idOf(AttributeUpdate attributeUpdate);
+    /**
+     * The id under which the context broker stores an entity.
+     *
+     * @param type empty if unknown
+     */
+    String idOf(EntityKey key, String type);
 
     /** The update as one element of a batch, UTF-8 JSON. */
     byte[] render(AttributeUpdate attributeUpdate);
@@ -37,11 +41,15 @@ public interface ContextBrokerApi {
      */
     Map<String, String> refused(Outcome.Done answer, Collection<String> ids) throws UnreadableException;
 
-    /** Deletes an entity. */
-    BrokerRequest delete(EntityKey key);
+    /**
+     * Deletes an entity.
+     *
+     * @param type empty for all types with the id
+     */
+    BrokerRequest delete(EntityKey key, String type);
 
-    /** The entity as one element of a batch of deletions, UTF-8 JSON. */
-    byte[] renderDeletion(EntityKey key);
+    /** The entity as one element of a batch of deletions, UTF-8 JSON; the type as in {@link #delete(EntityKey, String)}. */
+    byte[] renderDeletion(EntityKey key, String type);
 
     /**
      * Deletes the entities of elements from {@link #renderDeletion}, all of one scope. Absent entities do not prevent

@@ -150,7 +150,7 @@ public final class ContextWriter implements AutoCloseable {
             BatchSender.Result<EntityChange> result = deleter.send(deletions, isolates);
             result.requireComplete();
             Stream.of(result.accepted, result.absent).flatMap(List::stream).forEach(deletion -> {
-                known.delete(deletion.key(), deletion.time());
+                known.delete(deletion);
                 results.deleted++;
             });
             anyAccepted |= !result.accepted.isEmpty();
@@ -159,7 +159,7 @@ public final class ContextWriter implements AutoCloseable {
         }
 
         private void deleteOlder(EntityChange deletion) throws BrokerUnavailableException, WrongSettingException {
-            for (EntityTimes.Name older : known.of(deletion.key()).upTo(deletion.time())) {
+            for (EntityTimes.Name older : known.of(deletion.key()).deletedBy(deletion)) {
                 Outcome outcome = client.send(api.delete(deletion.key(), older));
                 if (outcome instanceof Outcome.Rejected rejected) {
                     refuse(deletion, rejected.words());
@@ -173,7 +173,7 @@ public final class ContextWriter implements AutoCloseable {
                     BatchSender.fail(outcome);
                 }
             }
-            known.outlive(deletion.key(), deletion.time());
+            known.delete(deletion);
             results.deleted++;
         }
 

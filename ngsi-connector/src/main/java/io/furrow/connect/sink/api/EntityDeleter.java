@@ -2,7 +2,7 @@ package io.furrow.connect.sink.api;
 
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Set;
+import java.util.Map;
 
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.Outcome;
@@ -24,12 +24,12 @@ final class EntityDeleter extends BatchSender<EntityChange> {
 
     @Override
     Rendered<EntityChange> render(EntityChange deletion) {
-        return new Rendered<>(deletion, deletion.key().scope(), api.renderDeletion(deletion.key()));
+        return new Rendered<>(deletion, deletion.key().scope(), api.renderDeletion(deletion.key(), deletion.type()));
     }
 
     @Override
     String idOf(EntityChange deletion) {
-        return deletion.key().id();
+        return api.idOf(deletion.key(), deletion.type());
     }
 
     @Override
@@ -37,7 +37,7 @@ final class EntityDeleter extends BatchSender<EntityChange> {
         Rendered<EntityChange> first = batch.get(0);
         return client.send(
                 batch.size() == 1
-                        ? api.delete(first.of().key())
+                        ? api.delete(first.of().key(), first.of().type())
                         : api.delete(
                                 first.scope(),
                                 batch.stream().map(Rendered::json).toList()));
@@ -52,11 +52,12 @@ final class EntityDeleter extends BatchSender<EntityChange> {
     @Override
     List<Rendered<EntityChange>> left(List<Rendered<EntityChange>> batch, Result<EntityChange> result)
             throws BrokerUnavailableException, WrongSettingException {
-        Set<EntityKey> existing =
-                loader.existing(batch.stream().map(one -> one.of().key()).toList());
+        Map<EntityKey, EntityTimes> existing =
+                loader.existing(batch.stream().map(Rendered::of).toList());
         List<Rendered<EntityChange>> left = new ArrayList<>();
         for (Rendered<EntityChange> one : batch) {
-            if (existing.contains(one.of().key())) {
+            EntityTimes times = existing.get(one.of().key());
+            if (times != null && times.mayBeOf(one.of())) {
                 left.add(one);
             } else {
                 result.absent.add(one.of());

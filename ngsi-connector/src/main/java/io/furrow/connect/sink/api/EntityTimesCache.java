@@ -39,7 +39,7 @@ public final class EntityTimesCache {
     /** Replaces the cached times by those just read; a deletion stays cached, because no context broker reports it. */
     void learn(EntityKey key, EntityTimes times) {
         EntityTimes before = entities.put(key, times);
-        times.readAt(nanoClock.getAsLong(), before == null ? EntityChange.NO_TIME : before.deletedAt());
+        times.readAt(nanoClock.getAsLong(), before);
         attributes += cost(times) - (before == null ? 0 : cost(before));
     }
 
@@ -47,20 +47,16 @@ public final class EntityTimesCache {
         change(key, times -> times.put(type, name, time));
     }
 
-    void delete(EntityKey key, long time) {
-        change(key, times -> times.delete(time));
-    }
-
-    /** Stores a deletion that newer attributes outlive. */
-    void outlive(EntityKey key, long time) {
-        change(key, times -> times.outlive(time));
+    /** Newer attributes outlive the deletion. */
+    void delete(EntityChange deletion) {
+        change(deletion.key(), times -> times.delete(deletion));
     }
 
     private void change(EntityKey key, Consumer<EntityTimes> change) {
         EntityTimes times = entities.get(key);
-        int before = times.size();
+        int before = cost(times);
         change.accept(times);
-        attributes += times.size() - before;
+        attributes += cost(times) - before;
     }
 
     /**
@@ -80,12 +76,12 @@ public final class EntityTimesCache {
         attributes = 0;
     }
 
-    /** Number of attributes; an entity counts as one more. */
+    /** Number of attributes; an entity and a deletion count as one more. */
     long size() {
         return attributes;
     }
 
     private static int cost(EntityTimes times) {
-        return times.size() + 1;
+        return times.size() + times.deletions() + 1;
     }
 }

@@ -8,6 +8,7 @@ import java.util.LinkedHashSet;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
+import java.util.stream.Stream;
 
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -25,16 +26,8 @@ record EntityTimesLoader(BrokerClient client, ContextBrokerApi api, EntityTimesC
 
     /** Afterwards every entity of the changes is cached, including those that do not exist. */
     void learn(Collection<EntityChange> changes) throws BrokerUnavailableException, WrongSettingException {
-        Map<FiwareScope, Map<String, Set<String>>> unknown = new LinkedHashMap<>();
-        for (EntityChange entityChange : changes) {
-            if (!known.isFresh(entityChange.key())) {
-                Set<String> types = unknown.computeIfAbsent(entityChange.key().scope(), scope -> new LinkedHashMap<>())
-                        .computeIfAbsent(entityChange.key().id(), id -> new LinkedHashSet<>());
-                if (!entityChange.isDeletion()) {
-                    types.add(entityChange.entity().type());
-                }
-            }
-        }
+        Map<FiwareScope, Map<String, Set<String>>> unknown =
+                types(changes.stream().filter(each -> !known.isFresh(each.key())));
         Map<EntityKey, EntityTimes> found = read(unknown);
         unknown.forEach((scope, ids) -> ids.keySet().forEach(id -> {
             EntityKey key = new EntityKey(scope, id);
@@ -43,11 +36,22 @@ record EntityTimesLoader(BrokerClient client, ContextBrokerApi api, EntityTimesC
     }
 
     /** The entities that exist, and those that the context broker does not report on. */
-    Set<EntityKey> existing(Collection<EntityKey> keys) throws BrokerUnavailableException, WrongSettingException {
-        Map<FiwareScope, Map<String, Set<String>>> asked = new LinkedHashMap<>();
-        keys.forEach(key -> asked.computeIfAbsent(key.scope(), scope -> new LinkedHashMap<>())
-                .put(key.id(), Set.of()));
-        return read(asked).keySet();
+    Map<EntityKey, EntityTimes> existing(Collection<EntityChange> deletions)
+            throws BrokerUnavailableException, WrongSettingException {
+        return read(types(deletions.stream()));
+    }
+
+    /** The types by scope and id. */
+    private static Map<FiwareScope, Map<String, Set<String>>> types(Stream<EntityChange> changes) {
+        Map<FiwareScope, Map<String, Set<String>>> types = new LinkedHashMap<>();
+        changes.forEach(each -> {
+            Set<String> ofId = types.computeIfAbsent(each.key().scope(), scope -> new LinkedHashMap<>())
+                    .computeIfAbsent(each.key().id(), id -> new LinkedHashSet<>());
+            if (!each.type().isEmpty()) {
+                ofId.add(each.type());
+            }
+        });
+        return types;
     }
 
     /** Without absent entities. */

@@ -22,7 +22,7 @@ final class EntityWriter extends BatchSender<AttributeUpdate> {
 
     @Override
     String idOf(AttributeUpdate update) {
-        return api.idOf(update);
+        return api.idOf(update.key(), update.type());
     }
 
     @Override

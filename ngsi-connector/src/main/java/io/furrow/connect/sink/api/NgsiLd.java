@@ -46,8 +46,8 @@ public record NgsiLd(String context) implements ContextBrokerApi {
     }
 
     @Override
-    public String idOf(AttributeUpdate attributeUpdate) {
-        return NgsiLdCodec.id(attributeUpdate.key().id(), attributeUpdate.type());
+    public String idOf(EntityKey key, String type) {
+        return type.isEmpty() ? key.id() : NgsiLdCodec.id(key.id(), type);
     }
 
     @Override
@@ -95,13 +95,13 @@ public record NgsiLd(String context) implements ContextBrokerApi {
     }
 
     @Override
-    public BrokerRequest delete(EntityKey key) {
-        return scoped(BrokerRequest.delete(key.scope(), "/ngsi-ld/v1/entities/" + NgsiV2.encoded(key.id())));
+    public BrokerRequest delete(EntityKey key, String type) {
+        return scoped(BrokerRequest.delete(key.scope(), "/ngsi-ld/v1/entities/" + NgsiV2.encoded(idOf(key, type))));
     }
 
     @Override
-    public byte[] renderDeletion(EntityKey key) {
-        return NgsiJson.write(JsonNodeFactory.instance.textNode(key.id()));
+    public byte[] renderDeletion(EntityKey key, String type) {
+        return NgsiJson.write(JsonNodeFactory.instance.textNode(idOf(key, type)));
     }
 
     @Override
@@ -139,7 +139,7 @@ public record NgsiLd(String context) implements ContextBrokerApi {
             }
         });
         String desired = "&options=sysAttrs&limit=" + names.size() + "&id=" + list(names);
-        boolean typesAreKnown = ids.values().stream().noneMatch(Collection::isEmpty); // a deletion has none
+        boolean typesAreKnown = ids.values().stream().noneMatch(Collection::isEmpty); // a deletion may have none
         String query = typesAreKnown ? "type=" + list(types) : "local=true";
         return scoped(BrokerRequest.get(scope, "/ngsi-ld/v1/entities?" + query + desired));
     }

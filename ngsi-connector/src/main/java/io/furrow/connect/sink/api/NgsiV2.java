@@ -47,8 +47,8 @@ public record NgsiV2(String timeMetadata) implements ContextBrokerApi {
     }
 
     @Override
-    public String idOf(AttributeUpdate attributeUpdate) {
-        return attributeUpdate.key().id();
+    public String idOf(EntityKey key, String type) {
+        return key.id();
     }
 
     @Override
@@ -96,13 +96,15 @@ public record NgsiV2(String timeMetadata) implements ContextBrokerApi {
     }
 
     @Override
-    public BrokerRequest delete(EntityKey key) {
-        return BrokerRequest.delete(key.scope(), "/v2/entities/" + encoded(key.id()));
+    public BrokerRequest delete(EntityKey key, String type) {
+        String query = type.isEmpty() ? "" : "?type=" + encoded(type);
+        return BrokerRequest.delete(key.scope(), "/v2/entities/" + encoded(key.id()) + query);
     }
 
     @Override
-    public byte[] renderDeletion(EntityKey key) {
-        return NgsiJson.write(JsonNodeFactory.instance.objectNode().put("id", key.id()));
+    public byte[] renderDeletion(EntityKey key, String type) {
+        ObjectNode entity = JsonNodeFactory.instance.objectNode().put("id", key.id());
+        return NgsiJson.write(type.isEmpty() ? entity : entity.put("type", type));
     }
 
     @Override
@@ -126,7 +128,7 @@ public record NgsiV2(String timeMetadata) implements ContextBrokerApi {
         return IDS_PER_READ;
     }
 
-    /** Without types: finds all entities that share an id, and a deletion has no type. */
+    /** Without types: finds all entities that share an id, and a deletion may have no type. */
     @Override
     public BrokerRequest read(FiwareScope scope, Map<String, ? extends Collection<String>> ids) {
         ObjectNode body = JsonNodeFactory.instance.objectNode();

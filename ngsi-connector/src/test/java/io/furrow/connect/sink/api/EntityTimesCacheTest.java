@@ -33,14 +33,15 @@ class EntityTimesCacheTest {
     void giveWayToWhatIsReadButForDeletions() {
         known.learn(A, new EntityTimes());
         known.set(A, "T", "x", 5);
-        known.delete(A, 7);
+        known.delete(new EntityChange(A, "T", null, 7, 0));
         EntityTimes read = new EntityTimes();
         read.put("T", "x", 9);
 
         known.learn(A, read);
 
         assertThat(known.of(A).of("T", "x")).isEqualTo(9);
-        assertThat(known.of(A).deletedAt()).isEqualTo(7);
-        assertThat(known.size()).isEqualTo(2);
+        assertThat(known.of(A).deletedAt("T")).isEqualTo(7);
+        assertThat(known.of(A).deletedAt("U")).isEqualTo(EntityChange.NO_TIME);
+        assertThat(known.size()).isEqualTo(3);
     }
 }

@@ -76,10 +76,11 @@ public final class FuzzAnswers {
         List<EntityChange> changes = new ArrayList<>();
         for (String id : List.of("urn:x:u0", "urn:x:u1", "urn:x:u2", "urn:x:u3", "urn:x:u4", "urn:x:u0")) {
             Entity entity = Entity.builder(id, "T").integer("x", changes.size()).build();
-            changes.add(new EntityChange(new EntityKey(SCOPE, id), entity, 1_000 + changes.size(), changes.size()));
+            changes.add(new EntityChange(
+                    new EntityKey(SCOPE, id), entity.type(), entity, 1_000 + changes.size(), changes.size()));
         }
         for (String id : List.of("urn:x:d0", "urn:x:d1", "urn:x:d2")) {
-            changes.add(new EntityChange(new EntityKey(SCOPE, id), null, 1_000 + changes.size(), changes.size()));
+            changes.add(new EntityChange(new EntityKey(SCOPE, id), "", null, 1_000 + changes.size(), changes.size()));
         }
         return List.copyOf(changes);
     }
