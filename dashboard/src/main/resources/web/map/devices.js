@@ -91,7 +91,7 @@ export class DeviceDrawing {
   drawTrails(frame, frameState, palette, options) {
     const key = `${frameState.coordinateToPixelTransform.join()} ${frame.width} ${frame.height} ${frame.ratio} ${palette.background} ${options.trails} ${store.selection} ${store.filter} ${store.scope.domain} ${store.scope.mission}`;
     const now = performance.now();
-    if (key === this.trailKey && store.entities === this.trailsOf && this.trailPoints > FEW_POINTS && now - this.trailTime < TRAIL_PAUSE) {
+    if (key === this.trailKey && store.entities === this.trailsOf && this.trailPoints > FEW_POINTS && now - this.trailTime < TRAIL_INTERVAL) {
       return;
     }
     Object.assign(this, { trailKey: key, trailsOf: store.entities, trailTime: now, trailPoints: 0 });
