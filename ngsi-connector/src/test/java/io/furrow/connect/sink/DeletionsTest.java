@@ -139,6 +139,25 @@ class DeletionsTest extends SinkFixture {
         assertThat(broker.entities).isEmpty();
     }
 
+    /** The id is unique in NGSI-LD if it is a URI, so that the request to delete names no type. */
+    @ParameterizedTest
+    @ValueSource(booleans = {true, false})
+    void leaveTheEntityOfNgsiLdThatHasAnotherType(boolean isCached) {
+        startOf("ngsi-ld");
+        task.put(List.of(record("urn:x:1", entity("urn:x:1", "a", 1), 30)));
+        if (!isCached) {
+            restart();
+        }
+        broker.requests.clear();
+
+        task.put(List.of(deletion("Other", "urn:x:1", 40)));
+
+        assertThat(broker.entities).containsKey("urn:x:1");
+        assertThat(broker.requests).isEmpty();
+        task.put(List.of(deletion("T", "urn:x:1", 40)));
+        assertThat(broker.entities).isEmpty();
+    }
+
     private static SinkRecord deletion(String type, String id, long time) {
         SinkRecord deletion = deletion(id, time);
         deletion.headers().addString("entity-type", type);

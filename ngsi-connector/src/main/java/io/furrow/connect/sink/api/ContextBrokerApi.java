@@ -21,6 +21,9 @@ public interface ContextBrokerApi {
      */
     String idOf(EntityKey key, String type);
 
+    /** Whether the context broker has at most one entity with the id, whatever its type. */
+    boolean isUnique(EntityKey key);
+
     /** The update as one element of a batch, UTF-8 JSON. */
     byte[] render(AttributeUpdate attributeUpdate);
 
@@ -66,7 +69,7 @@ public interface ContextBrokerApi {
     /**
      * Requests entities and the times of their attributes.
      *
-     * @param ids with the requested types, none for a deletion
+     * @param ids with the requested types, empty for all
      */
     BrokerRequest read(FiwareScope scope, Map<String, ? extends Collection<String>> ids);
 

@@ -147,7 +147,10 @@ public final class ContextWriter implements AutoCloseable {
         }
 
         private void delete(List<EntityChange> deletions) throws BrokerUnavailableException, WrongSettingException {
-            BatchSender.Result<EntityChange> result = deleter.send(deletions, isolates);
+            List<EntityChange> due =
+                    deletions.stream().filter(each -> !isOfOtherType(each)).toList();
+            results.stale += deletions.size() - due.size();
+            BatchSender.Result<EntityChange> result = deleter.send(due, isolates);
             result.requireComplete();
             Stream.of(result.accepted, result.absent).flatMap(List::stream).forEach(deletion -> {
                 known.delete(deletion);
@@ -156,6 +159,11 @@ public final class ContextWriter implements AutoCloseable {
             anyAccepted |= !result.accepted.isEmpty();
             result.rejected.forEach(rejected -> refuse(rejected.of(), rejected.words()));
             failing.addAll(result.failing);
+        }
+
+        /** The request to delete an entity whose id is unique would not name its type. */
+        private boolean isOfOtherType(EntityChange deletion) {
+            return api.isUnique(deletion.key()) && !known.of(deletion.key()).mayBeOf(deletion);
         }
 
         private void deleteOlder(EntityChange deletion) throws BrokerUnavailableException, WrongSettingException {

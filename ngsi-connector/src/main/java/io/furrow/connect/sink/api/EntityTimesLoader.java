@@ -41,16 +41,12 @@ record EntityTimesLoader(BrokerClient client, ContextBrokerApi api, EntityTimesC
         return read(types(deletions.stream()));
     }
 
-    /** The types by scope and id. */
-    private static Map<FiwareScope, Map<String, Set<String>>> types(Stream<EntityChange> changes) {
+    /** The types by scope and id, empty for all: the entity of a deletion may have another type. */
+    private Map<FiwareScope, Map<String, Set<String>>> types(Stream<EntityChange> changes) {
         Map<FiwareScope, Map<String, Set<String>>> types = new LinkedHashMap<>();
-        changes.forEach(each -> {
-            Set<String> ofId = types.computeIfAbsent(each.key().scope(), scope -> new LinkedHashMap<>())
-                    .computeIfAbsent(each.key().id(), id -> new LinkedHashSet<>());
-            if (!each.type().isEmpty()) {
-                ofId.add(each.type());
-            }
-        });
+        changes.forEach(each -> types.computeIfAbsent(each.key().scope(), scope -> new LinkedHashMap<>())
+                .computeIfAbsent(each.key().id(), id -> new LinkedHashSet<>())
+                .add(each.isDeletion() && api.isUnique(each.key()) ? "" : each.type()));
         return types;
     }
 

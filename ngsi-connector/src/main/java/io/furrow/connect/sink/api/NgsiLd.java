@@ -51,6 +51,11 @@ public record NgsiLd(String context) implements ContextBrokerApi {
     }
 
     @Override
+    public boolean isUnique(EntityKey key) {
+        return NgsiLdCodec.isUri(key.id());
+    }
+
+    @Override
     public byte[] render(AttributeUpdate attributeUpdate) {
         return NgsiJson.write(NgsiLdCodec.of(attributeUpdate));
     }
@@ -132,15 +137,11 @@ public record NgsiLd(String context) implements ContextBrokerApi {
         Set<String> names = new HashSet<>();
         Set<String> types = new HashSet<>();
         ids.forEach((id, of) -> {
-            of.forEach(type -> names.add(NgsiLdCodec.id(id, type)));
+            of.forEach(type -> names.add(type.isEmpty() ? id : NgsiLdCodec.id(id, type)));
             types.addAll(of);
-            if (of.isEmpty()) {
-                names.add(id);
-            }
         });
         String desired = "&options=sysAttrs&limit=" + names.size() + "&id=" + list(names);
-        boolean typesAreKnown = ids.values().stream().noneMatch(Collection::isEmpty); // a deletion may have none
-        String query = typesAreKnown ? "type=" + list(types) : "local=true";
+        String query = types.contains("") ? "local=true" : "type=" + list(types);
         return scoped(BrokerRequest.get(scope, "/ngsi-ld/v1/entities?" + query + desired));
     }
 

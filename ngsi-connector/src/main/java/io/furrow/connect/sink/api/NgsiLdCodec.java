@@ -27,8 +27,12 @@ final class NgsiLdCodec {
 
     private NgsiLdCodec() {}
 
+    static boolean isUri(String id) {
+        return URI.matcher(id).matches();
+    }
+
     static String id(String id, String type) {
-        return URI.matcher(id).matches() ? id : "urn:ngsi-ld:" + type + ":" + NgsiV2.encoded(id);
+        return isUri(id) ? id : "urn:ngsi-ld:" + type + ":" + NgsiV2.encoded(id);
     }
 
     static ObjectNode of(AttributeUpdate attributeUpdate) {

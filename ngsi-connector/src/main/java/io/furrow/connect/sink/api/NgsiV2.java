@@ -96,6 +96,11 @@ public record NgsiV2(String timeMetadata) implements ContextBrokerApi {
     }
 
     @Override
+    public boolean isUnique(EntityKey key) {
+        return false;
+    }
+
+    @Override
     public BrokerRequest delete(EntityKey key, String type) {
         String query = type.isEmpty() ? "" : "?type=" + encoded(type);
         return BrokerRequest.delete(key.scope(), "/v2/entities/" + encoded(key.id()) + query);

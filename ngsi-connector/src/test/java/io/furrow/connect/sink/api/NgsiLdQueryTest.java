@@ -23,7 +23,7 @@ class NgsiLdQueryTest {
 
     @Test
     void asksForEntitiesOfAnyTypeWhereThatOfOneIsNotKnown() {
-        assertThat(api.read(SCOPE, Map.of("urn:t:1", Set.of("Thermometer"), "urn:r:1", Set.of()))
+        assertThat(api.read(SCOPE, Map.of("urn:t:1", Set.of("Thermometer"), "urn:r:1", Set.of("")))
                         .path())
                 .contains("local=true&", "urn%3At%3A1", "urn%3Ar%3A1")
                 .doesNotContain("type=");
