@@ -2,10 +2,12 @@ package io.furrow.model.event;
 
 import java.time.Instant;
 import java.time.temporal.ChronoUnit;
+import java.util.Comparator;
 import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Optional;
 import java.util.stream.Collectors;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
@@ -54,17 +56,22 @@ public record EntityEvent(Entity entity, FiwareScope scope, EventTime time, Inst
     /**
      * Returns the attributes that are later than the measure, of which the context broker retains newer ones. What writes
      * the entity stamps each attribute: an IoT Agent perhaps with the time of arrival, so that the stamp of the measure
-     * counts if it is after the device's time. The device's time may be truncated to the second.
+     * counts if it is after the device's time. The device's time may be the interval of the measure, or truncated to the
+     * second or minute.
      */
     private String laterAttributes() {
         if (time.basis() != EventTime.Basis.DEVICE) {
             return "";
         }
-        Instant measured =
-                stampOfMeasure().filter(stamp -> stamp.isAfter(time.time())).orElse(time.time());
+        Instant measured = Stream.of(Optional.of(time.time()), stampOfMeasure(), endOfMeasure())
+                .flatMap(Optional::stream)
+                .max(Comparator.naturalOrder())
+                .orElseThrow();
+        boolean isMinute = time.time().equals(time.time().truncatedTo(ChronoUnit.MINUTES));
+        ChronoUnit precision = isMinute ? ChronoUnit.MINUTES : ChronoUnit.SECONDS;
         return entity.attributes().stream()
                 .filter(attribute -> stampOf(attribute.getValue())
-                        .map(stamp -> stamp.truncatedTo(ChronoUnit.SECONDS))
+                        .map(stamp -> stamp.truncatedTo(precision))
                         .filter(measured::isBefore)
                         .isPresent())
                 .map(Map.Entry::getKey)
@@ -79,6 +86,13 @@ public record EntityEvent(Entity entity, FiwareScope scope, EventTime time, Inst
                         .filter(name -> entity.value(name).flatMap(Instants::of).isPresent())
                         .findFirst()
                         .flatMap(name -> stampOf(entity.json().path(name))));
+    }
+
+    private Optional<Instant> endOfMeasure() {
+        return EventTimeRule.Source.DEVICE_TIMES.stream()
+                .flatMap(name -> entity.text(name).stream())
+                .findFirst()
+                .flatMap(Instants::endOfInterval);
     }
 
     private static Optional<Instant> stampOf(JsonNode attribute) {

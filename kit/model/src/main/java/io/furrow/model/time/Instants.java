@@ -83,6 +83,12 @@ public final class Instants {
                 .flatMap(Instants::sinceEpoch);
     }
 
+    /** Returns the end of an ISO 8601 interval of two times; empty if the text is none. */
+    public static Optional<Instant> endOfInterval(String text) {
+        int slash = text.indexOf('/');
+        return slash < 0 ? Optional.empty() : ofText(text.substring(slash + 1));
+    }
+
     /** Returns whether the text is digits with an optional fraction and exponent and not a date. */
     private static boolean isNumber(String text) {
         int digits = 0;

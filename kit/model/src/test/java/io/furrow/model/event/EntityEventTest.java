@@ -5,6 +5,7 @@ import java.time.Instant;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.ngsi.Entity;
@@ -96,12 +97,28 @@ class EntityEventTest {
     @ValueSource(strings = {"Time", "dateObserved", "timestamp"})
     void comparesObservationsWithTheDevicesTimeIfThereIsNoOtherStamp(String own) throws Exception {
         Entity entity = Entity.ofAnyForm(NgsiJson.read("""
-                {"id": "a", "type": "T", "%s": {"type": "Property", "value": "2026-11-21T01:00:00Z"},
-                 "temp": {"type": "Property", "value": 5, "observedAt": "2026-11-21T01:00:00.900Z"},
+                {"id": "a", "type": "T", "%s": {"type": "Property", "value": "2026-11-21T01:00:01Z"},
+                 "temp": {"type": "Property", "value": 5, "observedAt": "2026-11-21T01:00:01.900Z"},
                  "location": {"type": "GeoProperty", "value": {"type": "Point", "coordinates": [1, 2]},
-                              "observedAt": "2026-11-21T01:00:01Z"}}""".formatted(own).getBytes(UTF_8)));
+                              "observedAt": "2026-11-21T01:00:02Z"}}""".formatted(own).getBytes(UTF_8)));
 
         assertThat(received(entity, RECEIVED).headers("s")).containsEntry(HeaderNames.LATER_ATTRIBUTES, "location");
+    }
+
+    @ParameterizedTest
+    @CsvSource({
+        "2026-11-21T00:00:00Z/2026-11-21T01:00:00Z, 2026-11-21T00:37:20Z, 2026-11-21T01:01:00Z",
+        "2026-11-21T00:37:00Z, 2026-11-21T00:37:20Z, 2026-11-21T00:38:00Z"
+    })
+    void takesWhatWasObservedInTheIntervalOrMinuteForThisMeasure(String measure, String within, String later)
+            throws Exception {
+        Entity entity = Entity.ofAnyForm(
+                NgsiJson.read("""
+                {"id": "a", "type": "T", "dateObserved": {"type": "Property", "value": "%s"},
+                 "location": {"type": "GeoProperty", "value": {"type": "Point", "coordinates": [1, 2]}, "observedAt": "%s"},
+                 "temp": {"type": "Property", "value": 5, "observedAt": "%s"}}""".formatted(measure, within, later).getBytes(UTF_8)));
+
+        assertThat(received(entity, RECEIVED).headers("s")).containsEntry(HeaderNames.LATER_ATTRIBUTES, "temp");
     }
 
     /** As of a device that started without its time; the event has the time of its receipt. */
