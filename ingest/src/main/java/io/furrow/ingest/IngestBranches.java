@@ -1,8 +1,12 @@
 package io.furrow.ingest;
 
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.List;
+import java.util.Map;
 import java.util.Set;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
 
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
@@ -115,8 +119,12 @@ final class IngestBranches {
         }
     }
 
-    private static String eventId(TopicRecord record) {
-        return record.headers().get(HeaderNames.CE_ID);
+    /** With the key and scope, because a foreign producer may count its ids per entity. */
+    private static String eventId(TopicRecord letter) {
+        Map<String, String> headers = letter.headers();
+        return Stream.of(HeaderNames.CE_ID, HeaderNames.SERVICE, HeaderNames.SERVICE_PATH)
+                .map(headers::get)
+                .collect(Collectors.joining("\n", "", "\n" + Arrays.toString(letter.key())));
     }
 
     /** Writes all dead letters added, and those of missions. */

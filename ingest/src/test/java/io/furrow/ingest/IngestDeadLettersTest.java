@@ -17,6 +17,7 @@ import static io.furrow.ingest.ReportedRecords.options;
 import static io.furrow.ingest.ReportedRecords.record;
 import static io.furrow.ingest.ReportedRecords.run;
 import static io.furrow.ingest.ReportedRecords.thermometer;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class IngestDeadLettersTest {
@@ -83,10 +84,12 @@ class IngestDeadLettersTest {
         TopicRecord unknown = record("x", thermometer("t1", "farm", "typo"));
         TopicRecord other = record("y", thermometer("t1", "farm", "typo"));
 
-        assertThat(run(options("--other-names", "0"), unknown, unknown, other))
+        TopicRecord ofOther = record("x", thermometer("t2", "farm", "typo"));
+
+        assertThat(run(options("--other-names", "0"), unknown, unknown, other, ofOther))
                 .filteredOn(record -> record.topic().equals("data.raw.dead"))
-                .extracting(record -> record.headers().get(HeaderNames.CE_ID) + " "
-                        + record.headers().get(DeadLetter.REASON))
-                .containsExactlyInAnyOrder("x unknown-mission", "y unknown-mission");
+                .extracting(record -> record.headers().get(HeaderNames.CE_ID) + " " + new String(record.key(), UTF_8)
+                        + " " + record.headers().get(DeadLetter.REASON))
+                .containsExactlyInAnyOrder("x t1 unknown-mission", "y t1 unknown-mission", "x t2 unknown-mission");
     }
 }
