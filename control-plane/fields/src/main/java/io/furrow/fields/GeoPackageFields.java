@@ -26,9 +26,11 @@ import io.furrow.model.text.FailureText;
  * A layer may be a view, which may be endless or many times larger than the file: time and size are limited.
  */
 final class GeoPackageFields {
-    private static final Limits LIMITS = new Limits(Duration.ofSeconds(10), 100_000, 256 << 20);
+    private static final Limits LIMITS = new Limits(Duration.ofSeconds(10), 100_000, 64 << 20);
     /** More than the outline of any field. */
     private static final int MAX_VALUE_BYTES = 16 << 20;
+    /** Of a property in memory, beside its text. */
+    private static final int PROPERTY_BYTES = 100;
     /** Number of instructions of SQLite between two looks at the clock, less than a millisecond. */
     private static final int INSTRUCTIONS = 10_000;
 
@@ -45,7 +47,7 @@ final class GeoPackageFields {
     private final Limits limits;
     private long bytes;
 
-    /** @param bytes of all values of a layer */
+    /** @param bytes of all values of a layer; in memory, an outline takes three times its bytes */
     record Limits(Duration timeout, int features, long bytes) {}
 
     private record Layer(String table, String geometry, String crs) {}
@@ -178,6 +180,7 @@ final class GeoPackageFields {
     }
 
     private void put(ObjectNode properties, String name, Object value) {
+        bytes += PROPERTY_BYTES;
         if (value instanceof Integer || value instanceof Long) {
             properties.put(name, ((Number) value).longValue());
         } else if (value instanceof Number number) {
