@@ -66,9 +66,10 @@ public record DeviceHealth(
 
     DeviceHealth reported(Heartbeat heartbeat, long now) {
         // Its detector, which may have started since, does not know this.
-        boolean knownPercent = report.percent && heartbeat.type().equals(device.type);
+        boolean isSameType = heartbeat.type().equals(device.type);
+        boolean knownPercent = report.percent && isSameType;
         Double battery = heartbeat.battery() == null
-                ? report.battery
+                ? isSameType ? report.battery : null
                 : Double.valueOf(
                         Battery.share(heartbeat.battery(), knownPercent && Boolean.FALSE.equals(heartbeat.percent())));
         return new DeviceHealth(

@@ -203,8 +203,13 @@ class DeviceHealthTrackerTest {
         tracker.take(KEY, other, START + 1);
         assertThat(existing().device().type()).isEqualTo("T");
         tracker.take(KEY, heartbeat(true, START + 2), START + 2);
-        tracker.take(KEY, new Heartbeat(ID, "Other", false, START + 3, 77, null, null, null, false), START + 3);
+        tracker.take(KEY, new Heartbeat(ID, "Other", false, START + 3, 77, null, 0.05, false, false), START + 3);
         assertThat(existing().device().type()).isEqualTo("Other");
+
+        tracker.take(KEY, heartbeat(false, START + 4), START + 4);
+        assertThat(existing())
+                .returns("T", health -> health.device().type())
+                .returns(null, health -> health.report().battery());
     }
 
     private static Heartbeat battery(double battery, Boolean percent, long heard) {
