@@ -65,7 +65,7 @@ public final class ImageIndex implements AutoCloseable {
      * may not have been read here.
      *
      * @return empty if none of the records names the image
-     * @throws Problem 503 if they have not all been read yet
+     * @throws Problem 503 if they have not all been read yet, or many wait already
      */
     Optional<ImageLocation> find(String sha256) {
         if (!SHA256.matcher(sha256).matches()) {
@@ -74,24 +74,27 @@ public final class ImageIndex implements AutoCloseable {
         synchronized (images) {
             isRequested = true;
             images.notifyAll();
-            await(sha256);
-            if (!isComplete && !images.containsKey(sha256)) {
+            boolean hasWaited = await(sha256);
+            if (!(isComplete && hasWaited) && !images.containsKey(sha256)) {
                 throw new Problem(503, "images-loading", "the list of images is being read; try again in a moment");
             }
             return Optional.ofNullable(images.get(sha256));
         }
     }
 
-    private void await(String sha256) {
+    private boolean await(String sha256) {
+        if (waiting >= MAX_WAITING) {
+            return false;
+        }
         long end = System.nanoTime() + TIMEOUT.toNanos();
-        boolean isCrowded = waiting >= MAX_WAITING;
         waiting++;
         try {
             long left = TIMEOUT.toMillis();
-            while (!images.containsKey(sha256) && !isCrowded && left > 0 && !isClosed()) {
+            while (!images.containsKey(sha256) && left > 0 && !isClosed()) {
                 images.wait(left);
                 left = (end - System.nanoTime()) / 1_000_000;
             }
+            return true;
         } catch (InterruptedException e) {
             throw Problem.stopping();
         } finally {

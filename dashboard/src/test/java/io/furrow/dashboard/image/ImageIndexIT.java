@@ -4,12 +4,15 @@ import java.nio.file.Path;
 import java.util.List;
 import java.util.Optional;
 import java.util.Properties;
+import java.util.concurrent.CompletableFuture;
+import java.util.stream.IntStream;
 
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
+import org.assertj.core.api.Condition;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -49,7 +52,18 @@ class ImageIndexIT {
             assertThat(late.find(FIRST)).as("before the newest two").isEmpty();
             send(producer, THIRD);
             await().until(() -> late.find(THIRD).isPresent());
+            assertThat(IntStream.range(0, 20)
+                            .mapToObj(i -> CompletableFuture.supplyAsync(
+                                    () -> late.find("d".repeat(64)), task -> new Thread(task).start()))
+                            .toList())
+                    .as("those for whom there is no place to wait can try again")
+                    .haveAtLeastOne(new Condition<>(ImageIndexIT::fails, "503"))
+                    .haveAtLeastOne(new Condition<>(find -> !fails(find), "404"));
         }
+    }
+
+    private static boolean fails(CompletableFuture<?> find) {
+        return find.handle((found, failure) -> failure != null).join();
     }
 
     @Test
