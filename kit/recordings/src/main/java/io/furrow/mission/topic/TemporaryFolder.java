@@ -1,6 +1,7 @@
 package io.furrow.mission.topic;
 
 import java.io.IOException;
+import java.io.UncheckedIOException;
 import java.nio.channels.FileChannel;
 import java.nio.channels.OverlappingFileLockException;
 import java.nio.file.DirectoryStream;
@@ -100,11 +101,19 @@ final class TemporaryFolder implements AutoCloseable {
         }
     }
 
+    /** Deletes the lock last: without it, nobody would delete the rest after a kill. */
     private static void delete(Path folder) throws IOException {
+        Path lock = folder.resolve(LOCK);
         try (Stream<Path> found = Files.walk(folder)) {
             for (Path path : found.sorted(Comparator.reverseOrder()).toList()) {
-                Files.deleteIfExists(path);
+                if (!path.equals(lock) && !path.equals(folder)) {
+                    Files.deleteIfExists(path);
+                }
             }
+        } catch (UncheckedIOException e) {
+            throw e.getCause();
         }
+        Files.deleteIfExists(lock);
+        Files.deleteIfExists(folder);
     }
 }
