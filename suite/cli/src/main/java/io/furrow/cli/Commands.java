@@ -1,8 +1,13 @@
 package io.furrow.cli;
 
+import java.lang.reflect.Method;
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.Comparator;
 import java.util.List;
 
 import picocli.CommandLine;
+import picocli.CommandLine.Command;
 import picocli.CommandLine.Model.CommandSpec;
 
 import io.furrow.cli.command.CatalogCommand;
@@ -34,25 +39,53 @@ public final class Commands {
 
     private Commands() {}
 
-    /** Adds commands to a root; a {@link CommandException} is printed as one line. */
-    public static CommandLine commandLine(Object root, List<Class<?>> commands) {
+    /**
+     * Adds commands to a root; a {@link CommandException} is printed as one line.
+     *
+     * @param args of the first command, if it is known: only the model of the method that they name is built
+     */
+    public static CommandLine commandLine(Object root, List<Class<?>> commands, String... args) {
         CommandSpec spec = CommandSpec.forAnnotatedObject(root);
-        commands.forEach(command -> spec.addSubcommand(null, new CommandLine(command)));
-        CommandLine line = JobCommandLine.of(spec).setExecutionExceptionHandler((failure, command, parsed) -> {
+        commands.forEach(command -> spec.addSubcommand(null, command(command, args)));
+        return JobCommandLine.of(spec).setExecutionExceptionHandler((failure, command, parsed) -> {
             if (failure instanceof CommandException rejected) {
                 command.getErr().println(rejected.getMessage());
                 return command.getCommandSpec().exitCodeOnExecutionException();
             }
             throw failure;
         });
-        if (commands.contains(ReplayCommandGroup.class)) {
-            // -3 is a number of events, not an option.
-            line.getSubcommands()
-                    .get("replay")
-                    .getSubcommands()
-                    .get("step")
-                    .setUnmatchedOptionsArePositionalParams(true);
+    }
+
+    private static CommandLine command(Class<?> type, String... args) {
+        CommandLine command = new CommandLine(type);
+        if (!type.getAnnotation(Command.class).addMethodSubcommands()) {
+            List<Method> methods = methods(type);
+            List<Method> named = methods.stream()
+                    .filter(method -> args.length > 0 && name(method).equals(args[0]))
+                    .toList();
+            (named.isEmpty() ? methods : named).forEach(method -> command.addSubcommand(new CommandLine(method)));
         }
-        return line;
+        if (type == ReplayCommandGroup.class && command.getSubcommands().containsKey("step")) {
+            // -3 is a number of events, not an option.
+            command.getSubcommands().get("step").setUnmatchedOptionsArePositionalParams(true);
+        }
+        return command;
+    }
+
+    /** Returns the commands of a type, those of its superclass first, each sorted by name. */
+    private static List<Method> methods(Class<?> type) {
+        List<Method> methods = new ArrayList<>();
+        if (type != Object.class) {
+            methods.addAll(methods(type.getSuperclass()));
+            Arrays.stream(type.getDeclaredMethods())
+                    .filter(method -> method.isAnnotationPresent(Command.class))
+                    .sorted(Comparator.comparing(Commands::name))
+                    .forEach(methods::add);
+        }
+        return methods;
+    }
+
+    private static String name(Method method) {
+        return method.getAnnotation(Command.class).name();
     }
 }

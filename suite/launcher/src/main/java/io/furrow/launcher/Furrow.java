@@ -1,5 +1,6 @@
 package io.furrow.launcher;
 
+import java.util.Arrays;
 import java.util.List;
 import java.util.stream.Stream;
 
@@ -68,13 +69,16 @@ public final class Furrow {
 
     /** The command with the subcommand that the first argument names, else with all: their models take most of a short run. */
     static CommandLine commandLine(String... args) {
+        String name = args.length > 0 ? args[0] : "";
         List<Class<?>> named = COMMANDS.stream()
-                .filter(command -> args.length > 0
-                        && command.getAnnotation(Command.class).name().equals(args[0]))
+                .filter(command -> command.getAnnotation(Command.class).name().equals(name))
+                .limit(1)
                 .toList();
-        CommandLine furrow = Commands.commandLine(new Furrow(), named.isEmpty() ? COMMANDS : named);
+        CommandLine furrow = named.isEmpty()
+                ? Commands.commandLine(new Furrow(), COMMANDS)
+                : Commands.commandLine(new Furrow(), named, Arrays.copyOfRange(args, 1, args.length));
         CommandLine replay = furrow.getSubcommands().get("replay");
-        if (replay != null) {
+        if (replay != null && (args.length < 2 || !replay.getSubcommands().containsKey(args[1]))) {
             replay.addSubcommand(new AnalyticsCommand());
         }
         furrow.addSubcommand(new GenerateCompletion());

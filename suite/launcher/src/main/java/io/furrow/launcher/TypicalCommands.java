@@ -30,6 +30,9 @@ final class TypicalCommands {
         run("--help");
         run("mission", "list", "--api", api);
         run("mission", "list", "--api", api, "--output", "json");
+        run("mission", "start", "m", "--domain", "d", "--api", api);
+        run("device", "list", "--api", api);
+        run("alarm", "list", "--api", api);
         server.stop(0);
     }
 

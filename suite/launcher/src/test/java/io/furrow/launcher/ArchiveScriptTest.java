@@ -40,7 +40,10 @@ class ArchiveScriptTest {
         Files.writeString(jdk.resolve("release"), "IMPLEMENTOR=\"x\"\nJAVA_VERSION=\"17.0.15\"\n");
         program(jdk.resolve("bin/java"), """
                 echo "$*" >>"$(dirname "$0")/calls"
-                for word; do case $word in -XX:ArchiveClassesAtExit=*) echo x >"${word#*=}" ;; esac; done
+                for word; do case $word in
+                    -XX:ArchiveClassesAtExit=*) echo x >"${word#*=}" ;;
+                    -XX:SharedArchiveFile=*) case $* in *-Xshare:dump*) echo x >"${word#*=}" ;; esac ;;
+                esac; done
                 """);
     }
 
@@ -65,10 +68,10 @@ class ArchiveScriptTest {
 
         Path classes = home.resolve("lib/classes-abc.jsa");
         assertThat(calls())
-                .hasSize(3)
-                .filteredOn(call -> call.contains("ArchiveClassesAtExit"))
+                .hasSize(4)
+                .filteredOn(call -> call.contains("-Xshare:dump"))
                 .hasSize(1);
-        assertThat(calls().get(2)).contains("-XX:SharedArchiveFile=" + classes + " ");
+        assertThat(calls().get(3)).contains("-XX:SharedArchiveFile=" + classes + " ");
         assertThat(home.resolve("lib"))
                 .isDirectoryNotContaining("glob:**former*")
                 .isDirectoryContaining(classes::equals);

@@ -32,6 +32,7 @@ import io.furrow.model.ngsi.NgsiJson;
             "Imports, lists, renames, ends and deletes the fields of the farm.",
             "list and import use the topic service.fields itself (--kafka); rename, end and delete ask the control plane (--api)."
         },
+        addMethodSubcommands = false,
         synopsisSubcommandLabel = "COMMAND",
         subcommands = FieldsImportCommand.class)
 public final class FieldsCommandGroup extends CommandGroup {

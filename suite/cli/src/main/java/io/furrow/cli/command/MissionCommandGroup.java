@@ -34,6 +34,7 @@ import io.furrow.model.text.FailureText;
         name = "mission",
         description = "Creates, starts, follows and stops missions; exports, imports and archives their recordings in "
                 + "MongoDB.",
+        addMethodSubcommands = false,
         synopsisSubcommandLabel = "COMMAND",
         subcommands = MarkerCommand.class)
 public final class MissionCommandGroup extends MissionControl {

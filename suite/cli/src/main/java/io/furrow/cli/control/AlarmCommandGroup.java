@@ -20,6 +20,7 @@ import io.furrow.cli.option.CommandGroup;
 @Command(
         name = "alarm",
         description = "Lists, acknowledges, closes and mutes alarms.",
+        addMethodSubcommands = false,
         synopsisSubcommandLabel = "COMMAND")
 public final class AlarmCommandGroup extends CommandGroup {
     private static final String ALARMS = "/api/alarms";

@@ -25,6 +25,7 @@ import io.furrow.model.ngsi.UnreadableException;
 @Command(
         name = "device",
         description = "Lists devices with their status, sends them commands, and gives them credentials.",
+        addMethodSubcommands = false,
         synopsisSubcommandLabel = "COMMAND")
 public final class DeviceCommandGroup extends CommandGroup {
     private static final String DEVICES = "/api/devices";

@@ -23,6 +23,7 @@ import io.furrow.model.ngsi.NgsiJson;
 @Command(
         name = "domain",
         description = "Creates, changes, lists and deletes domains, to which missions belong.",
+        addMethodSubcommands = false,
         synopsisSubcommandLabel = "COMMAND")
 public final class DomainCommandGroup extends CommandGroup {
     private static final String DOMAINS = "/api/domains";

@@ -22,6 +22,7 @@ import io.furrow.cli.option.CommandGroup;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** The commands of {@code ./furrow mission} that use the control plane. */
+@Command(addMethodSubcommands = false)
 public class MissionControl extends CommandGroup {
     private static final String MISSIONS = "/api/missions";
     private static final String NAME = "Name of the mission: 1 to 64 of A-Z a-z 0-9 _ -.";

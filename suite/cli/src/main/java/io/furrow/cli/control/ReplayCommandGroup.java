@@ -19,6 +19,7 @@ import io.furrow.cli.option.CommandGroup;
 @Command(
         name = "replay",
         description = "Starts, steers, follows and compares replays of missions.",
+        addMethodSubcommands = false,
         synopsisSubcommandLabel = "COMMAND",
         subcommands = CompareCommand.class)
 public final class ReplayCommandGroup extends CommandGroup {

@@ -18,6 +18,7 @@ import io.furrow.cli.option.CommandGroup;
 @Command(
         name = "template",
         description = "Lists, exports, imports and deletes templates: device lists for new missions.",
+        addMethodSubcommands = false,
         synopsisSubcommandLabel = "COMMAND")
 public final class TemplateCommandGroup extends CommandGroup {
     private static final String TEMPLATES = "/api/templates";

@@ -11,14 +11,12 @@ import java.net.http.HttpResponse;
 import java.net.http.HttpResponse.BodyHandler;
 import java.net.http.HttpResponse.BodyHandlers;
 import java.nio.charset.StandardCharsets;
-import java.security.GeneralSecurityException;
 import java.time.Duration;
 import java.util.UUID;
 import java.util.concurrent.TimeUnit;
 import java.util.stream.Stream;
 import javax.net.ssl.SSLContext;
 import javax.net.ssl.SSLException;
-import javax.net.ssl.TrustManager;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.MissingNode;
@@ -54,19 +52,8 @@ public final class ControlApi {
         this.token = token;
         HttpClient.Builder client =
                 HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).connectTimeout(Duration.ofSeconds(5));
-        SSLContext context = trust == null && "http".equals(base.getScheme()) ? untrusting() : trust;
+        SSLContext context = trust == null && "http".equals(base.getScheme()) ? NoTls.CONTEXT : trust;
         this.http = (context == null ? client : client.sslContext(context)).build();
-    }
-
-    /** A context that trusts nobody: without one, the client reads all certificates that Java trusts, also for {@code http}. */
-    private static SSLContext untrusting() {
-        try {
-            SSLContext context = SSLContext.getInstance("TLS");
-            context.init(null, new TrustManager[0], null);
-            return context;
-        } catch (GeneralSecurityException e) {
-            throw new IllegalStateException(e);
-        }
     }
 
     /** Escapes a name as a part of a path. */
@@ -146,8 +133,10 @@ public final class ControlApi {
                         URI.create(base.toString().replaceAll("/+$", "") + path))
                 .timeout(TIMEOUT)
                 .header("Accept", "application/json")
-                .header("Idempotency-Key", UUID.randomUUID().toString())
                 .method(method, publisher);
+        if (!method.equals("GET")) {
+            request.header("Idempotency-Key", UUID.randomUUID().toString());
+        }
         if (body != null) {
             request.header("Content-Type", "application/json");
         }
