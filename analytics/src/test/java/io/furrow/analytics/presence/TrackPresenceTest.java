@@ -6,6 +6,7 @@ import java.util.List;
 import java.util.Random;
 
 import org.junit.jupiter.api.AutoClose;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -30,8 +31,17 @@ class TrackPresenceTest {
     /** Random stories against the definition; the job stops and continues with 1, 2 and 4 subtasks in the middle of stays. */
     @Test
     void tellsTheSameAsTheDefinitionHoweverOftenItRestarts() throws Exception {
+        compareWithTheDefinition(100);
+    }
+
+    @Tag("full")
+    @Test
+    void tellsTheSameAsTheDefinitionOfManyStories() throws Exception {
+        compareWithTheDefinition(Integer.getInteger("presence.cases", 300));
+    }
+
+    private static void compareWithTheDefinition(int cases) throws Exception {
         long seed = Long.getLong("presence.seed", System.nanoTime());
-        int cases = Integer.getInteger("presence.cases", 300);
         LOG.info("{} stories of presence from seed {}", cases, seed);
         int compared = 0;
         for (int index = 0; index < cases; index++) {

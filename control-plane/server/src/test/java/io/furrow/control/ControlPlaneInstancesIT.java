@@ -22,6 +22,7 @@ import io.furrow.model.topic.Topics;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
+@Tag("full")
 class ControlPlaneInstancesIT extends ControlPlaneFixture {
     @Test
     void handsOverToAnotherInstance() throws Exception {
@@ -46,7 +47,6 @@ class ControlPlaneInstancesIT extends ControlPlaneFixture {
         }
     }
 
-    @Tag("full")
     @Test
     void executesNoOldRequestAgainIfOffsetsAreLost() throws Exception {
         Path state = directory.resolve("state");
@@ -77,7 +77,6 @@ class ControlPlaneInstancesIT extends ControlPlaneFixture {
         assertThat(records(Topics.DOMAINS)).hasSize(2);
     }
 
-    @Tag("full")
     @Test
     void correctsTheCleanupPolicyOfExistingTopics() throws Exception {
         try (KafkaProducer<String, byte[]> producer = producer()) {
