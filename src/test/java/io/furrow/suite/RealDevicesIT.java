@@ -172,6 +172,6 @@ class RealDevicesIT {
         assertThat(running.post("/api/missions/" + mission + "/start", body)
                         .path("status")
                         .asText())
-                .isEqualTo("created");
+                .isEqualTo("started");
     }
 }

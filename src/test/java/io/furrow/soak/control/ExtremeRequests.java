@@ -25,6 +25,9 @@ final class ExtremeRequests {
     /** The member that the API adds to a request. */
     private static final String USER = "rest";
 
+    /** A member that no request knows: the API refuses it, the managers ignore it. */
+    static final String PADDING = "note";
+
     private final Random random;
     private int number;
 
@@ -48,7 +51,7 @@ final class ExtremeRequests {
         if (random.nextInt(10) == 0) {
             int missing = Limits.REQUEST_BYTES - 1 + random.nextInt(3) - size(request) - ",\"note\":\"\"".length();
             if (missing > 0) {
-                members.put("note", "x".repeat(missing));
+                members.put(PADDING, "x".repeat(missing));
             }
         }
         return request;

@@ -93,6 +93,98 @@ class ControlTopologyTest {
     }
 
     @Test
+    void mergesAPatchIntoADomain() throws Exception {
+        String area = "{'type':'Polygon','coordinates':[[[0,0],[1,0],[1,1],[0,0]]],'note':'wet','by':'ann'}";
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north','name':'N','description':'d','area':" + area);
+        farm.request(
+                Topics.DOMAIN_MANAGER,
+                "'command':'patch','domain':'north','name':null,'fields':['f'],'area':{'note':null,'by':'bob'}");
+
+        JsonNode patched = NgsiJson.read(farm.read(Topics.DOMAINS).get(1).value());
+        assertThat(patched.has("name")).isFalse();
+        assertThat(patched.path("description").asText()).isEqualTo("d");
+        assertThat(patched.path("fields")).hasSize(1);
+        assertThat(patched.path("area").toString())
+                .isEqualTo("{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,0],[1,1],[0,0]]],\"by\":\"bob\"}");
+        farm.read(Topics.DOMAIN_MANAGER);
+        farm.request(Topics.DOMAIN_MANAGER, "'command':'patch','domain':'north','area':{'type':null}");
+        assertThat(error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("wrong-member");
+        farm.request(Topics.DOMAIN_MANAGER, "'command':'patch','domain':'north','area':null");
+        assertThat(NgsiJson.read(farm.only(Topics.DOMAINS).value()).has("area")).isFalse();
+    }
+
+    @Test
+    void refusesARequestForAnotherSequence() throws Exception {
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
+        long sequence = NgsiJson.read(farm.only(Topics.DOMAINS).value())
+                .path("sequence")
+                .asLong();
+        farm.read(Topics.DOMAIN_MANAGER);
+
+        String change = "'command':'change','domain':'%s','name':'a','ifSequence':%d";
+        farm.request(Topics.DOMAIN_MANAGER, change.formatted("north", sequence + 1));
+        assertThat(error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("outdated");
+        farm.request(Topics.DOMAIN_MANAGER, change.formatted("south", sequence));
+        assertThat(error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("outdated");
+        farm.request(Topics.DOMAIN_MANAGER, change.formatted("north", sequence));
+        assertThat(response(farm.only(Topics.DOMAIN_MANAGER)).status()).isEqualTo("changed");
+
+        farm.request(Topics.MISSION_MANAGER, "'command':'create','mission':'m','domain':'north'");
+        long ofMission = NgsiJson.read(farm.only(Topics.MISSIONS).value())
+                .path("sequence")
+                .asLong();
+        farm.read(Topics.MISSION_MANAGER);
+        farm.request(Topics.MISSION_MANAGER, "'command':'start','mission':'m','ifSequence':" + (ofMission - 1));
+        assertThat(error(farm.only(Topics.MISSION_MANAGER))).isEqualTo("outdated");
+    }
+
+    @Test
+    void answersADryRunAndChangesNothing() throws Exception {
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north','dryRun':true");
+
+        assertThat(text(farm.only(Topics.DOMAIN_MANAGER).value()))
+                .isEqualTo(
+                        "{\"type\":\"response\",\"status\":\"created\",\"domain\":\"north\",\"topic\":\"data.north.realtime\",\"dryRun\":true}");
+        assertThat(farm.read(Topics.DOMAINS)).isEmpty();
+        assertThat(NgsiJson.read(farm.only(Topics.AUDIT).value()).path("result").asText())
+                .isEqualTo("dry-run");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north','dryRun':false");
+        assertThat(response(farm.only(Topics.DOMAIN_MANAGER)).status()).isEqualTo("created");
+        assertThat(NgsiJson.read(farm.only(Topics.DOMAINS).value())
+                        .path("sequence")
+                        .asInt())
+                .isEqualTo(1);
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north','dryRun':true");
+        TestRecord<String, byte[]> rejected = farm.only(Topics.DOMAIN_MANAGER);
+        assertThat(error(rejected)).isEqualTo("domain-exists");
+        assertThat(response(rejected).isDryRun()).isTrue();
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'south','dryRun':'yes'");
+        assertThat(error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("wrong-member");
+    }
+
+    @Test
+    void startsNoMissionAndDeletesNothingInADryRun() throws Exception {
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
+        String mission =
+                "'command':'start','mission':'m','domain':'north','devices':[{'type':'Thermometer','count':3}]";
+        farm.request(Topics.MISSION_MANAGER, mission + ",'dryRun':true");
+        farm.pass(Duration.ofSeconds(2));
+        assertThat(response(farm.only(Topics.MISSION_MANAGER)).status()).isEqualTo("created");
+        assertThat(farm.read(Topics.MISSIONS)).isEmpty();
+        assertThat(farm.read(Topics.DEVICES)).isEmpty();
+
+        farm.request(Topics.MISSION_MANAGER, mission);
+        farm.request(Topics.DOMAIN_MANAGER, "'command':'delete','domain':'north','force':true,'dryRun':true");
+        assertThat(response(farm.read(Topics.DOMAIN_MANAGER).get(1)).json().path("stopped"))
+                .hasSize(1);
+        assertThat(farm.state("m")).isEqualTo("starting");
+        assertThat(farm.only(Topics.DOMAINS).value()).isNotNull();
+        farm.request(Topics.REPLAY_MANAGER, "'command':'start','mission':'m','dryRun':true");
+        assertThat(response(farm.only(Topics.REPLAY_MANAGER)).isDryRun()).isTrue();
+        assertThat(farm.read(Topics.REPLAYS)).isEmpty();
+    }
+
+    @Test
     void rejectsAnOversizedRequest() {
         String domain = "{'type':'request','requestId':'r-1','domain':'north','description':'%s'}"
                 .formatted("x".repeat(Limits.REQUEST_BYTES));

@@ -4,6 +4,7 @@ import java.time.Duration;
 import java.util.Comparator;
 import java.util.HashSet;
 import java.util.List;
+import java.util.OptionalLong;
 import java.util.Set;
 import java.util.function.Predicate;
 
@@ -158,6 +159,12 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     public boolean isMuted(AlarmKind kind, String subject, long now) {
         AlarmTables.Mute mute = tables.mutes().get(Cause.key(kind, subject));
         return mute != null && mute.until() > now;
+    }
+
+    @Override
+    public OptionalLong sequenceOf(AlarmCommand command) {
+        Alarm existing = command.alarm() == null ? null : tables.alarms().get(command.alarm());
+        return existing == null ? OptionalLong.empty() : OptionalLong.of(existing.sequence());
     }
 
     @Override

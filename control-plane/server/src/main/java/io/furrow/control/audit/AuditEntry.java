@@ -21,7 +21,7 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param command name of the command; null if unreadable
  * @param about members of the command that are strings, numbers or booleans, for instance mission and device, and the
  *     counts and names of the answer
- * @param result {@code error} if it was rejected or failed
+ * @param result status of the answer, {@code error} if it was rejected or failed; {@code dry-run} if nothing was changed
  * @param error code of the error; null if none
  * @param reason of the error, a sentence; null if none
  * @param requestId null if it has none
@@ -67,7 +67,7 @@ public record AuditEntry(
                 topic,
                 command == null ? null : command.asText(),
                 about,
-                answer.status(),
+                answer.isDryRun() && answer.error().isEmpty() ? "dry-run" : answer.status(),
                 answer.error().orElse(null),
                 answer.json().path("reason").textValue(),
                 answer.requestId().orElse(null));

@@ -20,8 +20,8 @@ public record Domain(String domain, @JsonUnwrapped DomainDetails details, long c
         return new Domain(domain, details, now, now, sequence);
     }
 
-    Domain changed(DomainDetails change, long now, long newSequence) {
-        return new Domain(domain, change.over(details), created, now, newSequence);
+    Domain with(DomainDetails newDetails, long now, long newSequence) {
+        return new Domain(domain, newDetails, created, now, newSequence);
     }
 
     /** Returns the domain without its area, its largest member. */

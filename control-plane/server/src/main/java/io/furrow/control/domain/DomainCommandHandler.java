@@ -1,8 +1,10 @@
 package io.furrow.control.domain;
 
 import java.util.List;
+import java.util.OptionalLong;
 import java.util.function.Supplier;
 
+import io.furrow.control.manager.CommandHandler;
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.Sequence;
@@ -10,6 +12,7 @@ import io.furrow.control.manager.Table;
 import io.furrow.kafka.field.FieldEdit;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DomainCommand;
+import io.furrow.model.control.DomainDetails;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RejectedException;
 import io.furrow.model.field.FieldVersion;
@@ -17,7 +20,7 @@ import io.furrow.model.text.Counts;
 import io.furrow.model.topic.Topics;
 
 /** Executes or rejects commands on domains. A rejected command changes nothing. */
-public final class DomainCommandHandler {
+public final class DomainCommandHandler implements CommandHandler<DomainCommand> {
     private static final int MAX_NAMED = 100;
 
     private final Table<Domain> domains;
@@ -46,7 +49,13 @@ public final class DomainCommandHandler {
         this.publisher = publisher;
     }
 
-    /** @param now epoch ms */
+    @Override
+    public OptionalLong sequenceOf(DomainCommand command) {
+        Domain existing = domains.get(command.domain());
+        return existing == null ? OptionalLong.empty() : OptionalLong.of(existing.sequence());
+    }
+
+    @Override
     public CommandResult answer(DomainCommand command, long now) throws RejectedException {
         if (command instanceof DomainCommand.Create create) {
             return create(create, now);
@@ -56,8 +65,9 @@ public final class DomainCommandHandler {
             throw new RejectedException(ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + command.domain() + "'");
         }
         if (command instanceof DomainCommand.Change change) {
-            store(existing, existing.changed(change.details(), now, sequence.next()));
-            return about(existing.domain(), "changed");
+            return change(existing, change.details().over(existing.details()), now);
+        } else if (command instanceof DomainCommand.Patch patch) {
+            return change(existing, existing.details().patched(patch.details()), now);
         }
         return delete(existing, ((DomainCommand.Delete) command).force(), now);
     }
@@ -70,6 +80,11 @@ public final class DomainCommandHandler {
         }
         store(null, Domain.of(create.domain(), create.details(), now, sequence.next()));
         return about(create.domain(), "created");
+    }
+
+    private CommandResult change(Domain existing, DomainDetails details, long now) throws RejectedException {
+        store(existing, existing.with(details, now, sequence.next()));
+        return about(existing.domain(), "changed");
     }
 
     /** Deletes a domain with its missions and ends its fields. Recorded data stays. */

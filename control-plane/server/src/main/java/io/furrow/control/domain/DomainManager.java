@@ -71,7 +71,7 @@ public final class DomainManager {
         topology.addGlobalStore(FIELDS, Topics.FIELDS);
         topology.addManager(
                 ManagerTopic.DOMAIN,
-                unitOfWork -> handler(unitOfWork, missions.apply(unitOfWork))::answer,
+                unitOfWork -> handler(unitOfWork, missions.apply(unitOfWork)),
                 Stream.concat(stores().stream(), storesOfMissions.stream()).toList());
     }
 }

@@ -1,6 +1,7 @@
 package io.furrow.control.manager;
 
 import java.util.List;
+import java.util.OptionalLong;
 
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.RejectedException;
@@ -17,6 +18,11 @@ public interface CommandHandler<C> {
      * @param now epoch ms
      */
     CommandResult answer(C command, long now) throws RejectedException;
+
+    /** Returns the sequence of what a command changes; empty if it does not exist, or has none. */
+    default OptionalLong sequenceOf(C command) {
+        return OptionalLong.empty();
+    }
 
     /** Called about once a second, and before the first request. */
     default void passTime(long now) {}

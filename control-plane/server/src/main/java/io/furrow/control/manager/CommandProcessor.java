@@ -3,6 +3,7 @@ package io.furrow.control.manager;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.Optional;
+import java.util.OptionalLong;
 import java.util.function.Function;
 
 import org.apache.kafka.streams.processor.PunctuationType;
@@ -32,7 +33,8 @@ import io.furrow.model.topic.Topics;
  * with {@link ErrorCode#INTERNAL_ERROR} and becomes a dead letter.
  *
  * <p><b>State</b>: {@link RequestLog}, and the handler's stores. <b>Duplicates</b>: a request whose id was answered is
- * skipped; another request with that id is rejected. <b>Emits</b>: the handler's records, then the answer on the
+ * skipped; another request with that id is rejected. <b>Dry runs</b>: answered and audited, the handler's writes are
+ * discarded. <b>Emits</b>: the handler's records, then the answer on the
  * request's topic, keyed by the request's id, else by the request's key, and an entry on {@code service.audit}; all in
  * one transaction.
  *
@@ -91,10 +93,7 @@ final class CommandProcessor<C extends Command> extends ContextualProcessor<Stri
         }
         ParsedRequest<C> parsed = manager.read(record.value());
         if (parsed instanceof ParsedRequest.Request<C> request) {
-            answerOnce(
-                    IdentifiedRequest.of(record, request.requestId()),
-                    () -> answer(record, request.command(), now),
-                    now);
+            answerOnce(IdentifiedRequest.of(record, request.requestId()), () -> answer(record, request, now), now);
         } else if (parsed instanceof ParsedRequest.Refused<C> rejected) {
             answerOnce(IdentifiedRequest.of(record, rejected.requestId()), rejected::answer, now);
         }
@@ -174,9 +173,38 @@ final class CommandProcessor<C extends Command> extends ContextualProcessor<Stri
         context().forward(new Record<>(key, new OutputRecord(Topics.AUDIT, entry), response.timestamp()));
     }
 
-    private CommandResult answer(Record<String, byte[]> record, C command, long now) {
+    private CommandResult answer(Record<String, byte[]> record, ParsedRequest.Request<C> request, long now) {
+        UnitOfWork.Work<CommandResult, RejectedException> work = () -> {
+            requireSequence(request);
+            return handler.answer(request.command(), now);
+        };
+        return request.dryRun()
+                ? answer(record, request.command(), () -> unitOfWork.preview(work))
+                        .ofDryRun()
+                : answer(record, request.command(), () -> unitOfWork.call(work));
+    }
+
+    private void requireSequence(ParsedRequest.Request<C> request) throws RejectedException {
+        if (request.ifSequence() == null) {
+            return;
+        }
+        OptionalLong existing = handler.sequenceOf(request.command());
+        if (!existing.equals(OptionalLong.of(request.ifSequence()))) {
+            throw new RejectedException(
+                    ErrorCode.OUTDATED,
+                    "%s, not the sequence %d of the request; read it again"
+                            .formatted(
+                                    existing.isPresent()
+                                            ? "it has the sequence " + existing.getAsLong()
+                                            : "it has none",
+                                    request.ifSequence()));
+        }
+    }
+
+    private CommandResult answer(
+            Record<String, byte[]> record, C command, UnitOfWork.Work<CommandResult, RejectedException> work) {
         try {
-            return unitOfWork.call(() -> handler.answer(command, now));
+            return work.run();
         } catch (RejectedException e) {
             return Requests.refusal(e, command);
         } catch (OversizedRecordException e) {

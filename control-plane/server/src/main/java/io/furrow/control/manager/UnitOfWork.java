@@ -42,14 +42,25 @@ public final class UnitOfWork implements EventPublisher {
      * @throws OversizedRecordException if it wrote a record that is too large; nothing is applied then
      */
     public <T, E extends Exception> T call(Work<T, E> work) throws E {
+        return run(work, true);
+    }
+
+    /** Runs the work and discards its writes; fails if {@link #call} would. */
+    <T, E extends Exception> T preview(Work<T, E> work) throws E {
+        return run(work, false);
+    }
+
+    private <T, E extends Exception> T run(Work<T, E> work, boolean applies) throws E {
         boolean done = false;
         try {
             T result = work.run();
             staged.forEach(record -> OversizedRecordException.check(
                     record.value().topic(), record.key(), record.value().value()));
             stores.values().forEach(BufferedStore::check);
-            done = true;
-            apply();
+            if (applies) {
+                done = true;
+                apply();
+            }
             return result;
         } finally {
             if (!done) {

@@ -2,6 +2,7 @@ package io.furrow.control.mission;
 
 import java.util.ArrayList;
 import java.util.List;
+import java.util.OptionalLong;
 import java.util.function.Predicate;
 
 import io.furrow.control.domain.DomainMissions;
@@ -50,6 +51,12 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
 
     TemplateStore templates() {
         return templates;
+    }
+
+    @Override
+    public OptionalLong sequenceOf(MissionCommand command) {
+        Mission existing = command.mission() == null ? null : tables.missions().get(command.mission());
+        return existing == null ? OptionalLong.empty() : OptionalLong.of(existing.sequence());
     }
 
     @Override

@@ -5,6 +5,7 @@ import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Objects;
+import java.util.OptionalLong;
 import java.util.UUID;
 import java.util.function.Supplier;
 
@@ -71,6 +72,15 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
      * @param counters of the sequence and of the used quota
      */
     record ReplayStores(Table<DesiredReplay> replays, Table<ReportedReplay> reports, Table<Long> counters) {}
+
+    @Override
+    public OptionalLong sequenceOf(ReplayCommand command) {
+        DesiredReplay existing = command instanceof ReplayCommand.Steering steering
+                        && steering.target().replay() != null
+                ? replays.get(steering.target().replay())
+                : null;
+        return existing == null ? OptionalLong.empty() : OptionalLong.of(existing.sequence());
+    }
 
     @Override
     public CommandResult answer(ReplayCommand command, long now) throws RejectedException {

@@ -2,11 +2,8 @@ package io.furrow.control.rest;
 
 import java.io.IOException;
 import java.io.InputStream;
-import java.util.Arrays;
 import java.util.Comparator;
-import java.util.List;
 import java.util.concurrent.CompletionStage;
-import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -22,12 +19,9 @@ import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
-import io.furrow.control.alarm.AlarmState;
 import io.furrow.control.alarm.Severity;
-import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.StateView;
-import io.furrow.model.control.ErrorCode;
 import io.furrow.model.text.Coded;
 import io.furrow.model.topic.Topics;
 
@@ -36,8 +30,6 @@ import io.furrow.model.topic.Topics;
 @Consumes(MediaType.APPLICATION_JSON)
 @Produces(MediaType.APPLICATION_JSON)
 public final class AlarmsResource {
-    private static final int DEFAULT_LIMIT = 1000;
-    private static final int MAX_LIMIT = 10_000;
     private static final Comparator<ObjectNode> MOST_SEVERE_FIRST = Comparator.<ObjectNode>comparingInt(
                     AlarmsResource::severity)
             .thenComparing(alarm -> alarm.path("raised").asLong(), Comparator.reverseOrder());
@@ -53,37 +45,14 @@ public final class AlarmsResource {
     /**
      * Lists alarms, the most severe first, the newest of these first.
      *
-     * @param states at most one; none for all
-     * @param limits at most one, 1 to {@value #MAX_LIMIT}
+     * @param state null for all
      */
     @GET
-    public Response list(@QueryParam("state") List<String> states, @QueryParam("limit") List<String> limits) {
-        AlarmState state = state(states);
+    public Response list(@QueryParam("state") String state) {
         return JsonResponses.ok(view.all(Topics.ALARMS)
                 .filter(alarm ->
-                        state == null || state.code().equals(alarm.path("state").textValue()))
-                .sorted(MOST_SEVERE_FIRST)
-                .limit(limit(limits)));
-    }
-
-    private static AlarmState state(List<String> requested) {
-        if (requested.isEmpty()) {
-            return null;
-        }
-        String states = Arrays.stream(AlarmState.values()).map(AlarmState::code).collect(Collectors.joining(", "));
-        return Coded.find(AlarmState.values(), requested.size() == 1 ? requested.get(0) : null)
-                .orElseThrow(() -> new ProblemException(
-                        ErrorCode.WRONG_MEMBER, "'state' must be one of " + states + ", and given once"));
-    }
-
-    private static int limit(List<String> requested) {
-        String limit = requested.isEmpty() ? Integer.toString(DEFAULT_LIMIT) : requested.get(0);
-        if (requested.size() > 1 || !limit.matches("[1-9][0-9]{0,4}") || Integer.parseInt(limit) > MAX_LIMIT) {
-            throw new ProblemException(
-                    ErrorCode.WRONG_MEMBER,
-                    "'limit' must be a whole number from 1 to %d, and given once".formatted(MAX_LIMIT));
-        }
-        return Integer.parseInt(limit);
+                        state == null || state.equals(alarm.path("state").textValue()))
+                .sorted(MOST_SEVERE_FIRST));
     }
 
     private static int severity(JsonNode alarm) {

@@ -17,11 +17,9 @@ import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 import jakarta.ws.rs.core.UriInfo;
 
-import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.view.AuditHistory;
 import io.furrow.control.rest.view.AuditedEntry;
 import io.furrow.control.rest.view.StateView;
-import io.furrow.model.control.ErrorCode;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code /api/audit}: reads the newest entries from memory, older ones from Kafka. */
@@ -49,21 +47,12 @@ public final class AuditResource {
     @GET
     public Response list(
             @Context UriInfo uri,
-            @QueryParam("limit") @DefaultValue("100") String limit,
-            @QueryParam("before") String before,
+            @QueryParam("limit") @DefaultValue("100") int limit,
+            @QueryParam("before") Long before,
             @QueryParam("device") String device,
             @QueryParam("mission") String mission) {
-        if (!limit.matches("[1-9][0-9]{0,3}") || Integer.parseInt(limit) > StateView.AUDITED) {
-            throw new ProblemException(
-                    ErrorCode.WRONG_MEMBER, "'limit' must be a whole number from 1 to " + StateView.AUDITED);
-        }
-        ProblemException.rejectIf(
-                before != null && !before.matches("[0-9]{1,18}"),
-                ErrorCode.WRONG_MEMBER,
-                "'before' must be the position of an entry, a whole number from 0");
         Predicate<AuditedEntry> desired = entry -> entry.isAbout("device", device) && entry.isAbout("mission", mission);
-        AuditHistory.Page page =
-                page(before == null ? Long.MAX_VALUE : Long.parseLong(before), Integer.parseInt(limit), desired);
+        AuditHistory.Page page = page(before == null ? Long.MAX_VALUE : before, limit, desired);
         ArrayNode entries = NgsiJson.array();
         page.entries().forEach(each -> entries.add(each.json()));
         Response.ResponseBuilder answer = JsonResponses.json(200, entries);

@@ -58,17 +58,19 @@ public final class DomainsResource {
     @GET
     @Path("{domain}")
     public Response get(@PathParam(DOMAIN) String domain) {
-        return JsonResponses.ok(view.find(Topics.DOMAINS, domain)
+        return JsonResponses.one(view.find(Topics.DOMAINS, domain)
                 .orElseThrow(() ->
                         new ProblemException(ErrorCode.UNKNOWN_DOMAIN, "there is no domain '%s'".formatted(domain))));
     }
 
+    /** Merges the body into a domain, as RFC 7396 defines it. */
     @PATCH
     @Path("{domain}")
+    @Consumes({JsonBodyReader.MERGE_PATCH, MediaType.APPLICATION_JSON})
     public CompletionStage<Response> change(
             @Context ContainerRequestContext request, @PathParam(DOMAIN) String domain, InputStream body)
             throws IOException {
-        return manager.command(request, "change", JsonBodyReader.read(body).put(DOMAIN, domain));
+        return manager.command(request, "patch", JsonBodyReader.read(body).put(DOMAIN, domain));
     }
 
     /** @param force whether to stop missions that run in it */

@@ -148,7 +148,7 @@ public final class FieldsResource {
     /** Renames or ends a field: the body contains either {@code name} or {@code validTo}, a time. */
     @PATCH
     @jakarta.ws.rs.Path("{field}")
-    @Consumes(MediaType.APPLICATION_JSON)
+    @Consumes({JsonBodyReader.MERGE_PATCH, MediaType.APPLICATION_JSON})
     public Response change(@Context ContainerRequestContext request, @PathParam(FIELD) String id, InputStream body)
             throws IOException {
         ObjectNode members = JsonBodyReader.read(body);

@@ -1,10 +1,6 @@
 package io.furrow.control.rest;
 
-import java.io.IOException;
-import java.io.InputStream;
-
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import com.fasterxml.jackson.dataformat.yaml.YAMLMapper;
 import jakarta.ws.rs.GET;
 import jakarta.ws.rs.Path;
 import jakarta.ws.rs.Produces;
@@ -13,7 +9,6 @@ import jakarta.ws.rs.core.Response;
 
 import io.furrow.http.prometheus.MetricsPage;
 import io.furrow.kafka.Readiness;
-import io.furrow.model.ngsi.NgsiJson;
 
 /** Serves the description, health, readiness and metrics of the API, without a token. */
 @Path("/")
@@ -22,12 +17,10 @@ public final class HealthResource {
     private final RestMetrics metrics;
     private final byte[] description;
 
-    HealthResource(Readiness readiness, RestMetrics metrics) throws IOException {
+    HealthResource(Readiness readiness, RestMetrics metrics, ApiDescription description) {
         this.readiness = readiness;
         this.metrics = metrics;
-        try (InputStream yaml = HealthResource.class.getResourceAsStream("openapi.yaml")) {
-            this.description = NgsiJson.mapper().writeValueAsBytes(new YAMLMapper().readTree(yaml));
-        }
+        this.description = description.toBytes();
     }
 
     @GET

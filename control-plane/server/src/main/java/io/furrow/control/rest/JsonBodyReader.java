@@ -27,6 +27,8 @@ import io.furrow.model.ngsi.UnreadableException;
 
 /** Reads the bodies of requests: one JSON object. */
 final class JsonBodyReader {
+    static final String MERGE_PATCH = "application/merge-patch+json";
+
     /** A connection that sends more is closed. */
     private static final long MAX_READ = 64L * 1024 * 1024;
 

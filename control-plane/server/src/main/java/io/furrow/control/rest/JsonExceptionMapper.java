@@ -11,7 +11,7 @@ import org.slf4j.LoggerFactory;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.text.FailureText;
 
-/** Maps every exception to JSON with {@code error} and {@code reason}. */
+/** Maps every exception to problem details with {@code error} and {@code reason}. */
 public final class JsonExceptionMapper implements ExceptionMapper<Throwable> {
     private static final Logger LOG = LoggerFactory.getLogger(JsonExceptionMapper.class);
 
@@ -39,7 +39,7 @@ public final class JsonExceptionMapper implements ExceptionMapper<Throwable> {
             case 404 -> "there is no such path; /openapi.json lists all paths";
             case 405 -> "the path does not support this method; /openapi.json lists its methods";
             case 406 -> "the answer is not available in a requested media type; most answers are application/json only";
-            case 415 -> "a body must be application/json";
+            case 415 -> "a body must be application/json, that of a PATCH may be application/merge-patch+json";
             default -> "the request was rejected: " + status.getReasonPhrase();
         };
     }

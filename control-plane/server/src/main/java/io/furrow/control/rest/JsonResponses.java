@@ -5,6 +5,8 @@ import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.ws.rs.core.EntityTag;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 import jakarta.ws.rs.core.UriBuilder;
@@ -21,10 +23,18 @@ final class JsonResponses {
         return json(200, json).build();
     }
 
+    /** Returns a resource with its sequence as entity tag, for {@code If-Match}. */
+    static Response one(ObjectNode resource) {
+        return json(200, resource)
+                .tag(new EntityTag(resource.path("sequence").asText()))
+                .build();
+    }
+
+    /** Returns a list, of which {@link PageFilter} writes what the request asks for. */
     static Response ok(Stream<? extends JsonNode> elements) {
         ArrayNode array = NgsiJson.array();
         elements.forEach(array::add);
-        return ok(array);
+        return Response.ok(array, MediaType.APPLICATION_JSON_TYPE).build();
     }
 
     static Response.ResponseBuilder json(int status, JsonNode json) {
@@ -33,12 +43,12 @@ final class JsonResponses {
 
     static Response of(CommandResult answer) {
         return answer.error()
-                .map(error -> ProblemException.response(error, answer.json()))
+                .map(error -> ProblemException.response(error, answer))
                 .orElseGet(() -> json(200, answer.json()).build());
     }
 
     /**
-     * Returns the answer of a manager with the location of the created resource.
+     * Returns the answer of a manager with the location of the created resource, unless it is of a dry run.
      *
      * @param path of the collection
      * @param member with the name
@@ -47,9 +57,13 @@ final class JsonResponses {
         if (answer.error().isPresent()) {
             return of(answer);
         }
+        Response.ResponseBuilder created = json(201, answer.json());
+        if (answer.isDryRun()) {
+            return created.build();
+        }
         URI location = UriBuilder.fromPath(path)
                 .segment(answer.json().path(member).asText())
                 .build();
-        return json(201, answer.json()).location(location).build();
+        return created.location(location).build();
     }
 }

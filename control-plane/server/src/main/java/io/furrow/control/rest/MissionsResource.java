@@ -10,6 +10,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.annotation.security.RolesAllowed;
 import jakarta.ws.rs.Consumes;
 import jakarta.ws.rs.DELETE;
+import jakarta.ws.rs.DefaultValue;
 import jakarta.ws.rs.GET;
 import jakarta.ws.rs.POST;
 import jakarta.ws.rs.Path;
@@ -46,9 +47,11 @@ public final class MissionsResource {
     private final CommandClient managers;
     private final Manager manager;
     private final DeviceCredentials credentials;
+    private final StateWait waits;
 
     /** @param credentials null if credentials are not available */
-    MissionsResource(StateView view, CommandClient managers, DeviceCredentials credentials) {
+    MissionsResource(StateView view, CommandClient managers, DeviceCredentials credentials, StateWait waits) {
+        this.waits = waits;
         this.view = view;
         this.managers = managers;
         this.manager = new Manager(managers, Topics.MISSION_MANAGER);
@@ -71,12 +74,25 @@ public final class MissionsResource {
                 .thenApply(answer -> JsonResponses.created(answer, "/api/missions", MISSION));
     }
 
+    /**
+     * Returns a mission.
+     *
+     * @param states for one of which to wait; none for any
+     * @param timeout longest time to wait, in seconds
+     */
     @GET
     @Path("{mission}")
-    public Response get(@PathParam(MISSION) String mission) {
-        return JsonResponses.ok(withDevices(withStatus(view.find(Topics.MISSIONS, mission)
-                .orElseThrow(() -> new ProblemException(
-                        ErrorCode.UNKNOWN_MISSION, "there is no mission '%s'".formatted(mission))))));
+    public CompletionStage<Response> get(
+            @PathParam(MISSION) String mission,
+            @QueryParam("wait") List<String> states,
+            @QueryParam("timeout") @DefaultValue("30") int timeout) {
+        return waits.one(() -> withStatus(find(mission)), states, timeout, this::withDevices);
+    }
+
+    private ObjectNode find(String mission) {
+        return view.find(Topics.MISSIONS, mission)
+                .orElseThrow(() ->
+                        new ProblemException(ErrorCode.UNKNOWN_MISSION, "there is no mission '%s'".formatted(mission)));
     }
 
     /** Returns the credentials of all real devices of a started mission. */
@@ -96,7 +112,7 @@ public final class MissionsResource {
     }
 
     private ArrayNode credentialsOf(ContainerRequestContext request, String mission) {
-        get(mission);
+        find(mission);
         DevicesResource.requireSecret(credentials);
         ArrayNode all = NgsiJson.array();
         new DeviceView(view)
@@ -130,14 +146,16 @@ public final class MissionsResource {
     public CompletionStage<Response> start(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission, InputStream body)
             throws IOException {
-        return manager.command(request, "start", JsonBodyReader.read(body).put(MISSION, mission));
+        return manager.request(request, "start", JsonBodyReader.read(body).put(MISSION, mission))
+                .thenApply(answer -> JsonResponses.of(answer.as("started")));
     }
 
     @POST
     @Path("{mission}/stop")
     public CompletionStage<Response> stop(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission) {
-        return manager.command(request, "stop", named(mission));
+        return manager.request(request, "stop", named(mission))
+                .thenApply(answer -> JsonResponses.of(answer.as("stopped")));
     }
 
     private ObjectNode withStatus(ObjectNode desired) {

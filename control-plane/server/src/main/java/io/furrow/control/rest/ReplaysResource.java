@@ -2,16 +2,20 @@ package io.furrow.control.rest;
 
 import java.io.IOException;
 import java.io.InputStream;
+import java.util.List;
 import java.util.concurrent.CompletionStage;
+import java.util.function.UnaryOperator;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.ws.rs.Consumes;
 import jakarta.ws.rs.DELETE;
+import jakarta.ws.rs.DefaultValue;
 import jakarta.ws.rs.GET;
 import jakarta.ws.rs.POST;
 import jakarta.ws.rs.Path;
 import jakarta.ws.rs.PathParam;
 import jakarta.ws.rs.Produces;
+import jakarta.ws.rs.QueryParam;
 import jakarta.ws.rs.container.ContainerRequestContext;
 import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
@@ -33,8 +37,10 @@ public final class ReplaysResource {
 
     private final ReplayStatusView replays;
     private final Manager manager;
+    private final StateWait waits;
 
-    ReplaysResource(ReplayStatusView replays, CommandClient managers) {
+    ReplaysResource(ReplayStatusView replays, CommandClient managers, StateWait waits) {
+        this.waits = waits;
         this.replays = replays;
         this.manager = new Manager(managers, Topics.REPLAY_MANAGER);
     }
@@ -53,16 +59,25 @@ public final class ReplaysResource {
                         : JsonResponses.created(answer, "/api/replays", REPLAY));
     }
 
+    /**
+     * Returns a replay.
+     *
+     * @param states for one of which to wait; none for any
+     * @param timeout longest time to wait, in seconds
+     */
     @GET
     @Path("{replay}")
-    public Response get(@PathParam(REPLAY) String replay) {
-        return JsonResponses.ok(replays.get(replay));
+    public CompletionStage<Response> get(
+            @PathParam(REPLAY) String replay,
+            @QueryParam("wait") List<String> states,
+            @QueryParam("timeout") @DefaultValue("30") int timeout) {
+        return waits.one(() -> replays.get(replay), states, timeout, UnaryOperator.identity());
     }
 
     @DELETE
     @Path("{replay}")
     public CompletionStage<Response> stop(@Context ContainerRequestContext request, @PathParam(REPLAY) String replay) {
-        return manager.command(request, "stop", none().put(REPLAY, replay));
+        return stop(request, none().put(REPLAY, replay));
     }
 
     /**
@@ -90,7 +105,11 @@ public final class ReplaysResource {
     @Path("groups/{group}")
     public CompletionStage<Response> stopGroup(
             @Context ContainerRequestContext request, @PathParam(GROUP) String group) {
-        return manager.command(request, "stop", none().put(GROUP, group));
+        return stop(request, none().put(GROUP, group));
+    }
+
+    private CompletionStage<Response> stop(ContainerRequestContext request, ObjectNode members) {
+        return manager.request(request, "stop", members).thenApply(answer -> JsonResponses.of(answer.as("stopped")));
     }
 
     /** @param command as for a single replay, except {@code step} */

@@ -7,7 +7,6 @@ import java.nio.ByteBuffer;
 import java.util.List;
 import java.util.Locale;
 
-import jakarta.ws.rs.core.MediaType;
 import org.eclipse.jetty.ee10.servlet.ServletContextHandler;
 import org.eclipse.jetty.ee10.servlet.ServletHolder;
 import org.eclipse.jetty.http.HttpHeader;
@@ -33,6 +32,7 @@ import io.furrow.control.ServiceTopics;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.device.DeviceCredentials;
 import io.furrow.control.rest.access.FileWarnings;
+import io.furrow.control.rest.access.ProblemDetails;
 import io.furrow.control.rest.access.RoleFilter;
 import io.furrow.control.rest.access.TlsListener;
 import io.furrow.control.rest.access.TokenFilter;
@@ -142,14 +142,17 @@ public final class RestApi implements AutoCloseable {
                 rest.secret() == null ? null : new DeviceCredentials(rest.secret(), rest.mqtt());
         DevicesResource.Dependencies dependencies =
                 new DevicesResource.Dependencies(control.missions().scope(), commands, credentials);
+        ApiDescription description = ApiDescription.read();
+        StateWait waits = new StateWait(threads);
         ResourceConfig config = new ResourceConfig();
         config.property(ServerProperties.WADL_FEATURE_DISABLE, true);
+        config.property(ServerProperties.LOCATION_HEADER_RELATIVE_URI_RESOLUTION_DISABLED, true);
         List<Object> resources = List.of(
                 new DomainsResource(view, managers),
-                new MissionsResource(view, managers, credentials),
+                new MissionsResource(view, managers, credentials, waits),
                 new TemplatesResource(view, managers),
                 new DevicesResource(view, managers, dependencies),
-                new ReplaysResource(replays, managers),
+                new ReplaysResource(replays, managers, waits),
                 new ReplayFeedResource(feeds),
                 new RecordingsResource(view, events, threads),
                 new MarkersResource(markers, managers),
@@ -157,10 +160,13 @@ public final class RestApi implements AutoCloseable {
                 new FieldsResource(control.client(), managers, fields),
                 new AuditResource(view, control.client()),
                 new CallerResource(),
-                new HealthResource(readiness, metrics));
+                new HealthResource(readiness, metrics, description));
         resources.forEach(resource -> config.register(resource.getClass()));
         config.register(new Instances(resources));
         config.register(metrics);
+        config.register(new VersionFilter());
+        config.register(new UnknownNameFilter(description));
+        config.register(new PageFilter(description));
         config.register(new JsonBodyReader.Drain());
         config.register(new JsonExceptionMapper());
         if (tokens != null) {
@@ -207,8 +213,9 @@ public final class RestApi implements AutoCloseable {
         // Applies to requests with tokens too, because a page may have one that its user entered.
         server.setHandler(new AccessHandler(
                 rule,
-                rejection -> CommandResult.ofError(rejection.error(), rejection.reason())
-                        .toBytes(),
+                ProblemDetails.TYPE,
+                rejection -> ProblemDetails.of(
+                        HttpStatus.FORBIDDEN_403, CommandResult.ofError(rejection.error(), rejection.reason())),
                 context));
         try {
             server.start();
@@ -228,8 +235,8 @@ public final class RestApi implements AutoCloseable {
         String reason = HttpStatus.getMessage(response.getStatus());
         CommandResult rejection = CommandResult.ofError(
                 reason.toLowerCase(Locale.ROOT).replace(' ', '-'), "the HTTP server rejects the request: " + reason);
-        response.getHeaders().put(HttpHeader.CONTENT_TYPE, MediaType.APPLICATION_JSON);
-        response.write(true, ByteBuffer.wrap(rejection.toBytes()), callback);
+        response.getHeaders().put(HttpHeader.CONTENT_TYPE, ProblemDetails.TYPE);
+        response.write(true, ByteBuffer.wrap(ProblemDetails.of(response.getStatus(), rejection)), callback);
         return true;
     }
 

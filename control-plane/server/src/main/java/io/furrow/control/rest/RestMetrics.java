@@ -63,7 +63,7 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
     }
 
     /** Returns the declared path, so that names do not become labels. */
-    private static String path(ContainerRequestContext request) {
+    static String path(ContainerRequestContext request) {
         StringBuilder path = new StringBuilder();
         if (request.getUriInfo() instanceof ExtendedUriInfo matched) {
             for (UriTemplate template : matched.getMatchedTemplates()) {

@@ -66,12 +66,16 @@ interface FieldRoutes extends RestApiRoutes {
                         .asText())
                 .isEqualTo("Hill");
         for (String body : new String[] {
-            "{}", "{\"name\":\" \"}", "{\"nmae\":\"x\"}",
-            "{\"name\":\"x\",\"validTo\":1}", "{\"validTo\":\"soon\"}", "{\"validTo\":null}",
+            "{}",
+            "{\"name\":\" \"}",
+            "{\"name\":\"x\",\"validTo\":1}",
+            "{\"validTo\":\"soon\"}",
+            "{\"validTo\":null}",
             "{\"name\":7}"
         }) {
             running().rejects("PATCH", "/api/fields/a", body, 400, "wrong-member");
         }
+        running().rejects("PATCH", "/api/fields/a", "{\"nmae\":\"x\"}", 400, "unknown-member");
         running().rejects("PATCH", "/api/fields/z", "{\"name\":\"x\"}", 404, "unknown-field");
         running().rejects("DELETE", "/api/fields/z", null, 404, "unknown-field");
         running().rejects("PATCH", "/api/fields/a", "{\"validTo\":1}", 409, "wrong-state");

@@ -1,5 +1,6 @@
 package io.furrow.control.rest;
 
+import java.net.http.HttpResponse;
 import java.nio.file.Path;
 import java.time.Clock;
 
@@ -68,6 +69,39 @@ class RejectedRequestsIT {
         assertThat(client.status("POST", "/api/domains", body)).isEqualTo(201);
         assertThat(running.get("/api/domains/large").at("/area/note").asText()).hasSize(Limits.REQUEST_BYTES - 400);
         client.send("DELETE", "/api/domains/large", null);
+    }
+
+    /** A misspelled name would be ignored: the mission would have no devices, the list all missions. */
+    @Test
+    void rejectsUnknownMembersAndParametersAndChangesNothing() throws Exception {
+        client.send("POST", "/api/domains", "{\"domain\":\"strict\",\"name\":\"Strict\"}");
+        String mission = "{\"mission\":\"misspelled\",\"domain\":\"strict\",\"tmplate\":\"thesis-demo\"}";
+        assertThat(client.error("POST", "/api/missions", mission)).isEqualTo("400 unknown-member");
+        assertThat(client.error("PATCH", "/api/domains/strict", "{\"nmae\":\"x\"}"))
+                .isEqualTo("400 unknown-member");
+        assertThat(client.error("GET", "/api/missions?domian=strict", null)).isEqualTo("400 unknown-parameter");
+        assertThat(client.error("DELETE", "/api/domains/strict?froce=true", null))
+                .isEqualTo("400 unknown-parameter");
+
+        assertThat(running.get("/api/missions?domain=strict")).isEmpty();
+        assertThat(running.get("/api/domains/strict").path("name").asText()).isEqualTo("Strict");
+        assertThat(client.status("PATCH", "/api/domains/strict", "{\"domain\":\"strict\",\"name\":\"x\"}"))
+                .isEqualTo(200);
+        assertThat(client.status("GET", "/ready?verbose", null)).isEqualTo(200);
+    }
+
+    @Test
+    void answersADryRunAndChangesNothing() throws Exception {
+        HttpResponse<byte[]> created = client.send("POST", "/api/domains?dryRun=true", "{\"domain\":\"dry\"}");
+        assertThat(created.statusCode()).isEqualTo(201);
+        assertThat(client.json(created).path("dryRun").asBoolean()).isTrue();
+        assertThat(created.headers().firstValue("Location")).isEmpty();
+        running.rejects("GET", "/api/domains/dry", null, 404, "unknown-domain");
+        running.rejects("DELETE", "/api/domains/dry?dryRun=true", null, 404, "unknown-domain");
+        running.rejects("POST", "/api/domains?dryRun=1", "{\"domain\":\"dry\"}", 400, "wrong-member");
+        running.rejects("POST", "/api/domains?dryRun=false&dryRun=true", "{\"domain\":\"dry\"}", 400, "wrong-member");
+        running.rejects("POST", "/api/domains", "{\"domain\":\"dry\",\"dryRun\":true}", 400, "unknown-member");
+        running.rejects("POST", "/api/alarms/mute?dryRun=true", "{}", 400, "unknown-parameter");
     }
 
     @Test

@@ -107,11 +107,16 @@ class RestApiAccessIT {
         assertThat(client.error("POST", "/api/domains", "{}", "Origin", "http://evil.example"))
                 .isEqualTo("403 foreign-origin");
         assertThat(client.raw("/api/domains", "evil.example"))
-                .contains(" 403 ", "\"error\":\"foreign-host\"", "'evil.example'", "--allowed-hosts");
+                .contains(
+                        " 403 ",
+                        "application/problem+json",
+                        "\"error\":\"foreign-host\"",
+                        "'evil.example'",
+                        "--allowed-hosts");
         assertThat(client.raw("/health", "10.9.8.7:8085")).as("a probe").contains(" 200 ");
         assertThat(client.raw("/metrics", "10.9.8.7:8085")).contains(" 403 ");
         assertThat(client.raw("/api/domains/a%2Fb", "localhost"))
-                .contains(" 400 ", "{\"type\":\"response\",\"status\":\"error\"");
+                .contains(" 400 ", "application/problem+json", "\"title\":\"Bad Request\",\"status\":400");
         byte[] large = new byte[9 * 1024 * 1024];
         Arrays.fill(large, (byte) ' ');
         assertThat(client.error("POST", "/api/domains", new String(large))).isEqualTo("413 too-large");
@@ -141,7 +146,9 @@ class RestApiAccessIT {
                             new ApiClient(other.uri(), "another-token-of-signs").send("GET", "/api/domains", null)))
                     .isEqualTo("401 unauthorized");
             assertThat(ann.send("GET", "/api/domains", null).statusCode()).isEqualTo(200);
-            ann.send("POST", "/api/domains", "{\"domain\":\"ann-s\",\"user\":\"bob\"}");
+            assertThat(ann.error("POST", "/api/domains", "{\"domain\":\"ann-s\",\"user\":\"bob\"}"))
+                    .isEqualTo("400 unknown-member");
+            ann.send("POST", "/api/domains", "{\"domain\":\"ann-s\"}");
         }
         await().untilAsserted(() -> assertThat(running.get("/api/audit?limit=1000"))
                 .anyMatch(entry -> entry.path("user").asText().equals("ann")

@@ -4,6 +4,7 @@ import java.net.http.HttpResponse;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
+import java.util.List;
 import java.util.stream.Collectors;
 import java.util.stream.IntStream;
 
@@ -64,12 +65,17 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
     void handlesTheLifeCycleOfADomain() throws Exception {
         HttpResponse<byte[]> created = client.send("POST", "/api/domains", "{\"domain\":\"north\",\"name\":\"North\"}");
         assertThat(created.statusCode()).isEqualTo(201);
-        assertThat(created.headers().firstValue("Location"))
-                .contains(running.api().uri() + "/api/domains/north");
+        assertThat(created.headers().firstValue("Location")).contains("/api/domains/north");
         assertThat(running.get("/api/domains/north").path("name").asText()).isEqualTo("North");
         assertThat(client.status("PATCH", "/api/domains/north", "{\"description\":\"wet\"}"))
                 .isEqualTo(200);
         assertThat(running.get("/api/domains").findValuesAsText("description")).contains("wet");
+        String patch = "{\"name\":null}";
+        assertThat(client.status("PATCH", "/api/domains/north", patch, "Content-Type", "application/merge-patch+json"))
+                .isEqualTo(200);
+        assertThat(running.get("/api/domains/north").has("name")).isFalse();
+        assertThat(running.get("/api/domains/north").path("description").asText())
+                .isEqualTo("wet");
 
         running.rejects("POST", "/api/domains", "{\"domain\":\"north\"}", 409, "domain-exists");
         assertThat(client.status("DELETE", "/api/domains/north", null)).isEqualTo(200);
@@ -79,24 +85,82 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
     }
 
     @Test
+    void changesOnlyTheSequenceThatARequestHasRead() throws Exception {
+        client.send("POST", "/api/domains", "{\"domain\":\"matched\"}");
+        String read = client.send("GET", "/api/domains/matched", null)
+                .headers()
+                .firstValue("ETag")
+                .orElseThrow();
+        String path = "/api/domains/matched";
+        assertThat(client.status("PATCH", path, "{\"name\":\"a\"}", "If-Match", read))
+                .isEqualTo(200);
+
+        HttpResponse<byte[]> outdated = client.send("PATCH", path, "{\"name\":\"b\"}", "If-Match", read);
+        assertThat(outdated.statusCode()).isEqualTo(412);
+        assertThat(client.json(outdated).path("error").asText()).isEqualTo("outdated");
+        assertThat(client.status("DELETE", path, null, "If-Match", read)).isEqualTo(412);
+        assertThat(running.get(path).path("name").asText()).isEqualTo("a");
+        assertThat(client.status("PATCH", path, "{\"name\":\"b\"}", "If-Match", "W/x"))
+                .isEqualTo(400);
+        assertThat(client.status("POST", "/api/domains", "{\"domain\":\"x\"}", "If-Match", read))
+                .isEqualTo(400);
+        assertThat(client.status("DELETE", path, null, "If-Match", "*")).isEqualTo(200);
+    }
+
+    @Test
+    void answersListsInPages() throws Exception {
+        client.send("POST", "/api/domains", "{\"domain\":\"paged\"}");
+        for (String mission : List.of("p1", "p2", "p3")) {
+            client.send("POST", "/api/missions", "{\"mission\":\"%s\",\"domain\":\"paged\"}".formatted(mission));
+        }
+
+        HttpResponse<byte[]> first = client.send("GET", "/api/v1/missions?domain=paged&limit=2", null, false);
+        assertThat(missionsOf(first)).containsExactly("p1", "p2");
+        assertThat(first.headers().allValues("Link")).containsExactly("<?domain=paged&limit=2&page=2>; rel=\"next\"");
+        HttpResponse<byte[]> second = client.send("GET", "/api/missions?domain=paged&limit=2&page=2", null);
+        assertThat(missionsOf(second)).containsExactly("p3");
+        assertThat(second.headers().allValues("Link")).containsExactly("<?domain=paged&limit=2&page=1>; rel=\"prev\"");
+        assertThat(running.get("/api/missions?domain=paged&limit=1000&page=1000000"))
+                .isEmpty();
+        running.rejects("GET", "/api/missions?limit=0", null, 400, "wrong-member");
+        running.rejects("GET", "/api/missions?page=1&page=2", null, 400, "wrong-member");
+    }
+
+    private List<String> missionsOf(HttpResponse<byte[]> list) throws Exception {
+        return client.json(list)
+                .valueStream()
+                .map(mission -> mission.path("mission").asText())
+                .toList();
+    }
+
+    private String statusOf(String command) throws Exception {
+        return client.json(client.send("POST", command, null)).path("status").asText();
+    }
+
+    @Test
     void handlesTheLifeCycleOfAMission() throws Exception {
         client.send("POST", "/api/domains", "{\"domain\":\"west\"}");
         String mission = "{\"mission\":\"tilling\",\"domain\":\"west\",\"devices\":%s}".formatted(DEVICES);
         assertThat(client.status("POST", "/api/missions", mission)).isEqualTo(201);
         assertThat(running.get("/api/missions/tilling").at("/status/state").asText())
                 .isEqualTo("created");
-        assertThat(client.status("POST", "/api/missions/tilling/start", null)).isEqualTo(200);
-        JsonNode started = running.get("/api/missions/tilling");
+        assertThat(statusOf("/api/missions/tilling/start")).isEqualTo("started");
+        JsonNode started = running.get("/api/missions/tilling?wait=running&wait=starting");
         assertThat(started.at("/status/state").asText()).isEqualTo("starting");
         assertThat(started.at("/status/devices").asInt()).isEqualTo(4);
         assertThat(started.path("devices")).hasSize(3);
+        assertThat(running.get("/api/missions/tilling?wait=running&timeout=1")
+                        .at("/status/state")
+                        .asText())
+                .isEqualTo("starting");
+        running.rejects("GET", "/api/missions/tilling?wait=up", null, 400, "wrong-member");
         assertThat(running.get("/api/missions?domain=west").findValuesAsText("mission"))
                 .contains("tilling");
         assertThat(running.get("/api/missions?domain=nosuch")).isEmpty();
 
         running.rejects("POST", "/api/missions/tilling/start", "{}", 409, "mission-running");
         running.rejects("DELETE", "/api/domains/west", null, 409, "missions-running");
-        assertThat(client.status("POST", "/api/missions/tilling/stop", null)).isEqualTo(200);
+        assertThat(statusOf("/api/missions/tilling/stop")).isEqualTo("stopped");
         running.rejects("DELETE", "/api/missions/tilling", null, 409, "mission-running");
         running.rejects("GET", "/api/missions/nosuch", null, 404, "unknown-mission");
         running.rejects("POST", "/api/missions/nosuch/stop", null, 404, "unknown-mission");

@@ -23,12 +23,19 @@ public final class AccessHandler extends Handler.Wrapper {
     private static final int MAX_DRAINED = 64 * 1024;
 
     private final AccessRule rule;
+    private final String type;
     private final Function<Decision.Refused, byte[]> body;
 
     /** @param body composes the JSON of a rejection */
     public AccessHandler(AccessRule rule, Function<Decision.Refused, byte[]> body, Handler handler) {
+        this(rule, "application/json", body, handler);
+    }
+
+    /** @param type media type of a rejection @param body composes it */
+    public AccessHandler(AccessRule rule, String type, Function<Decision.Refused, byte[]> body, Handler handler) {
         super(handler);
         this.rule = rule;
+        this.type = type;
         this.body = body;
     }
 
@@ -51,7 +58,7 @@ public final class AccessHandler extends Handler.Wrapper {
 
     private void reject(Request request, Response response, Decision.Refused refused, Callback callback) {
         response.setStatus(Decision.REFUSED_STATUS);
-        response.getHeaders().put(HttpHeader.CONTENT_TYPE, "application/json");
+        response.getHeaders().put(HttpHeader.CONTENT_TYPE, type);
         response.getHeaders().put(HttpHeader.CONNECTION, "close");
         ByteBuffer json = ByteBuffer.wrap(body.apply(refused));
         if (request.getLength() > 0 && request.getLength() <= MAX_DRAINED) {

@@ -46,6 +46,13 @@ public sealed interface AlarmCommand extends Command {
     String ALARM = "alarm";
     String USER = "user";
 
+    /** Returns the alarm that it changes; null if it is about all of a kind. */
+    default String alarm() {
+        Target target =
+                this instanceof Mute mute ? mute.target() : this instanceof Unmute unmute ? unmute.target() : null;
+        return target instanceof OfAlarm of ? of.alarm() : null;
+    }
+
     static AlarmCommand read(String verb, JsonObjectReader members) throws RejectedException {
         return switch (verb == null ? "" : verb) {
             case "acknowledge" -> new Acknowledge(members.name(ALARM), members.textOrNull(USER));

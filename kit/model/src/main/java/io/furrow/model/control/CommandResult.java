@@ -19,6 +19,9 @@ public record CommandResult(ObjectNode json) {
     /** The status of all rejections. */
     public static final String ERROR = "error";
 
+    /** Member of requests that are only answered, and of their answers. */
+    public static final String DRY_RUN = "dryRun";
+
     private static final String REQUEST_ID = "requestId";
 
     /** Returns an answer with a status, for instance {@code created}. */
@@ -36,6 +39,11 @@ public record CommandResult(ObjectNode json) {
         return of(ERROR).with("error", error).with("reason", reason);
     }
 
+    /** Returns a copy with another status; unchanged if it is an error. */
+    public CommandResult as(String status) {
+        return error().isPresent() ? this : with("status", status);
+    }
+
     /** Returns a copy with one more member; unchanged for null. */
     public CommandResult with(String member, String value) {
         return value == null ? this : new CommandResult(json.deepCopy().put(member, value));
@@ -49,6 +57,15 @@ public record CommandResult(ObjectNode json) {
         ObjectNode members = json.deepCopy();
         values.forEach(members.putArray(member)::add);
         return new CommandResult(members);
+    }
+
+    /** Returns a copy that says that nothing was changed. */
+    public CommandResult ofDryRun() {
+        return new CommandResult(json.deepCopy().put(DRY_RUN, true));
+    }
+
+    public boolean isDryRun() {
+        return json.path(DRY_RUN).asBoolean();
     }
 
     /** Returns the answer to a request; the id may be null. */

@@ -43,6 +43,8 @@ public enum ErrorCode implements Coded {
     UNKNOWN_ALARM,
     /** The replay, alarm or field is not in the state that the command needs. */
     WRONG_STATE,
+    /** What the request changes has another sequence than the request names. */
+    OUTDATED,
     /** The request or its result exceeds {@link Limits}. */
     TOO_LARGE,
     /** The definitions would exceed {@link Limits#DEFINITIONS_BYTES}, or too many replays would play at once. */

@@ -67,6 +67,11 @@ public sealed interface MissionCommand extends Command {
     @JsonTypeName("rotate-credentials")
     record RotateCredentials(String device) implements MissionCommand {}
 
+    /** Returns the mission that it changes; null if it changes something else. */
+    default String mission() {
+        return null;
+    }
+
     static MissionCommand read(String verb, JsonObjectReader members) throws RejectedException {
         return switch (verb == null ? "" : verb) {
             case "create" -> new Create(members.name("mission"), members.name("domain"), MissionPlan.read(members));

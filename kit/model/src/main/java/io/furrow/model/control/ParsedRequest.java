@@ -6,8 +6,18 @@ package io.furrow.model.control;
  * @param <C> the commands of that manager
  */
 public sealed interface ParsedRequest<C> {
-    /** @param requestId null if the request has none */
-    record Request<C>(String requestId, C command) implements ParsedRequest<C> {}
+    /**
+     * A valid request.
+     *
+     * @param requestId null if the request has none
+     * @param ifSequence the sequence that what it changes must have; null for any
+     * @param dryRun whether it is only answered, and changes nothing
+     */
+    record Request<C>(String requestId, C command, Long ifSequence, boolean dryRun) implements ParsedRequest<C> {
+        public Request(String requestId, C command) {
+            this(requestId, command, null, false);
+        }
+    }
 
     /**
      * An invalid request or other record.

@@ -15,6 +15,9 @@ import io.furrow.model.topic.TopicName;
  * code and a sentence. Unknown members are ignored, because older clients send some.
  */
 public final class Requests {
+    /** Member of requests that are refused if what they change has another sequence. */
+    public static final String IF_SEQUENCE = "ifSequence";
+
     private static final Pattern REQUEST_ID = Pattern.compile("[!-~]{1,200}");
     /** Members that are repeated in errors for clients without request ids. */
     private static final List<String> SUBJECTS = List.of("domain", "mission", "replay", "group", "alarm");
@@ -89,7 +92,8 @@ public final class Requests {
             requestId = requestId(members);
             JsonObjectReader.checkReadable(json);
             C command = reader.read(members.textOrNull("command"), members);
-            return new ParsedRequest.Request<>(requestId, command);
+            Long ifSequence = members.has(IF_SEQUENCE) ? members.number(IF_SEQUENCE) : null;
+            return new ParsedRequest.Request<>(requestId, command, ifSequence, members.flag(CommandResult.DRY_RUN));
         } catch (RejectedException e) {
             return new ParsedRequest.Refused<>(requestId, aboutSubjects(CommandResult.rejected(e), json));
         }

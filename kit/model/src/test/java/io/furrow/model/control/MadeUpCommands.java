@@ -13,9 +13,12 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 /** Generates commands of all kinds, with and without optional members. */
 public record MadeUpCommands(Random random) {
     public DomainCommand domain() {
-        return switch (random.nextInt(3)) {
+        return switch (random.nextInt(4)) {
             case 0 -> new DomainCommand.Create(name(), details());
             case 1 -> new DomainCommand.Change(name(), details());
+            case 2 ->
+                new DomainCommand.Patch(
+                        name(), JsonNodeFactory.instance.objectNode().put("name", maybe("N")));
             default -> new DomainCommand.Delete(name(), random.nextBoolean());
         };
     }

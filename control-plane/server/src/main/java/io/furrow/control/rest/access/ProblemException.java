@@ -1,12 +1,9 @@
 package io.furrow.control.rest.access;
 
-import com.fasterxml.jackson.databind.node.ObjectNode;
-import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.ngsi.NgsiJson;
 
 /** Thrown to answer a request with an error; the message is its {@code reason}. */
 public final class ProblemException extends RuntimeException {
@@ -39,6 +36,7 @@ public final class ProblemException extends RuntimeException {
             case "not-json", "not-a-request", "unknown-command", "missing-member", "wrong-member", "illegal-name" ->
                 400;
             case "no-credentials" -> 404;
+            case "outdated" -> 412;
             case "too-large" -> 413;
             case "request-id-reused" -> 422;
             case "internal-error" -> 500;
@@ -78,22 +76,17 @@ public final class ProblemException extends RuntimeException {
     }
 
     public Response response() {
-        return response(status, CommandResult.ofError(error, getMessage()).json());
+        return response(status, CommandResult.ofError(error, getMessage()));
     }
 
-    /**
-     * Returns the response for a rejection of a manager.
-     *
-     * @param error its code
-     * @param json with {@code error} and {@code reason}
-     */
-    public static Response response(String error, ObjectNode json) {
-        return response(statusOf(error), json);
+    /** Returns the response for a rejection of a manager. @param error its code */
+    public static Response response(String error, CommandResult rejection) {
+        return response(statusOf(error), rejection);
     }
 
-    private static Response response(int status, ObjectNode json) {
+    private static Response response(int status, CommandResult rejection) {
         Response.ResponseBuilder answer =
-                Response.status(status).type(MediaType.APPLICATION_JSON_TYPE).entity(NgsiJson.write(json));
+                Response.status(status).type(ProblemDetails.TYPE).entity(ProblemDetails.of(status, rejection));
         if (status == 503) {
             answer.header("Retry-After", RETRY_AFTER_SECONDS);
         } else if (status == 401) {

@@ -1,0 +1,45 @@
+package io.furrow.control.rest;
+
+import java.util.List;
+import java.util.function.Predicate;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.control.rest.access.ProblemException;
+import io.furrow.model.control.ErrorCode;
+
+/** Checks values of query parameters that are flags, whole numbers or one of several words. */
+final class ParameterValues {
+    private ParameterValues() {}
+
+    /** @param schema of the parameter, as in the description of the API */
+    static void check(String name, List<String> values, JsonNode schema) {
+        String type = schema.path("type").asText();
+        if (type.equals("array")) {
+            values.forEach(value -> check(name, List.of(value), schema.get("items")));
+        }
+        if (type.equals("boolean")) {
+            check(name, values, "true or false", value -> value.equals("true") || value.equals("false"));
+        } else if (type.equals("integer")) {
+            long min = schema.path("minimum").asLong(0);
+            long max = schema.path("maximum").asLong(Long.MAX_VALUE);
+            String range = schema.has("maximum") ? "from %d to %d".formatted(min, max) : "from %d".formatted(min);
+            check(name, values, "a whole number " + range, value -> isWithin(value, min, max));
+        } else if (schema.has("enum")) {
+            List<String> words =
+                    schema.get("enum").valueStream().map(JsonNode::asText).toList();
+            check(name, values, "one of " + String.join(", ", words), words::contains);
+        }
+    }
+
+    private static boolean isWithin(String value, long min, long max) {
+        return value.matches("0|[1-9][0-9]{0,17}") && Long.parseLong(value) >= min && Long.parseLong(value) <= max;
+    }
+
+    private static void check(String name, List<String> values, String what, Predicate<String> isValid) {
+        ProblemException.rejectIf(
+                values.size() != 1 || !isValid.test(values.get(0)),
+                ErrorCode.WRONG_MEMBER,
+                "'%s' must be %s, and given once".formatted(name, what));
+    }
+}
