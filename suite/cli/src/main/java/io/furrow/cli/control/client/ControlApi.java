@@ -1,20 +1,18 @@
 package io.furrow.cli.control.client;
 
+import java.io.BufferedReader;
 import java.io.IOException;
+import java.io.InputStream;
+import java.io.InputStreamReader;
+import java.io.OutputStream;
+import java.net.HttpURLConnection;
 import java.net.URI;
 import java.net.URLEncoder;
-import java.net.http.HttpClient;
-import java.net.http.HttpRequest;
-import java.net.http.HttpRequest.BodyPublisher;
-import java.net.http.HttpRequest.BodyPublishers;
-import java.net.http.HttpResponse;
-import java.net.http.HttpResponse.BodyHandler;
-import java.net.http.HttpResponse.BodyHandlers;
-import java.nio.charset.StandardCharsets;
-import java.time.Duration;
+import java.util.Objects;
 import java.util.UUID;
 import java.util.concurrent.TimeUnit;
 import java.util.stream.Stream;
+import javax.net.ssl.HttpsURLConnection;
 import javax.net.ssl.SSLContext;
 import javax.net.ssl.SSLException;
 
@@ -25,18 +23,28 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
+
 /** Client of the REST API of a control plane. A request that it cannot take yet is retried under the same idempotency key. */
 public final class ControlApi {
-    private static final Duration TIMEOUT = Duration.ofSeconds(40);
+    private static final int CONNECT_TIMEOUT_MS = 5_000;
+    private static final int READ_TIMEOUT_MS = 40_000;
     private static final int ATTEMPTS = 10;
     private static final int NOT_READY = 503;
     private static final int NO_TOKEN = 401;
     private static final int UNKNOWN = 404;
     private static final int AFTER_SECONDS = 1;
 
-    private final HttpClient http;
+    static {
+        // A command without an answer is repeated by its idempotency key only.
+        System.setProperty("sun.net.http.retryPost", "false");
+    }
+
     private final URI base;
     private final String token;
+    private final SSLContext trust;
+
+    private record Answer(int status, String retryAfter, byte[] body) {}
 
     /**
      * @param base as in {@code http://127.0.0.1:8085}
@@ -50,15 +58,12 @@ public final class ControlApi {
     ControlApi(URI base, String token, SSLContext trust) {
         this.base = base;
         this.token = token;
-        HttpClient.Builder client =
-                HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).connectTimeout(Duration.ofSeconds(5));
-        SSLContext context = trust == null && "http".equals(base.getScheme()) ? NoTls.CONTEXT : trust;
-        this.http = (context == null ? client : client.sslContext(context)).build();
+        this.trust = trust;
     }
 
     /** Escapes a name as a part of a path. */
     public static String part(String name) {
-        return "/" + URLEncoder.encode(name, StandardCharsets.UTF_8).replace("+", "%20");
+        return "/" + URLEncoder.encode(name, UTF_8).replace("+", "%20");
     }
 
     /** @throws ControlPlaneException if it is unavailable or refuses */
@@ -71,7 +76,7 @@ public final class ControlApi {
      * @throws ControlPlaneException if it is unavailable or refuses
      */
     public JsonNode send(String method, String path, JsonNode body) {
-        return read(answer(request(method, path, body).build()));
+        return read(answer(method, path, body, "application/json"));
     }
 
     /**
@@ -80,30 +85,29 @@ public final class ControlApi {
      * @throws ControlPlaneException if it is unavailable or refuses
      */
     public String text(String path, String type) {
-        HttpRequest request =
-                request("GET", path, null).setHeader("Accept", type).build();
-        return new String(answer(request), StandardCharsets.UTF_8);
+        return new String(answer("GET", path, null, type), UTF_8);
     }
 
-    private byte[] answer(HttpRequest request) {
-        HttpResponse<byte[]> answer = exchange(request, BodyHandlers.ofByteArray());
-        for (int attempt = 1; answer.statusCode() == NOT_READY && attempt < ATTEMPTS; attempt++) {
-            sleep(answer.headers().firstValue("Retry-After").orElse(""));
-            answer = exchange(request, BodyHandlers.ofByteArray());
+    private byte[] answer(String method, String path, JsonNode body, String accept) {
+        String key = method.equals("GET") ? null : UUID.randomUUID().toString();
+        Answer answer = exchange(method, path, body, accept, key);
+        for (int attempt = 1; answer.status() == NOT_READY && attempt < ATTEMPTS; attempt++) {
+            sleep(answer.retryAfter());
+            answer = exchange(method, path, body, accept, key);
         }
-        if (answer.statusCode() / 100 == 2) {
+        if (answer.status() / 100 == 2) {
             return answer.body();
         }
         JsonNode json = read(answer.body());
-        String reason = json.path("reason").asText("it answers " + answer.statusCode());
-        if (answer.statusCode() == NO_TOKEN) {
+        String reason = json.path("reason").asText("it answers " + answer.status());
+        if (answer.status() == NO_TOKEN) {
             throw new ControlPlaneException(
                     "The control plane at %s asks who you are: %s. Name a file with your token with --token-file, or set FURROW_TOKEN."
                             .formatted(base, reason));
         }
         String code = json.path("error").asText();
         throw new ControlPlaneException(
-                code.isEmpty() ? reason : reason + " (" + code + ")", answer.statusCode() == UNKNOWN);
+                code.isEmpty() ? reason : reason + " (" + code + ")", answer.status() == UNKNOWN);
     }
 
     /**
@@ -112,57 +116,76 @@ public final class ControlApi {
      * @throws ControlPlaneException if it is unavailable or refuses
      */
     public Stream<String> events(String path) {
-        HttpResponse<Stream<String>> answer = exchange(
-                request("GET", path, null)
-                        .setHeader("Accept", "text/event-stream")
-                        .build(),
-                BodyHandlers.ofLines());
-        if (answer.statusCode() / 100 != 2) {
-            answer.body().close();
-            throw new ControlPlaneException(
-                    "The control plane at %s answers %d to %s".formatted(base, answer.statusCode(), path),
-                    answer.statusCode() == UNKNOWN);
-        }
-        return answer.body();
-    }
-
-    private HttpRequest.Builder request(String method, String path, JsonNode body) {
-        BodyPublisher publisher =
-                body == null ? BodyPublishers.noBody() : BodyPublishers.ofByteArray(NgsiJson.write(body));
-        HttpRequest.Builder request = HttpRequest.newBuilder(
-                        URI.create(base.toString().replaceAll("/+$", "") + path))
-                .timeout(TIMEOUT)
-                .header("Accept", "application/json")
-                .method(method, publisher);
-        if (!method.equals("GET")) {
-            request.header("Idempotency-Key", UUID.randomUUID().toString());
-        }
-        if (body != null) {
-            request.header("Content-Type", "application/json");
-        }
-        if (token != null) {
-            request.header("Authorization", "Bearer " + token);
-        }
-        return request;
-    }
-
-    private <T> HttpResponse<T> exchange(HttpRequest request, BodyHandler<T> body) {
         try {
-            return http.send(request, body);
-        } catch (SSLException e) {
-            throw new ControlPlaneException(
-                    "The control plane at %s cannot be trusted (%s). Name the certificate of its CA with --api-ca."
-                            .formatted(base, FailureText.of(e)),
-                    e);
+            HttpURLConnection connection = open("GET", path, "text/event-stream");
+            int status = connection.getResponseCode();
+            if (status / 100 != 2) {
+                connection.disconnect();
+                throw new ControlPlaneException(
+                        "The control plane at %s answers %d to %s".formatted(base, status, path), status == UNKNOWN);
+            }
+            return new BufferedReader(new InputStreamReader(connection.getInputStream(), UTF_8))
+                    .lines()
+                    .onClose(connection::disconnect);
         } catch (IOException e) {
-            throw new ControlPlaneException(
-                    "No control plane answers at %s. Is it running? ./furrow up starts one; --api names another."
-                            .formatted(base),
-                    e);
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-            throw new ControlPlaneException("interrupted while waiting for " + base, e);
+            throw failure(e);
         }
+    }
+
+    private Answer exchange(String method, String path, JsonNode body, String accept, String key) {
+        try {
+            HttpURLConnection connection = open(method, path, accept);
+            if (key != null) {
+                connection.setRequestProperty("Idempotency-Key", key);
+            }
+            if (body != null) {
+                connection.setRequestProperty("Content-Type", "application/json");
+                connection.setDoOutput(true);
+                try (OutputStream out = connection.getOutputStream()) {
+                    out.write(NgsiJson.write(body));
+                }
+            }
+            int status = connection.getResponseCode();
+            try (InputStream answer = status < 400 ? connection.getInputStream() : connection.getErrorStream()) {
+                String retryAfter = Objects.requireNonNullElse(connection.getHeaderField("Retry-After"), "");
+                return new Answer(status, retryAfter, answer == null ? new byte[0] : answer.readAllBytes());
+            }
+        } catch (IOException e) {
+            throw failure(e);
+        }
+    }
+
+    /** Uses a client without threads of its own, for which the JVM would wait at the end, and without PATCH. */
+    private HttpURLConnection open(String method, String path, String accept) throws IOException {
+        URI uri = URI.create(base.toString().replaceAll("/+$", "") + path);
+        HttpURLConnection connection = (HttpURLConnection) uri.toURL().openConnection();
+        if (trust != null && connection instanceof HttpsURLConnection encrypted) {
+            encrypted.setSSLSocketFactory(trust.getSocketFactory());
+        }
+        connection.setConnectTimeout(CONNECT_TIMEOUT_MS);
+        connection.setReadTimeout(READ_TIMEOUT_MS);
+        connection.setInstanceFollowRedirects(false);
+        connection.setRequestMethod(method.equals("PATCH") ? "POST" : method);
+        if (method.equals("PATCH")) {
+            connection.setRequestProperty("X-HTTP-Method-Override", method);
+        }
+        connection.setRequestProperty("Accept", accept);
+        if (token != null) {
+            connection.setRequestProperty("Authorization", "Bearer " + token);
+        }
+        return connection;
+    }
+
+    private ControlPlaneException failure(IOException e) {
+        return e instanceof SSLException
+                ? new ControlPlaneException(
+                        "The control plane at %s cannot be trusted (%s). Name the certificate of its CA with --api-ca."
+                                .formatted(base, FailureText.of(e)),
+                        e)
+                : new ControlPlaneException(
+                        "No control plane answers at %s. Is it running? ./furrow up starts one; --api names another."
+                                .formatted(base),
+                        e);
     }
 
     private static void sleep(String seconds) {
