@@ -147,6 +147,7 @@ class ReplayOnKafkaIT {
                 .toList();
     }
 
+    @Tag("full")
     @Test
     void playsFilesAndTopicsAndReportsMissingOnes() throws Exception {
         Path folder = Files.createDirectories(directory.resolve("recordings"));

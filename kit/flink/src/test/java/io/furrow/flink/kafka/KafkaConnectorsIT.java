@@ -19,6 +19,7 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -92,6 +93,7 @@ class KafkaConnectorsIT {
         }
     }
 
+    @Tag("full")
     @Test
     void useTransactionalIdsAgain() throws Exception {
         int rounds = 8;
@@ -117,6 +119,7 @@ class KafkaConnectorsIT {
         }
     }
 
+    @Tag("full")
     @Test
     void abortWhatAnAttemptBeforeLeftOpen() throws Exception {
         String left = "furrow-again:topics:-0-0";
