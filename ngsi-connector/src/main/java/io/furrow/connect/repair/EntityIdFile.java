@@ -77,6 +77,8 @@ final class EntityIdFile implements AutoCloseable {
     private final Path path;
     private BufferedWriter out;
     private long chars;
+    private volatile long flushed;
+    private long synced;
     /** Changes that arrive while the file is compacted; else null. */
     private List<Change> meanwhile;
 
@@ -126,11 +128,16 @@ final class EntityIdFile implements AutoCloseable {
 
     void flush() throws IOException {
         out.flush();
+        flushed = chars;
     }
 
     /** Makes the flushed lines durable. May run while changes are appended. */
     void sync() throws IOException {
-        DurableFiles.sync(path);
+        long now = flushed;
+        if (now != synced) {
+            DurableFiles.sync(path);
+            synced = now;
+        }
     }
 
     /** Whether the file is several times larger than necessary. */
@@ -168,6 +175,8 @@ final class EntityIdFile implements AutoCloseable {
         out = next;
         meanwhile = null;
         chars = Files.size(path);
+        flushed = chars;
+        synced = chars;
         if (before != null) {
             before.close();
         }
