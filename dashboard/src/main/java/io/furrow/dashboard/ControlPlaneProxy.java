@@ -9,6 +9,7 @@ import org.eclipse.jetty.http.HttpHeader;
 import org.eclipse.jetty.http.HttpHeaderValue;
 import org.eclipse.jetty.http.HttpMethod;
 import org.eclipse.jetty.http.HttpURI;
+import org.eclipse.jetty.io.ByteBufferPool;
 import org.eclipse.jetty.proxy.ProxyHandler;
 import org.eclipse.jetty.server.Request;
 import org.eclipse.jetty.server.Response;
@@ -42,6 +43,8 @@ final class ControlPlaneProxy extends ProxyHandler.Reverse {
     protected HttpClient newHttpClient() {
         HttpClient client = super.newHttpClient();
         client.setIdleTimeout(IDLE_CONNECTION.toMillis());
+        // From a pool, a response may lose the content that came with its head while other connections are closed.
+        client.setByteBufferPool(ByteBufferPool.NON_POOLING);
         return client;
     }
 
