@@ -69,7 +69,9 @@ class GeoPackageFieldsTest {
     void rejectsTooManyBytes() throws Exception {
         GeoPackageFields.Limits limits = new GeoPackageFields.Limits(Duration.ofHours(1), Integer.MAX_VALUE, 1 << 20);
         for (String large : new String[] {
-            "zeroblob(1000) AS geom FROM n LIMIT 3000", "NULL AS geom, hex(zeroblob(500)) FROM n LIMIT 3000"
+            "zeroblob(1000) AS geom FROM n LIMIT 3000",
+            "NULL AS geom, hex(zeroblob(500)) FROM n LIMIT 3000",
+            "NULL AS geom, i AS a, i AS b, i AS c, i AS d FROM n LIMIT 3000"
         }) {
             addView(NUMBERS + large);
             assertThatThrownBy(() -> GeoPackageFields.read(file, "v", limits))

@@ -6,6 +6,12 @@ import java.nio.channels.FileChannel;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardOpenOption;
+import java.nio.file.StandardWatchEventKinds;
+import java.nio.file.WatchKey;
+import java.nio.file.WatchService;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -45,6 +51,25 @@ class TemporaryFolderTest {
         folder.close();
 
         assertThat(parent.resolve("new")).isEmptyDirectory();
+    }
+
+    /** Without the lock, nobody would delete the rest after a kill. */
+    @Test
+    void deletesTheLockLast() throws Exception {
+        TemporaryFolder folder = TemporaryFolder.in(parent);
+        Files.createFile(folder.path().resolve("events.ndjson"));
+        List<String> deleted = new ArrayList<>();
+
+        try (WatchService changes = parent.getFileSystem().newWatchService()) {
+            WatchKey key = folder.path().register(changes, StandardWatchEventKinds.ENTRY_DELETE);
+            folder.close();
+            do {
+                assertThat(changes.poll(10, TimeUnit.SECONDS)).isSameAs(key);
+                key.pollEvents().forEach(event -> deleted.add(event.context().toString()));
+            } while (key.reset());
+        }
+
+        assertThat(deleted).containsExactly("events.ndjson", "lock");
     }
 
     /** In another process: this one would lose the lock. */
