@@ -19,7 +19,7 @@ const MAX_PAGES = 5;
 async function page(path) {
   const response = await api.fetch(path);
   const next = /<([^>]+)>; ?rel="?next"?/.exec(response.headers.get('Link') ?? '');
-  return { entries: await response.json(), older: next?.[1] ?? null };
+  return { entries: await response.json(), older: next && path.replace(/\?.*/, next[1]) };
 }
 
 /** A table of commands that is refreshed and loads older ones on request. @param {{mission: string=, device: string=, limit: number=}} filter */

@@ -94,7 +94,8 @@ class ControlTopologyTest {
 
     @Test
     void mergesAPatchIntoADomain() throws Exception {
-        String area = "{'type':'Polygon','coordinates':[[[0,0],[1,0],[1,1],[0,0]]],'note':'wet','by':'ann'}";
+        String area =
+                "{'type':'Polygon','coordinates':[[[0,0],[1,0],[1,1],[0,0]]],'bbox':[0,0,1,1],'note':'wet','by':'ann'}";
         farm.request(Topics.DOMAIN_MANAGER, "'domain':'north','name':'N','description':'d','area':" + area);
         farm.request(
                 Topics.DOMAIN_MANAGER,
@@ -105,7 +106,14 @@ class ControlTopologyTest {
         assertThat(patched.path("description").asText()).isEqualTo("d");
         assertThat(patched.path("fields")).hasSize(1);
         assertThat(patched.path("area").toString())
-                .isEqualTo("{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,0],[1,1],[0,0]]],\"by\":\"bob\"}");
+                .isEqualTo(
+                        "{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,0],[1,1],[0,0]]],\"bbox\":[0,0,1,1],\"by\":\"bob\"}");
+        farm.request(
+                Topics.DOMAIN_MANAGER,
+                "'command':'patch','domain':'north','area':{'coordinates':[[[0,0],[2,0],[2,2],[0,0]]]}");
+        assertThat(NgsiJson.read(farm.only(Topics.DOMAINS).value()).path("area").toString())
+                .as("without the bbox of the old coordinates")
+                .isEqualTo("{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[2,0],[2,2],[0,0]]],\"by\":\"bob\"}");
         farm.read(Topics.DOMAIN_MANAGER);
         farm.request(Topics.DOMAIN_MANAGER, "'command':'patch','domain':'north','area':{'type':null}");
         assertThat(error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("wrong-member");
@@ -135,6 +143,20 @@ class ControlTopologyTest {
                 .asLong();
         farm.read(Topics.MISSION_MANAGER);
         farm.request(Topics.MISSION_MANAGER, "'command':'start','mission':'m','ifSequence':" + (ofMission - 1));
+        assertThat(error(farm.only(Topics.MISSION_MANAGER))).isEqualTo("outdated");
+        farm.read(Topics.MISSIONS_STATUS);
+        String add = "'command':'add-devices','mission':'m','devices':[{'type':'Thermometer','count':3}],'ifSequence':";
+        farm.request(Topics.MISSION_MANAGER, add + ofMission);
+        assertThat(response(farm.only(Topics.MISSION_MANAGER)).status()).isEqualTo("changed");
+        assertThat(NgsiJson.read(farm.only(Topics.MISSIONS_STATUS).value())
+                        .path("sequence")
+                        .asLong())
+                .as("sequence of the mission and its status")
+                .isEqualTo(NgsiJson.read(farm.only(Topics.MISSIONS).value())
+                        .path("sequence")
+                        .asLong())
+                .isGreaterThan(ofMission);
+        farm.request(Topics.MISSION_MANAGER, "'command':'start','mission':'m','ifSequence':" + ofMission);
         assertThat(error(farm.only(Topics.MISSION_MANAGER))).isEqualTo("outdated");
     }
 

@@ -20,6 +20,9 @@ import java.util.stream.Stream;
 public final class AccessRule {
     private static final Set<String> OTHER_SITES = Set.of("cross-site", "same-site");
     private static final String PREFLIGHT_SECONDS = "600";
+    /** Headers of answers that pages of other origins may read. */
+    private static final String EXPOSED = "ETag, Link, Location, Retry-After";
+
     private static final int MAX_NAMES = 64;
 
     private final Set<String> hosts;
@@ -151,6 +154,7 @@ public final class AccessRule {
     private static Decision withCorsHeaders(HttpCall call, String origin) {
         Map<String, String> headers = new HashMap<>(Map.of("Access-Control-Allow-Origin", origin, "Vary", "Origin"));
         if (!call.isPreflight()) {
+            headers.put("Access-Control-Expose-Headers", EXPOSED);
             return new Decision.Granted(Map.copyOf(headers));
         }
         call.header("Access-Control-Request-Method")

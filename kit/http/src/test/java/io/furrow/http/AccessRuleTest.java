@@ -93,8 +93,10 @@ class AccessRuleTest {
     @Test
     void allowsAnAllowedPageToReadTheAnswer() {
         assertThat(decide("POST /api/domains", "Host: localhost; Origin: https://map.example.org"))
-                .isEqualTo(new Decision.Granted(
-                        Map.of("Access-Control-Allow-Origin", "https://map.example.org", "Vary", "Origin")));
+                .isEqualTo(new Decision.Granted(Map.of(
+                        "Access-Control-Allow-Origin", "https://map.example.org",
+                        "Vary", "Origin",
+                        "Access-Control-Expose-Headers", "ETag, Link, Location, Retry-After")));
     }
 
     @Test

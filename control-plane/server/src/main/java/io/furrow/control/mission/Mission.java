@@ -44,6 +44,11 @@ public record Mission(
                 mission, domain, template, newParts, newDeviceCount, running, start, duration, created, sequence);
     }
 
+    Mission at(long newSequence) {
+        return new Mission(
+                mission, domain, template, parts, deviceCount, running, start, duration, created, newSequence);
+    }
+
     Mission desired(Long newStart, Long newDuration, long newSequence) {
         return new Mission(
                 mission, domain, template, parts, deviceCount, true, newStart, newDuration, created, newSequence);

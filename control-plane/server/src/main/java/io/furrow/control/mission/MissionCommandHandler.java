@@ -116,8 +116,9 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
     private CommandResult addDevices(MissionCommand.AddDevices add) throws RejectedException {
         MissionStatus status = existing(add.mission());
         requireIdle(status, "; stop it before devices are added");
-        Mission mission = lists.append(tables.missions().get(add.mission()), add.devices());
-        store(mission);
+        Mission mission = lists.append(tables.missions().get(add.mission()), add.devices())
+                .at(sequence.next());
+        store(mission, status.listed(mission));
         return CommandResult.of("changed").with("mission", mission.mission()).with("devices", mission.deviceCount());
     }
 

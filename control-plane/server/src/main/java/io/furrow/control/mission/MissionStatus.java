@@ -60,6 +60,12 @@ public record MissionStatus(
                 null);
     }
 
+    /** Its list of devices has changed. */
+    MissionStatus listed(Mission changed) {
+        return new MissionStatus(
+                mission, domain, state, since, changed.sequence(), devices, confirmed, missing, reason, due, ends);
+    }
+
     MissionStatus scheduled(Mission mission, long now) {
         return next(MissionState.CREATED, now, mission.sequence())
                 .progress(0, 0)

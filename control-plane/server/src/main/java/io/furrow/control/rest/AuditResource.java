@@ -81,12 +81,12 @@ public final class AuditResource {
         return new AuditHistory.Page(found, cached.isWhole() ? -1 : next);
     }
 
-    /** Returns a link without a host, because of proxies. */
+    /** Returns a link relative to the request, because of proxies. */
     private static Link next(UriInfo uri, long before) {
         String query = uri.getRequestUriBuilder()
                 .replaceQueryParam("before", before)
                 .build()
                 .getRawQuery();
-        return Link.fromUri("/api/audit?" + query).rel("next").build();
+        return Link.fromUri("?" + query).rel("next").build();
     }
 }

@@ -152,6 +152,7 @@ public final class FieldsResource {
     public Response change(@Context ContainerRequestContext request, @PathParam(FIELD) String id, InputStream body)
             throws IOException {
         ObjectNode members = JsonBodyReader.read(body);
+        members.remove(FIELD); // that of the path, see UnknownNameFilter
         ObjectNode about = NgsiJson.object().put(FIELD, id);
         if (members.size() == 1 && members.hasNonNull(END)) {
             return edit(RequestContext.of(request), "end-field", about, () -> {

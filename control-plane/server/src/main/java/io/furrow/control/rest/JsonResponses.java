@@ -50,7 +50,7 @@ final class JsonResponses {
     /**
      * Returns the answer of a manager with the location of the created resource, unless it is of a dry run.
      *
-     * @param path of the collection
+     * @param path of the collection, relative to the request because of proxies
      * @param member with the name
      */
     static Response created(CommandResult answer, String path, String member) {

@@ -33,13 +33,13 @@ record Manager(CommandClient client, String topic) {
     /** Returns the sequence of {@code If-Match}, one entity tag as {@link JsonResponses#one} gives it. */
     private static OptionalLong ifSequence(ContainerRequestContext request) {
         String tag = request.getHeaderString(HttpHeaders.IF_MATCH);
-        if (tag == null || tag.equals("*")) {
+        if (tag == null) {
             return OptionalLong.empty();
         }
         Matcher matcher = ENTITY_TAG.matcher(tag);
         if (!matcher.matches()) {
             throw new ProblemException(
-                    400, "wrong-header", "If-Match must be * or one ETag of an answer, for instance \"17\"");
+                    400, "wrong-header", "If-Match must be one ETag of an answer, for instance \"17\"");
         }
         return OptionalLong.of(Long.parseLong(matcher.group(1)));
     }

@@ -2,6 +2,7 @@ package io.furrow.control.rest;
 
 import java.io.IOException;
 import java.io.InputStream;
+import java.net.URI;
 import java.nio.charset.StandardCharsets;
 import java.time.DateTimeException;
 import java.time.Instant;
@@ -22,7 +23,6 @@ import jakarta.ws.rs.container.ContainerRequestContext;
 import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
-import jakarta.ws.rs.core.UriBuilder;
 
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.rest.access.ProblemException;
@@ -79,9 +79,7 @@ public final class MarkersResource {
         return store.request(markers -> added(markers, marker)).handle((added, failure) -> {
             audit(change, "created", failure);
             return JsonResponses.json(201, added.toJson())
-                    .location(UriBuilder.fromPath("/api/missions")
-                            .segment(mission, "markers", id)
-                            .build())
+                    .location(URI.create("markers/" + id))
                     .build();
         });
     }

@@ -8,7 +8,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.control.ErrorCode;
 
-/** Checks values of query parameters that are flags, whole numbers or one of several words. */
+/** Checks values of query parameters: flags, whole numbers, one of several words, or given once. */
 final class ParameterValues {
     private ParameterValues() {}
 
@@ -17,8 +17,7 @@ final class ParameterValues {
         String type = schema.path("type").asText();
         if (type.equals("array")) {
             values.forEach(value -> check(name, List.of(value), schema.get("items")));
-        }
-        if (type.equals("boolean")) {
+        } else if (type.equals("boolean")) {
             check(name, values, "true or false", value -> value.equals("true") || value.equals("false"));
         } else if (type.equals("integer")) {
             long min = schema.path("minimum").asLong(0);
@@ -29,6 +28,8 @@ final class ParameterValues {
             List<String> words =
                     schema.get("enum").valueStream().map(JsonNode::asText).toList();
             check(name, values, "one of " + String.join(", ", words), words::contains);
+        } else {
+            check(name, values, "a text", value -> true);
         }
     }
 

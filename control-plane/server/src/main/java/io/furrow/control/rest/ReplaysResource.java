@@ -55,8 +55,8 @@ public final class ReplaysResource {
             throws IOException {
         return manager.request(request, "start", JsonBodyReader.read(body))
                 .thenApply(answer -> answer.json().has(GROUP)
-                        ? JsonResponses.created(answer, "/api/replays/groups", GROUP)
-                        : JsonResponses.created(answer, "/api/replays", REPLAY));
+                        ? JsonResponses.created(answer, "replays/groups", GROUP)
+                        : JsonResponses.created(answer, "replays", REPLAY));
     }
 
     /**

@@ -23,7 +23,6 @@ import org.eclipse.jetty.util.thread.QueuedThreadPool;
 import org.glassfish.jersey.internal.inject.AbstractBinder;
 import org.glassfish.jersey.server.ResourceConfig;
 import org.glassfish.jersey.server.ServerProperties;
-import org.glassfish.jersey.server.filter.HttpMethodOverrideFilter;
 import org.glassfish.jersey.servlet.ServletContainer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -166,7 +165,7 @@ public final class RestApi implements AutoCloseable {
         config.register(new Instances(resources));
         config.register(metrics);
         config.register(new VersionFilter());
-        config.register(new HttpMethodOverrideFilter(HttpMethodOverrideFilter.Source.HEADER));
+        config.register(new PatchOverrideFilter());
         config.register(new UnknownNameFilter(description));
         config.register(new PageFilter(description));
         config.register(new JsonBodyReader.Drain());

@@ -18,7 +18,7 @@ import io.furrow.control.rest.access.ProblemException;
 /** Holds back an answer until the resource has a state, without a thread. */
 final class StateWait {
     private static final long POLL_MS = 250;
-    private static final int MAX_WAITING = 32;
+    private static final int MAX_WAITING = 256;
 
     private final Executor executor;
     private final AtomicInteger waiting = new AtomicInteger();

@@ -39,15 +39,16 @@ public final class ApiClient {
 
     /** @param header empty, or name and value */
     public HttpResponse<byte[]> send(String method, String path, String body, String... header) throws Exception {
+        return send(method, path, body, true, header);
+    }
+
+    HttpResponse<byte[]> send(String method, String path, String body, boolean described, String... header)
+            throws Exception {
         HttpRequest.Builder request = request(method, path, body);
         if (header.length > 0) {
             request.setHeader(header[0], header[1]);
         }
-        return send(request, true);
-    }
-
-    HttpResponse<byte[]> send(String method, String path, String body, boolean described) throws Exception {
-        return send(request(method, path, body), described);
+        return send(request, described);
     }
 
     public int status(String method, String path, String body, String... header) throws Exception {

@@ -32,7 +32,7 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class AuditIT {
     private static final int ENTRIES = AuditHistory.MAX_READ + 3 * StateView.AUDITED;
-    private static final Pattern NEXT = Pattern.compile("<(/[^>]+)>; ?rel=\"next\"");
+    private static final Pattern NEXT = Pattern.compile("<(\\?[^>]+)>; ?rel=\"next\"");
 
     @AutoClose
     private RunningApi running;
@@ -66,7 +66,7 @@ class AuditIT {
             times.add(each.path("time").asInt());
         }
         Matcher next = NEXT.matcher(answer.headers().firstValue("Link").orElse(""));
-        return new Page(times, next.matches() ? next.group(1) : null);
+        return new Page(times, next.matches() ? "/api/audit" + next.group(1) : null);
     }
 
     @Test

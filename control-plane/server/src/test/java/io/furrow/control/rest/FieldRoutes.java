@@ -57,7 +57,7 @@ interface FieldRoutes extends RestApiRoutes {
                         .asText())
                 .contains("'name-property' nosuch: no feature of the file has this attribute");
 
-        JsonNode renamed = client().ask("PATCH", "/api/fields/a", "{\"name\":\"Hill\"}");
+        JsonNode renamed = client().ask("PATCH", "/api/fields/a", "{\"field\":\"a\",\"name\":\"Hill\"}");
         assertThat(renamed.path("status").asText() + " " + renamed.path("name").asText())
                 .isEqualTo("changed Hill");
         assertThat(running()

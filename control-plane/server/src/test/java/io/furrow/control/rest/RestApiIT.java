@@ -65,7 +65,7 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
     void handlesTheLifeCycleOfADomain() throws Exception {
         HttpResponse<byte[]> created = client.send("POST", "/api/domains", "{\"domain\":\"north\",\"name\":\"North\"}");
         assertThat(created.statusCode()).isEqualTo(201);
-        assertThat(created.headers().firstValue("Location")).contains("/api/domains/north");
+        assertThat(created.headers().firstValue("Location")).contains("domains/north");
         assertThat(running.get("/api/domains/north").path("name").asText()).isEqualTo("North");
         assertThat(client.status("PATCH", "/api/domains/north", "{\"description\":\"wet\"}"))
                 .isEqualTo(200);
@@ -100,11 +100,31 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
         assertThat(client.json(outdated).path("error").asText()).isEqualTo("outdated");
         assertThat(client.status("DELETE", path, null, "If-Match", read)).isEqualTo(412);
         assertThat(running.get(path).path("name").asText()).isEqualTo("a");
-        assertThat(client.status("PATCH", path, "{\"name\":\"b\"}", "If-Match", "W/x"))
-                .isEqualTo(400);
+        for (String wrong : new String[] {"W/x", "*"}) {
+            assertThat(client.status("PATCH", path, "{\"name\":\"b\"}", "If-Match", wrong))
+                    .isEqualTo(400);
+        }
         assertThat(client.status("POST", "/api/domains", "{\"domain\":\"x\"}", "If-Match", read))
                 .isEqualTo(400);
-        assertThat(client.status("DELETE", path, null, "If-Match", "*")).isEqualTo(200);
+    }
+
+    /** Any other method would not be that of which role and size of the body were checked. */
+    @Test
+    void takesAPostForAPatchOnly() throws Exception {
+        client.send("POST", "/api/domains", "{\"domain\":\"overridden\"}");
+        String path = "/api/domains/overridden";
+        String override = "X-HTTP-Method-Override";
+
+        assertThat(client.send("POST", path, "{\"name\":\"a\"}", false, override, "PATCH")
+                        .statusCode())
+                .isEqualTo(200);
+        assertThat(running.get(path).path("name").asText()).isEqualTo("a");
+        for (String method : new String[] {"GET", "DELETE", "POST", "patch"}) {
+            assertThat(client.send("POST", path, "{}", false, override, method).statusCode())
+                    .isEqualTo(400);
+        }
+        assertThat(client.status("DELETE", path, null, override, "PATCH")).isEqualTo(400);
+        assertThat(client.status("DELETE", path, null)).isEqualTo(200);
     }
 
     @Test

@@ -49,7 +49,7 @@ class StateWaitTest {
 
     @Test
     void letsAsManyWaitAsItsMaximum() {
-        for (int i = 0; i < 32; i++) {
+        for (int i = 0; i < 256; i++) {
             waits.one(() -> state("starting"), List.of("running"), 1, UnaryOperator.identity());
         }
 

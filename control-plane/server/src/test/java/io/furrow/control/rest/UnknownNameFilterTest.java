@@ -175,6 +175,13 @@ class UnknownNameFilterTest {
     }
 
     @Test
+    void rejectsARepeatedText() throws Exception {
+        ContainerResponse answer = answer("GET", "api/missions?domain=a&domain=b", null);
+
+        assertThat(new String((byte[]) answer.getEntity(), UTF_8)).contains("'domain' must be a text, and given once");
+    }
+
+    @Test
     void rejectsAnotherNameThanThatOfThePath() throws Exception {
         ContainerResponse answer = answer("PATCH", "api/domains/north", "{\"domain\":\"south\"}");
 

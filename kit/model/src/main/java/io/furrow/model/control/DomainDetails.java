@@ -35,13 +35,17 @@ public record DomainDetails(String name, String description, ObjectNode area, Li
     }
 
     /**
-     * Returns these details merged with a patch, as RFC 7396 defines it.
+     * Returns these details merged with a patch, as RFC 7396 defines it. The {@code bbox} of an area goes with its old
+     * coordinates.
      *
      * @param patch null removes a member
      * @throws RejectedException if the result is not valid
      */
     public DomainDetails patched(ObjectNode patch) throws RejectedException {
         ObjectNode merged = StateJson.tree(this);
+        if (patch.path("area").has("coordinates") && merged.get("area") instanceof ObjectNode old) {
+            old.remove("bbox");
+        }
         merge(merged, patch);
         return read(new JsonObjectReader(merged));
     }

@@ -15,6 +15,7 @@ import java.util.stream.Stream;
 import javax.net.ssl.HttpsURLConnection;
 import javax.net.ssl.SSLContext;
 import javax.net.ssl.SSLException;
+import javax.net.ssl.SSLSocketFactory;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.MissingNode;
@@ -42,7 +43,8 @@ public final class ControlApi {
 
     private final URI base;
     private final String token;
-    private final SSLContext trust;
+    /** One for all connections, for only those of the same factory are kept; null for that of Java. */
+    private final SSLSocketFactory sockets;
 
     private record Answer(int status, String retryAfter, byte[] body) {}
 
@@ -58,7 +60,7 @@ public final class ControlApi {
     ControlApi(URI base, String token, SSLContext trust) {
         this.base = base;
         this.token = token;
-        this.trust = trust;
+        this.sockets = trust == null ? null : trust.getSocketFactory();
     }
 
     /** Escapes a name as a part of a path. */
@@ -138,11 +140,11 @@ public final class ControlApi {
             if (key != null) {
                 connection.setRequestProperty("Idempotency-Key", key);
             }
-            if (body != null) {
+            if (body != null || method.equals("POST")) { // some proxies refuse a POST without a length
                 connection.setRequestProperty("Content-Type", "application/json");
                 connection.setDoOutput(true);
                 try (OutputStream out = connection.getOutputStream()) {
-                    out.write(NgsiJson.write(body));
+                    out.write(NgsiJson.write(body == null ? NgsiJson.object() : body));
                 }
             }
             int status = connection.getResponseCode();
@@ -159,8 +161,8 @@ public final class ControlApi {
     private HttpURLConnection open(String method, String path, String accept) throws IOException {
         URI uri = URI.create(base.toString().replaceAll("/+$", "") + path);
         HttpURLConnection connection = (HttpURLConnection) uri.toURL().openConnection();
-        if (trust != null && connection instanceof HttpsURLConnection encrypted) {
-            encrypted.setSSLSocketFactory(trust.getSocketFactory());
+        if (sockets != null && connection instanceof HttpsURLConnection encrypted) {
+            encrypted.setSSLSocketFactory(sockets);
         }
         connection.setConnectTimeout(CONNECT_TIMEOUT_MS);
         connection.setReadTimeout(READ_TIMEOUT_MS);
