@@ -72,6 +72,9 @@ class ControlPlaneProxyTest {
         try (socket) {
             BufferedReader reader = new BufferedReader(new InputStreamReader(socket.getInputStream(), US_ASCII));
             String request = reader.readLine();
+            if (request == null) {
+                return; // it was opened in vain
+            }
             int length = 0;
             for (String line = reader.readLine(); !line.isEmpty(); line = reader.readLine()) {
                 if (line.toLowerCase(Locale.ROOT).startsWith("content-length:")) {
