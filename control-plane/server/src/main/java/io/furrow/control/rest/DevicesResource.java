@@ -34,6 +34,7 @@ import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.DeviceName;
 import io.furrow.control.rest.view.DeviceView;
+import io.furrow.control.rest.view.ResourceKind;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
@@ -81,9 +82,9 @@ public final class DevicesResource {
     /** @param mission null for all @param domain null for all */
     @GET
     public Response list(@QueryParam("mission") String mission, @QueryParam("domain") String domain) {
-        return JsonResponses.ok(view.entries(Topics.DEVICES)
-                .filter(each -> is(each.value(), "mission", mission) && is(each.value(), "domain", domain))
-                .map(each -> described(each.key(), each.value())));
+        return JsonResponses.ok(ResourceKind.devices(view)
+                .all()
+                .filter(each -> is(each, "mission", mission) && is(each, "domain", domain)));
     }
 
     private static boolean is(ObjectNode device, String member, String desired) {
@@ -94,7 +95,7 @@ public final class DevicesResource {
     @Path("{device}")
     public Response get(@BeanParam DeviceName name) {
         String key = keyOf(name);
-        return JsonResponses.ok(devices.withConnection(key, withSettings(key, described(key, find(name)))));
+        return JsonResponses.ok(devices.withConnection(key, withSettings(key, devices.withStatus(key, find(name)))));
     }
 
     @GET
@@ -289,20 +290,6 @@ public final class DevicesResource {
 
     private String keyOf(DeviceName name) {
         return name.key(view.keys(Topics.DEVICES), dependencies.scope());
-    }
-
-    private ObjectNode described(String key, ObjectNode desired) {
-        view.find(Topics.DEVICES_STATUS, key).ifPresent(status -> desired.set("status", status));
-        view.find(Topics.DEVICES_HEALTH, key).ifPresent(health -> {
-            desired.set("health", health);
-            boolean isUp = !desired.path("simulated").asBoolean()
-                    && "running".equals(desired.path("wanted").textValue())
-                    && health.path("heard").asLong() >= desired.path("from").asLong();
-            if (isUp) { // a real device has no host that confirms it
-                desired.putObject("status").put("state", "running").set("sequence", desired.path("sequence"));
-            }
-        });
-        return desired;
     }
 
     /** Adds the settings of its group, which lists of devices omit because of their size. */

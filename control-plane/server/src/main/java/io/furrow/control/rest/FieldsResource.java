@@ -103,7 +103,7 @@ public final class FieldsResource {
         } finally {
             readers.release();
         }
-        return JsonResponses.ok(collection);
+        return Response.ok(collection, MediaType.APPLICATION_JSON_TYPE).build(); // see PageFilter
     }
 
     /**

@@ -28,6 +28,7 @@ import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.DeviceView;
+import io.furrow.control.rest.view.ResourceKind;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Role;
@@ -61,10 +62,10 @@ public final class MissionsResource {
     /** Lists missions without their devices. @param domain null for all */
     @GET
     public Response list(@QueryParam("domain") String domain) {
-        return JsonResponses.ok(view.all(Topics.MISSIONS)
+        return JsonResponses.ok(ResourceKind.missions(view)
+                .all()
                 .filter(mission ->
-                        domain == null || domain.equals(mission.path("domain").textValue()))
-                .map(mission -> withStatus(mission).without(List.of(DEVICES, "parts"))));
+                        domain == null || domain.equals(mission.path("domain").textValue())));
     }
 
     @POST

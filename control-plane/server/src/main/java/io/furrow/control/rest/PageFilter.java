@@ -5,6 +5,7 @@ import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.ws.rs.container.ContainerRequestContext;
 import jakarta.ws.rs.container.ContainerResponseContext;
 import jakarta.ws.rs.container.ContainerResponseFilter;
@@ -14,10 +15,14 @@ import jakarta.ws.rs.core.UriInfo;
 
 import io.furrow.model.ngsi.NgsiJson;
 
-/** Writes lists: the page of {@code limit} elements that a request asks for, with links to the pages beside it. */
+/**
+ * Writes lists, and the features of a GeoJSON collection: the page of {@code limit} elements that a request asks for,
+ * with links to the pages beside it.
+ */
 final class PageFilter implements ContainerResponseFilter {
     private static final String LIMIT = "limit";
     private static final String PAGE = "page";
+    private static final String FEATURES = "features";
 
     private final ApiDescription description;
 
@@ -29,6 +34,10 @@ final class PageFilter implements ContainerResponseFilter {
     public void filter(ContainerRequestContext request, ContainerResponseContext response) {
         if (response.getEntity() instanceof ArrayNode list) {
             response.setEntity(NgsiJson.write(page(request, response, list)));
+        } else if (response.getEntity() instanceof ObjectNode collection
+                && collection.get(FEATURES) instanceof ArrayNode list) {
+            collection.set(FEATURES, page(request, response, list));
+            response.setEntity(NgsiJson.write(collection));
         }
     }
 

@@ -2,23 +2,31 @@ package io.furrow.control.rest;
 
 import jakarta.ws.rs.GET;
 import jakarta.ws.rs.HEAD;
+import jakarta.ws.rs.HeaderParam;
 import jakarta.ws.rs.Path;
 import jakarta.ws.rs.PathParam;
 import jakarta.ws.rs.Produces;
 import jakarta.ws.rs.container.AsyncResponse;
 import jakarta.ws.rs.container.Suspended;
+import jakarta.ws.rs.core.HttpHeaders;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
-import io.furrow.control.rest.view.ReplayFeeds;
+import io.furrow.control.rest.view.ReplayStatusView;
+import io.furrow.control.rest.view.ResourceFeeds;
+import io.furrow.control.rest.view.ResourceKind;
 
 /** {@code /api/replays/events}: changes of replays as server-sent events. */
 @Path("/api/replays")
 @Produces({MediaType.SERVER_SENT_EVENTS, MediaType.APPLICATION_JSON})
 public final class ReplayFeedResource {
-    private final ReplayFeeds feeds;
+    private final ReplayStatusView replays;
+    private final ResourceKind kind;
+    private final ResourceFeeds feeds;
 
-    ReplayFeedResource(ReplayFeeds feeds) {
+    ReplayFeedResource(ReplayStatusView replays, ResourceFeeds feeds) {
+        this.replays = replays;
+        this.kind = ResourceKind.replays(replays.view());
         this.feeds = feeds;
     }
 
@@ -39,14 +47,18 @@ public final class ReplayFeedResource {
     /** Streams the changes of all replays. */
     @GET
     @Path("events")
-    public void all(@Suspended AsyncResponse response) {
-        feeds.open(null, response);
+    public void all(@HeaderParam(HttpHeaders.LAST_EVENT_ID_HEADER) String since, @Suspended AsyncResponse response) {
+        feeds.open(kind, null, since, response);
     }
 
     /** Streams the changes of a replay until it is over. */
     @GET
     @Path("{replay}/events")
-    public void one(@PathParam("replay") String replay, @Suspended AsyncResponse response) {
-        feeds.open(replay, response);
+    public void one(
+            @PathParam("replay") String replay,
+            @HeaderParam(HttpHeaders.LAST_EVENT_ID_HEADER) String since,
+            @Suspended AsyncResponse response) {
+        replays.get(replay);
+        feeds.open(kind, replay, since, response);
     }
 }

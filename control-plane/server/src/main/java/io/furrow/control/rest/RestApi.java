@@ -40,8 +40,8 @@ import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.EventTiles;
 import io.furrow.control.rest.view.MarkerStore;
 import io.furrow.control.rest.view.PendingReplies;
-import io.furrow.control.rest.view.ReplayFeeds;
 import io.furrow.control.rest.view.ReplayStatusView;
+import io.furrow.control.rest.view.ResourceFeeds;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.control.rest.view.StateViewUpdater;
 import io.furrow.http.AccessRule;
@@ -69,7 +69,7 @@ public final class RestApi implements AutoCloseable {
     private final StateViewUpdater reader;
     private final CommandClient managers;
     private final ReplayStatusView replays = new ReplayStatusView(view);
-    private final ReplayFeeds feeds = new ReplayFeeds(replays);
+    private final ResourceFeeds feeds = new ResourceFeeds();
     private final MarkerStore markers;
     /** Null if there is no MongoDB. */
     private final EventTiles events;
@@ -153,7 +153,8 @@ public final class RestApi implements AutoCloseable {
                 new TemplatesResource(view, managers),
                 new DevicesResource(view, managers, dependencies),
                 new ReplaysResource(replays, managers, waits),
-                new ReplayFeedResource(feeds),
+                new ReplayFeedResource(replays, feeds),
+                new EventsResource(view, feeds),
                 new RecordingsResource(view, events, threads),
                 new MarkersResource(markers, managers),
                 new AlarmsResource(view, managers),

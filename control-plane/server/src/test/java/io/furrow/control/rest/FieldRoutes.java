@@ -57,6 +57,20 @@ interface FieldRoutes extends RestApiRoutes {
                         .asText())
                 .contains("'name-property' nosuch: no feature of the file has this attribute");
 
+        client().send("POST", "/api/fields?domain=paged", file.replace("\"a\"", "\"p1\""));
+        client().send("POST", "/api/fields?domain=paged", file.replace("\"a\"", "\"p2\""));
+        var page = client().send("GET", "/api/fields?domain=paged&limit=1", null);
+        assertThat(client().json(page).path("type").asText()).isEqualTo("FeatureCollection");
+        assertThat(client().json(page).at("/features/0/id").asText()).isEqualTo("p1");
+        assertThat(page.headers().firstValue("Link")).contains("<?domain=paged&limit=1&page=2>; rel=\"next\"");
+        assertThat(running()
+                        .get("/api/fields?domain=paged&limit=1&page=2")
+                        .at("/features/0/id")
+                        .asText())
+                .isEqualTo("p2");
+        assertThat(client().status("DELETE", "/api/fields/p1", null)).isEqualTo(200);
+        assertThat(client().status("DELETE", "/api/fields/p2", null)).isEqualTo(200);
+
         JsonNode renamed = client().ask("PATCH", "/api/fields/a", "{\"field\":\"a\",\"name\":\"Hill\"}");
         assertThat(renamed.path("status").asText() + " " + renamed.path("name").asText())
                 .isEqualTo("changed Hill");

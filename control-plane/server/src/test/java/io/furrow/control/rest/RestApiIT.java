@@ -56,6 +56,10 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
     void describesTheCallerAndMissingResources() throws Exception {
         assertThat(client.status("GET", "/api/me", null)).isEqualTo(200);
         assertThat(client.status("HEAD", "/api/replays/events", null)).isEqualTo(200);
+        for (String kind : new String[] {"missions", "devices", "alarms", "replays"}) {
+            assertThat(client.status("HEAD", "/api/events/" + kind, null)).isEqualTo(200);
+            assertThat(client.status("GET", "/api/events/" + kind, null)).isEqualTo(200);
+        }
         assertThat(client.status("HEAD", "/api/replays/none.1/events", null))
                 .isEqualTo(200); // HEAD does not look the replay up
         running.rejects("GET", "/api/recordings/none/timeline", null, 501, "no-mongodb");

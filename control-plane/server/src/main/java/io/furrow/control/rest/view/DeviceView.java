@@ -57,6 +57,21 @@ public record DeviceView(StateView view) {
                 .orElse(desired);
     }
 
+    /** Adds status and health of a device. */
+    public ObjectNode withStatus(String key, ObjectNode desired) {
+        view.find(Topics.DEVICES_STATUS, key).ifPresent(status -> desired.set("status", status));
+        view.find(Topics.DEVICES_HEALTH, key).ifPresent(health -> {
+            desired.set("health", health);
+            boolean isUp = !desired.path("simulated").asBoolean()
+                    && "running".equals(desired.path("wanted").textValue())
+                    && health.path("heard").asLong() >= desired.path("from").asLong();
+            if (isUp) { // a real device has no host that confirms it
+                desired.putObject("status").put("state", "running").set("sequence", desired.path("sequence"));
+            }
+        });
+        return desired;
+    }
+
     /** Adds the connection of a device; lists of devices omit it. */
     public ObjectNode withConnection(String key, ObjectNode device) {
         ObjectNode connection = view.find(Topics.DEVICES_CONNECTION, key).orElseGet(NgsiJson::object);

@@ -15,17 +15,9 @@ public record ReplayStatusView(StateView view) {
     public static final String REPLAY = "replay";
     public static final String GROUP = "group";
 
-    boolean isComplete() {
-        return view.isComplete();
-    }
-
     /** Returns all replays in the order of their names. @throws ProblemException if the topics were not read yet */
     public Stream<ObjectNode> all() {
         return view.all(Topics.REPLAYS).map(this::withStatus);
-    }
-
-    List<String> names() {
-        return view.entries(Topics.REPLAYS).map(StateView.Entry::key).toList();
     }
 
     Optional<ObjectNode> find(String replay) {
@@ -55,7 +47,7 @@ public record ReplayStatusView(StateView view) {
         return view.find(Topics.REPLAYS_STATUS, replay);
     }
 
-    private ObjectNode withStatus(ObjectNode desired) {
+    ObjectNode withStatus(ObjectNode desired) {
         status(desired.path(REPLAY).asText()).ifPresent(status -> desired.set("status", status));
         return desired;
     }

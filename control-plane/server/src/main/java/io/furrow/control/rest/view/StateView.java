@@ -1,12 +1,16 @@
 package io.furrow.control.rest.view;
 
 import java.util.ArrayDeque;
+import java.util.Collection;
 import java.util.Deque;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
+import java.util.UUID;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.ConcurrentSkipListMap;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
 import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -39,19 +43,34 @@ public final class StateView {
     /** Number of cached entries of the audit topic. */
     public static final int AUDITED = 1000;
 
+    /** Number of changes from which a client can continue. */
+    private static final int REMEMBERED = 10_000;
+
+    private static final Pattern ID = Pattern.compile("([0-9a-f]{8})-([0-9]{1,18})");
+
     private final Map<String, Map<String, byte[]>> byTopic = new ConcurrentHashMap<>();
     private final Deque<Audited> audited = new ArrayDeque<>();
     private boolean auditedWhole;
     private volatile boolean complete;
+    /** Of this process: positions of another one mean nothing. */
+    private final String instance = UUID.randomUUID().toString().substring(0, 8);
+    /** The changes after {@code forgotten}, in order. */
+    private final Deque<Change> changes = new ArrayDeque<>();
+
+    private long forgotten;
+    private volatile long position;
     private volatile Listener listener;
 
     /** Called on the thread that reads the topics; must not block. */
     interface Listener {
-        void changed(String topic, String key);
+        void changed(Change change);
 
         /** Called after all topics were read again. */
         void completed();
     }
+
+    /** A change of a record. @param position increases by one with each */
+    record Change(long position, String topic, String key) {}
 
     private record Audited(long offset, byte[] value) {}
 
@@ -67,6 +86,10 @@ public final class StateView {
     /** Clears the view; it cannot be read until {@link #complete()}. */
     void clear() {
         complete = false;
+        synchronized (changes) {
+            changes.clear();
+            forgotten = position;
+        }
         TOPICS.forEach(topic -> byTopic.put(topic, new ConcurrentSkipListMap<>()));
         synchronized (audited) {
             audited.clear();
@@ -80,8 +103,50 @@ public final class StateView {
         } else {
             byTopic.get(topic).put(key, value);
         }
+        Change change = remember(topic, key);
         if (complete && listener != null) {
-            listener.changed(topic, key);
+            listener.changed(change);
+        }
+    }
+
+    /** While the topics are read, changes are not remembered: a record that was deleted meanwhile is not seen. */
+    private Change remember(String topic, String key) {
+        synchronized (changes) {
+            Change change = new Change(position + 1, topic, key);
+            position = change.position();
+            if (complete) {
+                changes.addLast(change);
+            }
+            if (!complete || changes.size() > REMEMBERED) {
+                forgotten = complete ? changes.removeFirst().position() : position;
+            }
+            return change;
+        }
+    }
+
+    /** The position of the last change. */
+    long position() {
+        return position;
+    }
+
+    /** Returns a position as the id of an event. */
+    String id(long at) {
+        return instance + "-" + at;
+    }
+
+    /** Returns the changes after an {@link #id}; empty if they are not all known. @param id may be null or invalid */
+    Optional<Collection<Change>> changesSince(String id) {
+        Matcher known = ID.matcher(id == null ? "" : id);
+        if (!known.matches() || !known.group(1).equals(instance)) {
+            return Optional.empty();
+        }
+        long since = Long.parseLong(known.group(2));
+        synchronized (changes) {
+            return since < forgotten || since > position
+                    ? Optional.empty()
+                    : Optional.of(changes.stream()
+                            .filter(change -> change.position() > since)
+                            .toList());
         }
     }
 

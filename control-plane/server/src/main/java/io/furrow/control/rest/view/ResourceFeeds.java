@@ -14,52 +14,43 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.control.rest.access.ProblemException;
-import io.furrow.model.topic.Topics;
 
-/** Manages the clients that follow replays, at most {@value #MAX_FEEDS}, each with its own thread that writes to it. */
-public final class ReplayFeeds implements StateView.Listener, AutoCloseable {
+/** Manages the clients that follow resources, at most {@value #MAX_FEEDS}, each with its own thread that writes to it. */
+public final class ResourceFeeds implements StateView.Listener, AutoCloseable {
     static final int MAX_FEEDS = 100;
 
-    private static final Logger LOG = LoggerFactory.getLogger(ReplayFeeds.class);
+    private static final Logger LOG = LoggerFactory.getLogger(ResourceFeeds.class);
     private static final Duration HEARTBEAT = Duration.ofSeconds(15);
 
-    private final ReplayStatusView replays;
-    private final Set<ReplayFeed> feeds = ConcurrentHashMap.newKeySet();
+    private final Set<ResourceFeed> feeds = ConcurrentHashMap.newKeySet();
     private final Semaphore free = new Semaphore(MAX_FEEDS);
-
-    public ReplayFeeds(ReplayStatusView replays) {
-        this.replays = replays;
-    }
 
     /**
      * Answers with events until the client disconnects.
      *
-     * @param only null for all replays
-     * @throws ProblemException if there is no such replay, the topics were not read yet, or too many clients are
-     *     connected
+     * @param only key of the resource, which must exist; null for all
+     * @param since id of the last event that the client has received; null for none
+     * @throws ProblemException if the topics were not read yet, or too many clients are connected
      */
-    public void open(String only, AsyncResponse response) {
-        if (only == null) {
-            replays.names();
-        } else {
-            replays.get(only);
-        }
+    public void open(ResourceKind kind, String only, String since, AsyncResponse response) {
+        kind.keys();
         if (!free.tryAcquire()) {
             throw new ProblemException(
                     503,
                     "overloaded",
-                    "%d clients follow replays already; ask again later, or GET /api/replays now and then"
+                    "%d clients follow changes already; ask again later, or GET the list now and then"
                             .formatted(MAX_FEEDS));
         }
-        ReplayFeed feed = new ReplayFeed(replays, only);
+        ResourceFeed feed = new ResourceFeed(kind, only);
         feeds.add(feed);
-        Thread thread = new Thread(() -> run(feed, response), "control-plane-replay-feed");
+        feed.begin(since);
+        Thread thread = new Thread(() -> run(feed, response), "control-plane-feed");
         thread.setDaemon(true);
         thread.start();
     }
 
     /** Starts the answer on this thread, so that only this thread writes to the client and blocks. */
-    private void run(ReplayFeed feed, AsyncResponse response) {
+    private void run(ResourceFeed feed, AsyncResponse response) {
         try (ChunkedOutput<byte[]> output = new ChunkedOutput<>(byte[].class)) {
             response.resume(Response.ok(output)
                     .type(MediaType.SERVER_SENT_EVENTS_TYPE)
@@ -68,7 +59,7 @@ public final class ReplayFeeds implements StateView.Listener, AutoCloseable {
                     .build());
             feed.write(output::write, HEARTBEAT);
         } catch (IOException | ProblemException e) { // the client disconnected or does not read, or the view is rebuilt
-            LOG.debug("a client no longer follows replays", e);
+            LOG.debug("a client no longer follows changes", e);
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         } finally {
@@ -77,24 +68,18 @@ public final class ReplayFeeds implements StateView.Listener, AutoCloseable {
         }
     }
 
-    int size() {
-        return feeds.size();
-    }
-
     @Override
-    public void changed(String topic, String key) {
-        if (topic.equals(Topics.REPLAYS) || topic.equals(Topics.REPLAYS_STATUS)) {
-            feeds.forEach(feed -> feed.changed(key));
-        }
+    public void changed(StateView.Change change) {
+        feeds.forEach(feed -> feed.changed(change));
     }
 
     @Override
     public void completed() {
-        feeds.forEach(ReplayFeed::changedAll);
+        feeds.forEach(ResourceFeed::changedAll);
     }
 
     @Override
     public void close() {
-        feeds.forEach(ReplayFeed::close);
+        feeds.forEach(ResourceFeed::close);
     }
 }

@@ -36,7 +36,7 @@ import static org.awaitility.Awaitility.await;
 /** Receives replays as server-sent events from a real API and Kafka. */
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
 @Tag("full")
-class ReplayFeedIT {
+class ResourceFeedIT {
     private final HttpClient http =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
     private RunningApi running;
@@ -68,9 +68,13 @@ class ReplayFeedIT {
         player.flush();
     }
 
-    private HttpResponse<InputStream> open(String path) throws Exception {
-        URI uri = URI.create(running.api().uri() + path);
-        return http.send(HttpRequest.newBuilder(uri).build(), HttpResponse.BodyHandlers.ofInputStream());
+    private HttpResponse<InputStream> open(String path, String... header) throws Exception {
+        HttpRequest.Builder request =
+                HttpRequest.newBuilder(URI.create(running.api().uri() + path));
+        if (header.length > 0) {
+            request.headers(header);
+        }
+        return http.send(request.build(), HttpResponse.BodyHandlers.ofInputStream());
     }
 
     private static BufferedReader events(HttpResponse<InputStream> answer) {
@@ -94,6 +98,7 @@ class ReplayFeedIT {
         String replay = startReplay();
         try (BufferedReader one = events(open("/api/replays/" + replay + "/events"));
                 BufferedReader all = events(open("/api/replays/events"))) {
+            assertThat(until(one, "event:")).isEqualTo("event: reset");
             assertThat(until(one, "event:")).isEqualTo("event: status");
             assertThat(one.readLine()).startsWith("data: {").contains(replay, "\"wanted\":\"running\"");
             report(replay, 1, ReplayStatus.State.RUNNING);
@@ -109,10 +114,26 @@ class ReplayFeedIT {
             report(replay, 1_000_001, ReplayStatus.State.STOPPED);
             until(one, "event: over");
             assertThat(one.readLine()).startsWith("data: {").contains(replay, "\"state\":\"stopped\"");
+            assertThat(until(one, "id: ")).matches("id: [0-9a-f]{8}-[0-9]+");
             assertThat(one.readLine()).isEmpty();
             assertThat(one.readLine()).as("the end").isNull();
             until(all, "event: over");
             running.rejects("GET", "/api/replays/" + replay + "/events", null, 404, "unknown-replay");
+        }
+    }
+
+    @Test
+    @Timeout(value = 60, threadMode = Timeout.ThreadMode.SEPARATE_THREAD)
+    void continuesWhereAClientWas() throws Exception {
+        client.send("POST", "/api/domains", "{\"domain\":\"followed\"}");
+        String id;
+        try (BufferedReader missions = events(open("/api/events/missions"))) {
+            id = until(missions, "id: ").substring("id: ".length());
+        }
+        client.send("POST", "/api/missions", "{\"mission\":\"later\",\"domain\":\"followed\"}");
+        try (BufferedReader missions = events(open("/api/v1/events/missions", "Last-Event-ID", id))) {
+            assertThat(until(missions, "event: ")).isEqualTo("event: status");
+            assertThat(until(missions, "data: ")).contains("\"mission\":\"later\"");
         }
     }
 
@@ -134,7 +155,7 @@ class ReplayFeedIT {
         String replay = startReplay();
         List<Socket> silent = new ArrayList<>();
         try {
-            for (int i = 0; i < ReplayFeeds.MAX_FEEDS; i++) {
+            for (int i = 0; i < ResourceFeeds.MAX_FEEDS; i++) {
                 Socket socket = new Socket(
                         running.api().uri().getHost(), running.api().uri().getPort());
                 socket.getOutputStream()
