@@ -3,6 +3,7 @@ package io.furrow.suite;
 import java.nio.file.Path;
 import java.util.List;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -11,6 +12,7 @@ import io.furrow.model.event.HeaderNames;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
+@Tag("full")
 class RestartIT {
     private static final int EVENTS = 20;
 

@@ -7,6 +7,7 @@ import java.util.stream.IntStream;
 
 import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.condition.EnabledIfSystemProperty;
@@ -26,6 +27,7 @@ import static org.awaitility.Awaitility.await;
 
 /** Restores the savepoints that {@link StoredSavepoint} has written for each release. */
 @Timeout(180)
+@Tag("full")
 class StoredSavepointIT {
     @TempDir
     Path directory;

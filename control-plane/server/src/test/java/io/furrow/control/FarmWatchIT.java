@@ -78,6 +78,7 @@ class FarmWatchIT {
         kafka.close();
     }
 
+    @Tag("full")
     @Test
     void reportsADeviceThatFallsSilentAndRecovers() throws Exception {
         try (FarmWatch watch = watch("one")) {

@@ -64,6 +64,7 @@ class NgsiOffsetsIT {
     }
 
     /** Connect does not start a paused task, so after the restart nobody listens until it is resumed. */
+    @Tag("full")
     @Test
     void losesAndRepeatsNothingWhenConnectorAndTaskAreRestarted() throws Exception {
         SourceOnConnect source = create("restarted");
