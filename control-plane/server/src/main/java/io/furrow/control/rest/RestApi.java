@@ -36,6 +36,7 @@ import io.furrow.control.rest.access.ProblemDetails;
 import io.furrow.control.rest.access.RoleFilter;
 import io.furrow.control.rest.access.TlsListener;
 import io.furrow.control.rest.access.TokenFilter;
+import io.furrow.control.rest.access.VersionFilter;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.EventTiles;
 import io.furrow.control.rest.view.MarkerStore;

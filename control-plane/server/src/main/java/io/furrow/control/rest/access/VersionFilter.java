@@ -1,4 +1,4 @@
-package io.furrow.control.rest;
+package io.furrow.control.rest.access;
 
 import jakarta.ws.rs.container.ContainerRequestContext;
 import jakarta.ws.rs.container.ContainerRequestFilter;
@@ -7,7 +7,7 @@ import jakarta.ws.rs.core.UriInfo;
 
 /** Answers {@code /api/v1/…} as {@code /api/…}. */
 @PreMatching
-final class VersionFilter implements ContainerRequestFilter {
+public final class VersionFilter implements ContainerRequestFilter {
     private static final String VERSION = "api/v1/";
 
     @Override
