@@ -26,7 +26,7 @@ import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
-import io.furrow.cli.dead.Redrive;
+import io.furrow.control.letter.Redrive;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.files.Folders;
@@ -196,9 +196,11 @@ public final class BadAmongGood implements AutoCloseable {
         for (String topic : DEAD) {
             String origin = Topics.ofDeadLetters(topic).orElseThrow();
             Redrive.Choice all = new Redrive.Choice(Set.of(), Set.of());
-            redriven += new Redrive(kafkaProperties, new Redrive.Request(topic, origin, all, false, false))
-                    .run()
-                    .total();
+            Redrive.Outcome outcome;
+            do {
+                outcome = new Redrive(kafkaProperties, new Redrive.Request(topic, origin, all, false, false)).run();
+                redriven += outcome.total();
+            } while (!outcome.isComplete());
         }
         System.out.printf("%d dead letters were brought back%n", redriven);
         if (redriven != bad) {

@@ -11,11 +11,11 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Model.CommandSpec;
 
 import io.furrow.cli.command.CatalogCommand;
-import io.furrow.cli.command.DeadLettersCommand;
 import io.furrow.cli.command.FieldsCommandGroup;
 import io.furrow.cli.command.ImagesCommand;
 import io.furrow.cli.command.MissionCommandGroup;
 import io.furrow.cli.control.AlarmCommandGroup;
+import io.furrow.cli.control.DeadLetterCommandGroup;
 import io.furrow.cli.control.DeviceCommandGroup;
 import io.furrow.cli.control.DomainCommandGroup;
 import io.furrow.cli.control.ReplayCommandGroup;
@@ -35,7 +35,7 @@ public final class Commands {
             ImagesCommand.class,
             CatalogCommand.class,
             FieldsCommandGroup.class,
-            DeadLettersCommand.class);
+            DeadLetterCommandGroup.class);
 
     private Commands() {}
 

@@ -82,7 +82,7 @@ public final class AuditResource {
     }
 
     /** Returns a link relative to the request, because of proxies. */
-    private static Link next(UriInfo uri, long before) {
+    static Link next(UriInfo uri, Object before) {
         String query = uri.getRequestUriBuilder()
                 .replaceQueryParam("before", before)
                 .build()

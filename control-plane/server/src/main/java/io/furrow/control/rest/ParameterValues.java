@@ -1,5 +1,7 @@
 package io.furrow.control.rest;
 
+import java.time.DateTimeException;
+import java.time.Instant;
 import java.util.List;
 import java.util.function.Predicate;
 
@@ -10,6 +12,9 @@ import io.furrow.model.control.ErrorCode;
 
 /** Checks values of query parameters: flags, whole numbers, one of several words, or given once. */
 final class ParameterValues {
+    private static final Instant FIRST_TIME = Instant.parse("0000-01-01T00:00:00Z");
+    private static final Instant LAST_TIME = Instant.parse("9999-12-31T23:59:59.999Z");
+
     private ParameterValues() {}
 
     /** @param schema of the parameter, as in the description of the API */
@@ -42,5 +47,31 @@ final class ParameterValues {
                 values.size() != 1 || !isValid.test(values.get(0)),
                 ErrorCode.WRONG_MEMBER,
                 "'%s' must be %s, and given once".formatted(name, what));
+    }
+
+    /**
+     * Parses a time.
+     *
+     * @param values at most one, ISO 8601 or epoch ms
+     * @return epoch ms
+     */
+    static long time(String name, List<String> values, long defaultTime) {
+        if (values.isEmpty()) {
+            return defaultTime;
+        }
+        try {
+            String text = values.get(0);
+            Instant time =
+                    text.matches("-?\\d{1,15}") ? Instant.ofEpochMilli(Long.parseLong(text)) : Instant.parse(text);
+            if (!time.isBefore(FIRST_TIME) && !time.isAfter(LAST_TIME)) {
+                return time.toEpochMilli();
+            }
+        } catch (DateTimeException e) {
+            // rejected below
+        }
+        throw new ProblemException(
+                ErrorCode.WRONG_MEMBER,
+                "'%s' must be a time of the years 0 to 9999, such as 2026-03-01T08:00:00Z, or epoch ms"
+                        .formatted(name));
     }
 }

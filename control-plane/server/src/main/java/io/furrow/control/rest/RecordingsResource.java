@@ -1,6 +1,5 @@
 package io.furrow.control.rest;
 
-import java.time.DateTimeException;
 import java.time.Instant;
 import java.util.List;
 import java.util.concurrent.CompletionStage;
@@ -29,8 +28,6 @@ import io.furrow.model.topic.Topics;
 public final class RecordingsResource {
     private static final String MISSION = "mission";
     private static final int BUCKETS = 240;
-    private static final Instant FIRST_TIME = Instant.parse("0000-01-01T00:00:00Z");
-    private static final Instant LAST_TIME = Instant.parse("9999-12-31T23:59:59.999Z");
 
     private final StateView view;
     private final EventTiles events;
@@ -66,8 +63,8 @@ public final class RecordingsResource {
                     501, "no-mongodb", "this control plane was started without --mongo, where missions are stored");
         }
         MissionTimeline.Extent extent = extent(mission);
-        long from = time("from", froms, extent.first());
-        long to = time("to", tos, extent.last() + 1);
+        long from = ParameterValues.time("from", froms, extent.first());
+        long to = ParameterValues.time("to", tos, extent.last() + 1);
         if (from >= to || from > extent.last() || to <= extent.first()) {
             throw new ProblemException(
                     ErrorCode.WRONG_MEMBER,
@@ -98,25 +95,5 @@ public final class RecordingsResource {
         }
         throw new ProblemException(
                 ErrorCode.WRONG_MEMBER, "'buckets' must be a number from 1 to " + MissionTimeline.MAX_BUCKETS);
-    }
-
-    private static long time(String name, List<String> values, long defaultTime) {
-        if (values.isEmpty()) {
-            return defaultTime;
-        }
-        try {
-            String text = values.get(0);
-            Instant time =
-                    text.matches("-?\\d{1,15}") ? Instant.ofEpochMilli(Long.parseLong(text)) : Instant.parse(text);
-            if (!time.isBefore(FIRST_TIME) && !time.isAfter(LAST_TIME)) {
-                return time.toEpochMilli();
-            }
-        } catch (DateTimeException e) {
-            // rejected below
-        }
-        throw new ProblemException(
-                ErrorCode.WRONG_MEMBER,
-                "'%s' must be an event time of the years 0 to 9999, such as 2026-03-01T08:00:00Z, or epoch ms"
-                        .formatted(name));
     }
 }

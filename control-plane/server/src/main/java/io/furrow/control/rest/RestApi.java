@@ -159,6 +159,7 @@ public final class RestApi implements AutoCloseable {
                 new MarkersResource(markers, managers),
                 new AlarmsResource(view, managers),
                 new FieldsResource(control.client(), managers, fields),
+                new DeadLettersResource(control.client(), managers),
                 new AuditResource(view, control.client()),
                 new CallerResource(),
                 new HealthResource(readiness, metrics, description));

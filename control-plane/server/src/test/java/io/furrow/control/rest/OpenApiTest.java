@@ -92,6 +92,8 @@ class OpenApiTest {
                 .containsEntry("DELETE /api/templates/{template}", "admin")
                 .containsEntry("PATCH /api/fields/{field}", "operator")
                 .containsEntry("GET /api/devices", "viewer")
+                .containsEntry("GET /api/dead-letters", "operator")
+                .containsEntry("GET /api/dead-letters/{topic}/{partition}/{offset}", "operator")
                 .containsEntry("DELETE /api/missions/{mission}", "operator");
     }
 

@@ -74,7 +74,7 @@ public final class JsonObjectReader {
     }
 
     /** Returns null if it is missing. */
-    String textOrNull(String member) throws RejectedException {
+    public String textOrNull(String member) throws RejectedException {
         if (!has(member)) {
             return null;
         }
@@ -87,7 +87,7 @@ public final class JsonObjectReader {
     }
 
     /** Returns false if it is missing. */
-    boolean flag(String member) throws RejectedException {
+    public boolean flag(String member) throws RejectedException {
         if (!has(member)) {
             return false;
         }
@@ -220,7 +220,7 @@ public final class JsonObjectReader {
     }
 
     /** Reads texts that match a pattern; empty if it is missing. */
-    List<String> texts(String member, Pattern pattern, String description) throws RejectedException {
+    public List<String> texts(String member, Pattern pattern, String description) throws RejectedException {
         List<String> texts = new ArrayList<>();
         ArrayNode array = arrayOrNull(member, 10_000);
         for (JsonNode each : array == null ? List.<JsonNode>of() : array) {

@@ -34,7 +34,9 @@ import io.furrow.embedded.SelfSignedCertificate;
 import io.furrow.kafka.Readiness;
 import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.device.FarmSecret;
+import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -232,6 +234,47 @@ class ControlCommandsIT {
                         .replace('\'', '"');
         producer.send(
                 new ProducerRecord<>(Topics.ALARMS, alarm, json.getBytes(java.nio.charset.StandardCharsets.UTF_8)));
+    }
+
+    @Test
+    void listsShowsAndRedrivesDeadLetters() throws Exception {
+        String message = "no JSON: " + "x".repeat(90);
+        try (KafkaProducer<String, byte[]> producer = new KafkaProducer<>(
+                Map.of("bootstrap.servers", kafka.bootstrapServers()),
+                new StringSerializer(),
+                new ByteArraySerializer())) {
+            producer.partitionsFor("sown");
+            for (String source : List.of("sown-0@7", "192.168.0.7 /ngsi/farm")) {
+                ProducerRecord<String, byte[]> letter =
+                        new ProducerRecord<>("sown.dead", 0, "robot", "{\"id\":".getBytes());
+                new DeadLetter(Reason.NOT_JSON, message, source.startsWith("sown") ? "ingest" : "ngsi-source", source)
+                        .headers()
+                        .forEach((name, text) -> letter.headers().add(name, text.getBytes()));
+                producer.send(letter).get();
+            }
+        }
+
+        assertThat(run("dead-letters", "list", "--topic", "sown.dead").lines())
+                .allSatisfy(line -> assertThat(line).hasSizeLessThanOrEqualTo(80))
+                .satisfiesExactly(
+                        line -> assertThat(line).containsPattern("sown.dead-0@1  20\\S+Z  not-json  ngsi-source"),
+                        line -> assertThat(line).startsWith("  no JSON: xxx").endsWith("x…"),
+                        line -> assertThat(line).containsPattern("sown.dead-0@0  20\\S+Z  not-json  ingest"),
+                        line -> assertThat(line).startsWith("  no JSON"));
+        assertThat(run("dead-letters", "list", "--stage", "ingest", "--limit", "1"))
+                .contains("sown.dead-0@0", "There may be more than 1;");
+        assertThat(run("dead-letters", "show", "sown.dead-0@0"))
+                .contains("source   sown-0@7", "  dead-stage: ingest", "value, as text", "{\"id\":");
+        assertThat(json("dead-letters", "show", "sown.dead-0@1").path("stage").asText())
+                .isEqualTo("ngsi-source");
+        assertThat(refused("dead-letters", "show", "sown.dead-0@2")).contains("unknown-dead-letter");
+        assertThat(refused("dead-letters", "show", "sown.dead")).contains("<topic>-<partition>@<offset>");
+        assertThat(run("dead-letters", "redrive", "--topic", "sown.dead", "--dry-run"))
+                .contains("would send 1 dead letter from sown.dead to sown: 1 not-json");
+        assertThat(run("dead-letters", "redrive", "--topic", "sown.dead"))
+                .contains(
+                        "sent 1 dead letter from sown.dead to sown",
+                        "left where they are: 1 from notifications to the NGSI source");
     }
 
     @Test

@@ -1,4 +1,4 @@
-package io.furrow.cli.dead;
+package io.furrow.control.letter;
 
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
@@ -34,19 +34,28 @@ final class OriginalReader implements AutoCloseable {
     Optional<ConsumerRecord<byte[], byte[]>> find(OriginalReference original, ConsumerRecord<byte[], byte[]> deadLetter)
             throws IOException {
         TopicPartition partition = new TopicPartition(original.topic(), original.partition());
-        List<PartitionInfo> existing = consumer.partitionsFor(original.topic(), Redrive.TIMEOUT);
-        if (existing == null || existing.stream().noneMatch(info -> info.partition() == original.partition())) {
+        return find(partition, original.offset()).filter(found -> isOf(deadLetter, found));
+    }
+
+    /**
+     * Returns the record at an offset; empty if there is none.
+     *
+     * @throws IOException if Kafka does not answer
+     */
+    Optional<ConsumerRecord<byte[], byte[]>> find(TopicPartition partition, long offset) throws IOException {
+        List<PartitionInfo> existing = consumer.partitionsFor(partition.topic(), Redrive.TIMEOUT);
+        if (existing == null || existing.stream().noneMatch(info -> info.partition() == partition.partition())) {
             return Optional.empty();
         }
         consumer.assign(List.of(partition));
         long first =
                 consumer.beginningOffsets(List.of(partition), Redrive.TIMEOUT).get(partition);
         long end = consumer.endOffsets(List.of(partition), Redrive.TIMEOUT).get(partition);
-        if (original.offset() < first || original.offset() >= end) {
+        if (offset < first || offset >= end) {
             return Optional.empty();
         }
-        consumer.seek(partition, original.offset());
-        return read(partition, original.offset()).filter(found -> isOf(deadLetter, found));
+        consumer.seek(partition, offset);
+        return read(partition, offset);
     }
 
     private Optional<ConsumerRecord<byte[], byte[]>> read(TopicPartition partition, long offset) throws IOException {

@@ -1,10 +1,9 @@
-package io.furrow.cli.dead;
+package io.furrow.control.letter;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
-import java.util.List;
 import java.util.Map;
+import java.util.Objects;
 import java.util.Optional;
 import java.util.Properties;
 import java.util.Set;
@@ -12,27 +11,27 @@ import java.util.TreeMap;
 import java.util.stream.Collectors;
 import java.util.stream.Stream;
 
-import org.apache.kafka.clients.consumer.ConsumerConfig;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.ConsumerRecords;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerConfig;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.PartitionInfo;
 import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
 import org.apache.kafka.common.header.Header;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.OriginalReference;
 import io.furrow.model.result.AnalyticsKind;
+import io.furrow.model.topic.Topics;
 
 /**
  * Sends dead letters to a topic again, unchanged: key, bytes, time and headers, without those that explain the failure; a letter that
  * refers to a large record is replaced by that record. The records and the offsets redriven are one transaction, so that no letter is sent
- * twice. Reads up to the end offsets at the start: a letter that fails again waits for the next run.
+ * twice. Reads up to the end offsets at the start, for at most {@link #MAX_TIME}: a letter that fails again waits for the next run.
  */
 public final class Redrive {
     /**
@@ -43,23 +42,36 @@ public final class Redrive {
                     Stream.of("routes", "ingest-images", "missions"), AnalyticsKind.jobNames().stream())
             .collect(Collectors.toUnmodifiableSet());
 
-    static final Duration TIMEOUT = Duration.ofSeconds(30);
+    /** The stage of the NGSI source. */
+    private static final String NGSI_SOURCE = "ngsi-source";
+
+    static final Duration TIMEOUT = Duration.ofSeconds(10);
+    /** A client waits for the answer. */
+    private static final Duration MAX_TIME = Duration.ofSeconds(15);
     /** For a transaction with large originals. A broker's default limit is 15 minutes. */
     private static final Duration TRANSACTION_TIMEOUT = Duration.ofMinutes(10);
 
-    private static final String OTHER = "no dead letter";
+    private static final String OTHER = "without the header dead-reason, for instance of Kafka Connect";
     private static final String TRUNCATED = "truncated";
     private static final String GONE = "original gone";
+    private static final String NOTIFICATION =
+            "from notifications to the NGSI source, not from a topic; where the normalize job runs, 'to' can be its topic, "
+                    + Topics.NOTIFICATIONS;
 
     /**
      * A request to redrive.
      *
      * @param from topic of the dead letters
-     * @param to target topic
+     * @param to target topic; null for the topic to which the letters belong, without those that come from no topic
      * @param again whether letters that were redriven before are sent again
      * @param dryRun whether letters are only counted
      */
-    public record Request(String from, String to, Choice choice, boolean again, boolean dryRun) {}
+    public record Request(String from, String to, Choice choice, boolean again, boolean dryRun) {
+        /** The topic that receives the letters. */
+        public String target() {
+            return to == null ? Topics.ofDeadLetters(from).orElseThrow() : to;
+        }
+    }
 
     /**
      * The selection of letters.
@@ -84,16 +96,20 @@ public final class Redrive {
         }
     }
 
-    /** The number of redriven letters by reason, and of the others by why they were left. */
-    public record Outcome(Map<String, Long> fed, Map<String, Long> left) {
+    /**
+     * The number of redriven letters by reason, and of the others by why they were left.
+     *
+     * @param isComplete false if the time ended before the last letter
+     */
+    public record Outcome(Map<String, Long> sent, Map<String, Long> left, boolean isComplete) {
         public long total() {
-            return fed.values().stream().mapToLong(Long::longValue).sum();
+            return sent.values().stream().mapToLong(Long::longValue).sum();
         }
     }
 
     private final Properties kafka;
     private final Request request;
-    private final Map<String, Long> fed = new TreeMap<>();
+    private final Map<String, Long> sent = new TreeMap<>();
     private final Map<String, Long> left = new TreeMap<>();
     private RedriveOffsets memory;
     private OriginalReader originals;
@@ -104,7 +120,10 @@ public final class Redrive {
         this.request = request;
     }
 
-    /** @throws IOException if the topic does not exist, or its end is not reached */
+    /**
+     * @throws UnknownTopicOrPartitionException if one of the topics does not exist
+     * @throws IOException if a topic cannot be read
+     */
     public Outcome run() throws IOException {
         try (var consumer = consumer();
                 var found = new OriginalReader(consumer());
@@ -113,32 +132,23 @@ public final class Redrive {
             assign(consumer);
             Map<TopicPartition, Long> ends = consumer.endOffsets(consumer.assignment(), TIMEOUT);
             if (producer != null) {
-                producer.initTransactions(); // fences another redrive of the same, whose writes are
-                // visible then
+                producer.initTransactions(); // fences another redrive of the same, whose writes are visible then
             }
             memory = RedriveOffsets.read(kafka, request, producer != null);
-            long until = System.nanoTime() + TIMEOUT.toNanos();
-            while (isBehind(consumer, ends)) {
-                ConsumerRecords<byte[], byte[]> records = consumer.poll(Duration.ofMillis(200));
-                if (!records.isEmpty()) {
-                    feed(records, ends, producer);
-                    until = System.nanoTime() + TIMEOUT.toNanos();
-                } else if (System.nanoTime() > until) {
-                    throw new IOException("the end of " + request.from() + " was not reached; does its broker answer?");
-                }
+            long until = System.nanoTime() + MAX_TIME.toNanos();
+            boolean isBehind = isBehind(consumer, ends);
+            while (isBehind && System.nanoTime() < until) {
+                send(consumer.poll(Duration.ofMillis(200)), ends, producer);
+                isBehind = isBehind(consumer, ends);
             }
-            return new Outcome(fed, left);
+            return new Outcome(sent, left, !isBehind);
         }
     }
 
-    private void assign(KafkaConsumer<byte[], byte[]> consumer) throws IOException {
-        List<PartitionInfo> partitions = consumer.partitionsFor(request.from(), TIMEOUT);
-        if (partitions == null || partitions.isEmpty()) {
-            throw new IOException("there is no topic " + request.from() + "; name another with --topic");
-        }
-        consumer.assign(partitions.stream()
-                .map(partition -> new TopicPartition(request.from(), partition.partition()))
-                .toList());
+    private void assign(KafkaConsumer<byte[], byte[]> consumer) {
+        consumer.assign(DeadLetterReader.partitions(
+                consumer, request.from(), "'./furrow dead-letters list' shows those that have letters"));
+        DeadLetterReader.partitions(consumer, request.target(), "name another as 'to', which gets the letters");
         consumer.seekToBeginning(consumer.assignment());
     }
 
@@ -147,7 +157,7 @@ public final class Redrive {
     }
 
     /** Originals may be large: each is sent before the next is read. */
-    private void feed(
+    private void send(
             ConsumerRecords<byte[], byte[]> records,
             Map<TopicPartition, Long> ends,
             KafkaProducer<byte[], byte[]> producer)
@@ -162,7 +172,7 @@ public final class Redrive {
                 memory.leave(deadLetter.partition(), kind(deadLetter), deadLetter.offset());
             } else if (original.isPresent()) {
                 memory.add(deadLetter.partition(), kind(deadLetter), deadLetter.offset());
-                fed.merge(kind(deadLetter).reason(), 1L, Long::sum);
+                sent.merge(kind(deadLetter).reason(), 1L, Long::sum);
                 if (producer != null) {
                     if (!begun) {
                         producer.beginTransaction();
@@ -182,6 +192,12 @@ public final class Redrive {
         Kind kind = kind(deadLetter);
         if (kind.reason().isEmpty()) {
             left.merge(OTHER, 1L, Long::sum);
+            return false;
+        }
+        if (request.to() == null
+                && isNotification(deadLetter)
+                && request.choice().isOf(kind)) {
+            left.merge(NOTIFICATION, 1L, Long::sum);
             return false;
         }
         if (!request.again() && memory.holds(deadLetter.partition(), kind, deadLetter.offset())) {
@@ -213,13 +229,19 @@ public final class Redrive {
         return Optional.of(deadLetter);
     }
 
+    /** Whether it is from a request to the NGSI source: a record that was too large for a topic names the topic. */
+    private boolean isNotification(ConsumerRecord<byte[], byte[]> deadLetter) {
+        return header(deadLetter, DeadLetter.STAGE).equals(NGSI_SOURCE)
+                && !header(deadLetter, DeadLetter.SOURCE).equals(request.target());
+    }
+
     private static Kind kind(ConsumerRecord<byte[], byte[]> deadLetter) {
         return new Kind(header(deadLetter, DeadLetter.REASON), header(deadLetter, DeadLetter.STAGE));
     }
 
     private ProducerRecord<byte[], byte[]> broughtBack(ConsumerRecord<byte[], byte[]> original) {
         ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(
-                request.to(), null, OriginalReader.timeOf(original), original.key(), original.value());
+                request.target(), null, OriginalReader.timeOf(original), original.key(), original.value());
         for (Header header : original.headers()) {
             if (!DeadLetter.HEADERS.contains(header.key())) {
                 record.headers().add(header);
@@ -229,24 +251,20 @@ public final class Redrive {
     }
 
     private static String header(ConsumerRecord<byte[], byte[]> deadLetter, String name) {
-        Header header = deadLetter.headers().lastHeader(name);
-        return header == null || header.value() == null ? "" : new String(header.value(), StandardCharsets.UTF_8);
+        return Objects.requireNonNullElse(KafkaClients.text(deadLetter.headers(), name), "");
     }
 
     private KafkaConsumer<byte[], byte[]> consumer() {
-        Properties settings = new Properties();
-        settings.putAll(kafka);
-        settings.setProperty(ConsumerConfig.ISOLATION_LEVEL_CONFIG, "read_committed");
-        settings.setProperty(ConsumerConfig.ALLOW_AUTO_CREATE_TOPICS_CONFIG, "false");
-        return new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer());
+        return DeadLetterReader.consumer(kafka);
     }
 
     private KafkaProducer<byte[], byte[]> producer() {
         Properties settings = new Properties();
         settings.putAll(kafka);
         settings.setProperty(
-                ProducerConfig.TRANSACTIONAL_ID_CONFIG, "furrow-redrive-" + request.from() + "-" + request.to());
+                ProducerConfig.TRANSACTIONAL_ID_CONFIG, "furrow-redrive-" + request.from() + "-" + request.target());
         settings.setProperty(ProducerConfig.TRANSACTION_TIMEOUT_CONFIG, Long.toString(TRANSACTION_TIMEOUT.toMillis()));
+        settings.setProperty(ProducerConfig.MAX_BLOCK_MS_CONFIG, Long.toString(TIMEOUT.toMillis()));
         // The topic may have just been created, see KAFKA-15591.
         settings.setProperty(ProducerConfig.MAX_IN_FLIGHT_REQUESTS_PER_CONNECTION, "1");
         settings.setProperty(ProducerConfig.MAX_REQUEST_SIZE_CONFIG, Integer.toString(16 * 1024 * 1024));

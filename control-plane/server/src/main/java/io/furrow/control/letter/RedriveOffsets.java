@@ -1,8 +1,7 @@
-package io.furrow.cli.dead;
+package io.furrow.control.letter;
 
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.HashSet;
@@ -31,7 +30,6 @@ import io.furrow.kafka.CommittedReader;
  * is stored individually.
  */
 final class RedriveOffsets {
-    private static final Duration TIMEOUT = Duration.ofSeconds(30);
     private static final String LEFT = "|left|";
     private static final Pattern IS_LEFT = Pattern.compile("\\|left\\|\\d+$");
 
@@ -53,19 +51,23 @@ final class RedriveOffsets {
      */
     static RedriveOffsets read(Properties kafka, Redrive.Request request, boolean making) throws IOException {
         String topic = request.from() + ".refed";
-        try (Admin admin = Admin.create(kafka)) {
+        Properties settings = new Properties();
+        settings.putAll(kafka);
+        settings.setProperty("request.timeout.ms", Long.toString(Redrive.TIMEOUT.toMillis()));
+        settings.setProperty("default.api.timeout.ms", Long.toString(Redrive.TIMEOUT.toMillis()));
+        try (Admin admin = Admin.create(settings)) {
             String dead = admin.describeTopics(List.of(request.from()))
                     .allTopicNames()
                     .get()
                     .get(request.from())
                     .topicId()
                     .toString();
-            RedriveOffsets memory = new RedriveOffsets(topic, dead, request.to());
+            RedriveOffsets memory = new RedriveOffsets(topic, dead, request.target());
             if (making) {
                 make(admin, topic);
             }
             if (making || admin.listTopics().names().get().contains(topic)) {
-                memory.readAll(kafka);
+                memory.readAll(settings);
             }
             return memory;
         } catch (ExecutionException e) {
@@ -88,10 +90,7 @@ final class RedriveOffsets {
         }
     }
 
-    private void readAll(Properties kafka) throws IOException {
-        Properties settings = new Properties();
-        settings.putAll(kafka);
-        settings.setProperty("default.api.timeout.ms", Long.toString(TIMEOUT.toMillis()));
+    private void readAll(Properties settings) throws IOException {
         try (CommittedReader<byte[]> reader = CommittedReader.openBytes(settings, topic)) {
             reader.readToEnd(this::remember);
         } catch (TimeoutException e) {

@@ -1,16 +1,24 @@
-package io.furrow.cli;
+package io.furrow.control.rest;
 
-import java.io.PrintWriter;
-import java.io.StringWriter;
+import java.net.http.HttpResponse;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.time.Instant;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Map;
+import java.util.Optional;
+import java.util.Properties;
 import java.util.TreeMap;
 import java.util.concurrent.ExecutionException;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+import java.util.stream.Collectors;
+import java.util.stream.IntStream;
 
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
@@ -24,15 +32,17 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
-import picocli.CommandLine.Model.CommandSpec;
 
-import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.control.letter.StoredLetter;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.OriginalReference;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.model.topic.Topics;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
 
 @Timeout(120)
 class DeadLettersIT {
@@ -43,11 +53,122 @@ class DeadLettersIT {
     private static final long TIME = System.currentTimeMillis() - 60_000;
 
     @AutoClose
-    private static EmbeddedKafka kafka;
+    private static RunningApi running;
+
+    @AutoClose
+    private static KafkaProducer<byte[], byte[]> producer;
 
     @BeforeAll
-    static void start() {
-        kafka = EmbeddedKafka.start(directory);
+    static void start() throws Exception {
+        running = new RunningApi(directory);
+        producer = producer();
+    }
+
+    private static final Pattern NEXT = Pattern.compile("<(\\?[^>]+)>; ?rel=\"next\"");
+
+    /** Letters of two topics whose times alternate, between those of other stages. */
+    @Test
+    void pagesBackThroughAllTopicsWithoutGapsOrDuplicates() throws Exception {
+        for (int i = 0; i < 20; i++) {
+            send(i % 2 == 0 ? "even.dead" : "odd.dead", TIME + i, new byte[i], "paged", "t-0@" + i);
+            send("even.dead", TIME + i, new byte[i], "other", "t-0@" + i);
+        }
+
+        List<Integer> sizes = new ArrayList<>();
+        List<Integer> pages = new ArrayList<>();
+        for (String path = "/api/dead-letters?stage=paged&limit=7"; path != null; ) {
+            HttpResponse<byte[]> answer = running.client().send("GET", path, null);
+            JsonNode letters = running.client().json(answer);
+            letters.forEach(letter -> sizes.add(letter.path("size").asInt()));
+            pages.add(letters.size());
+            Matcher next = NEXT.matcher(answer.headers().firstValue("Link").orElse(""));
+            path = next.matches() ? "/api/dead-letters" + next.group(1) : null;
+        }
+
+        assertThat(sizes)
+                .containsExactlyElementsOf(
+                        IntStream.range(0, 20).mapToObj(i -> 19 - i).toList());
+        assertThat(pages).startsWith(7, 7);
+        assertThat(list("topic=odd.dead&limit=3"))
+                .extracting(letter -> letter.path("size").asInt())
+                .containsExactly(19, 17, 15);
+        assertThat(list("stage=paged&from=%d&to=%s".formatted(TIME + 4, Instant.ofEpochMilli(TIME + 6))))
+                .extracting(letter -> letter.path("size").asInt())
+                .containsExactly(5, 4);
+        assertThat(list("stage=paged&reason=too-large")).isEmpty();
+        running.rejects("GET", "/api/dead-letters?before=noon", null, 400, "wrong-member");
+        running.rejects("GET", "/api/dead-letters?topic=nowhere.dead", null, 404, "unknown-topic");
+    }
+
+    private static JsonNode list(String query) {
+        return ask("GET", "/api/dead-letters?" + query, null);
+    }
+
+    @Test
+    void showsTheValueAsWhatItIs() throws Exception {
+        byte[] large = ("a" + "é".repeat(StoredLetter.MAX_SHOWN_BYTES)).getBytes(UTF_8); // is cut within a character
+
+        JsonNode json = shown("{\"id\":\"r\",\"x\":1.50}".getBytes(UTF_8));
+        assertThat(json.path("encoding").asText()).isEqualTo("json");
+        assertThat(json.path("value").toString()).isEqualTo("{\"id\":\"r\",\"x\":1.50}");
+        assertThat(json.path("cut").asBoolean(true)).isFalse();
+        assertThat(json.at("/headers/dead-source").asText()).isEqualTo("t-0@0");
+        assertThat(json.path("key").asText()).isEqualTo("k");
+        assertThat(shown("{\"half\":".getBytes(UTF_8)).path("value").asText()).isEqualTo("{\"half\":");
+        assertThat(shown("\"\\ud800\"".getBytes(UTF_8)).path("value").asText()).isEqualTo("\"\\ud800\"");
+        JsonNode binary = shown(new byte[] {(byte) 0xff, 0});
+        assertThat(binary.path("encoding").asText()).isEqualTo("base64");
+        assertThat(binary.path("value").binaryValue()).containsExactly(0xff, 0);
+        JsonNode cut = shown(large);
+        assertThat(cut.path("encoding").asText()).isEqualTo("text");
+        assertThat(cut.path("cut").asBoolean()).isTrue();
+        assertThat(cut.path("size").asInt()).isEqualTo(large.length);
+        assertThat(cut.path("value").asText().getBytes(UTF_8)).hasSize(StoredLetter.MAX_SHOWN_BYTES - 1);
+        assertThat(shown(null).has("value")).isFalse();
+
+        running.rejects("GET", "/api/dead-letters/shown.dead/0/999", null, 404, "unknown-dead-letter");
+        running.rejects("GET", "/api/dead-letters/shown.dead/0/one", null, 404, "unknown-dead-letter");
+        running.rejects("GET", "/api/dead-letters/shown/0/0", null, 404, "unknown-topic");
+    }
+
+    private static JsonNode shown(byte[] value) {
+        send("shown.dead", TIME, value, "test", "t-0@0");
+        JsonNode newest = list("topic=shown.dead&limit=1").get(0);
+        return ask(
+                "GET",
+                "/api/dead-letters/shown.dead/%s/%s".formatted(newest.path("partition"), newest.path("offset")),
+                null);
+    }
+
+    /** A notification sent to a topic of entities becomes a dead letter again. */
+    @Test
+    void sendsTheLettersOfEachStageToWhereTheyCameFromOrLeavesThem() {
+        send("mixed.dead", TIME, new byte[] {1}, "ngsi-source", "192.168.0.7 /ngsi/farm");
+        send("mixed.dead", TIME, new byte[] {2}, "ngsi-source", "mixed");
+        send("mixed.dead", TIME, new byte[] {3}, "ingest", "mixed-0@7");
+
+        assertThat(redrive("--topic", "mixed.dead"))
+                .startsWith("sent 2 dead letters from mixed.dead to mixed: 2 not-json\n"
+                        + "left where they are: 1 from notifications to the NGSI source")
+                .contains("'to'", "ngsi.notifications");
+        assertThat(recordsOf("mixed"))
+                .extracting(record -> record.value()[0])
+                .containsExactlyInAnyOrder((byte) 2, (byte) 3);
+        assertThat(redrive("--topic", "mixed.dead", "--to", "mixed.notifications", "--stage", "ngsi-source"))
+                .startsWith("sent 2 ");
+        await().untilAsserted(() -> assertThat(ask("GET", "/api/audit?limit=1000", null))
+                .filteredOn(entry -> entry.at("/about/to").asText().equals("mixed.notifications"))
+                .singleElement()
+                .satisfies(entry -> {
+                    assertThat(entry.path("command").asText()).isEqualTo("redrive");
+                    assertThat(entry.path("result").asText()).isEqualTo("redriven");
+                    assertThat(entry.at("/about/topic").asText()).isEqualTo("mixed.dead");
+                    assertThat(entry.at("/about/count").asInt()).isEqualTo(2);
+                }));
+    }
+
+    private static void send(String topic, long time, byte[] value, String stage, String source) {
+        deadLetter(topic, time, "k", value, new DeadLetter(Reason.NOT_JSON, "why", stage, source).headers());
     }
 
     @Test
@@ -197,21 +318,71 @@ class DeadLettersIT {
     @Tag("full")
     @Test
     void reportsWhatIsMissing() {
-        assertThat(redrive("--topic", "nowhere.dead")).contains("there is no topic nowhere.dead");
-        assertThat(redrive("--topic", "data.raw")).contains("--to");
+        assertThat(redrive("--topic", "nowhere.dead")).startsWith("unknown-topic: there is no topic 'nowhere.dead'");
+        assertThat(redrive("--topic", "data.raw")).startsWith("unknown-topic: 'data.raw' is no topic of dead letters");
+        assertThat(redrive()).startsWith("missing-member: ");
+        assertThat(ask("POST", "/api/dead-letters/redrive", "{\"topic\":\"once.dead\",\"to\":\"nowhere\"}")
+                        .path("error")
+                        .asText())
+                .isEqualTo("unknown-topic");
     }
 
+    /** Sends a request, and describes the answer in a sentence. */
     private static String redrive(String... options) {
-        List<String> arguments =
-                new ArrayList<>(List.of("dead-letters", "redrive", "--kafka", kafka.bootstrapServers()));
-        arguments.addAll(List.of(options));
-        StringWriter output = new StringWriter();
-        PrintWriter printer = new PrintWriter(output, true);
-        Commands.commandLine(CommandSpec.create().name("furrow"), Commands.ALL)
-                .setOut(printer)
-                .setErr(printer)
-                .execute(arguments.toArray(String[]::new));
-        return output.toString().strip();
+        ObjectNode body = NgsiJson.object();
+        List<String> all = List.of(options);
+        for (String member : List.of("topic", "to")) {
+            option(all, member).ifPresent(value -> body.put(member, value));
+        }
+        for (String member : List.of("reason", "stage")) {
+            option(all, member)
+                    .ifPresent(value -> List.of(value.split(",")).forEach(body.withArray(member + "s")::add));
+        }
+        if (all.contains("--again")) {
+            body.put("again", true);
+        }
+        option(all, "to").ifPresent(DeadLettersIT::create);
+        boolean dry = all.contains("--dry-run");
+        JsonNode answer = ask("POST", "/api/dead-letters/redrive" + (dry ? "?dryRun=true" : ""), body.toString());
+        if (!answer.has("count")) {
+            return answer.path("error").asText() + ": " + answer.path("reason").asText();
+        }
+        assertThat(answer.path("complete").asBoolean()).isTrue();
+        long count = answer.path("count").asLong();
+        String reasons = answer.path("reasons").properties().stream()
+                .map(each -> each.getValue() + " " + each.getKey())
+                .collect(Collectors.joining(", "));
+        String left = answer.path("left")
+                .valueStream()
+                .map(each -> each.path("count") + " " + each.path("why").asText())
+                .collect(Collectors.joining(", "));
+        return "%s %d dead letter%s from %s to %s%s%s"
+                .formatted(
+                        answer.path("dryRun").asBoolean() ? "would send" : "sent",
+                        count,
+                        count == 1 ? "" : "s",
+                        answer.path("topic").asText(),
+                        answer.path("to").asText(),
+                        reasons.isEmpty() ? "" : ": " + reasons,
+                        left.isEmpty() ? "" : "\nleft where they are: " + left);
+    }
+
+    private static Optional<String> option(List<String> options, String name) {
+        int at = options.indexOf("--" + name);
+        return at < 0 ? Optional.empty() : Optional.of(options.get(at + 1));
+    }
+
+    private static JsonNode ask(String method, String path, String body) {
+        try {
+            return running.client().ask(method, path, body);
+        } catch (Exception e) {
+            throw new AssertionError(e);
+        }
+    }
+
+    /** The broker creates a topic whose partitions are requested. */
+    private static void create(String topic) {
+        producer.partitionsFor(topic);
     }
 
     /** Where the record is afterwards. */
@@ -240,22 +411,33 @@ class DeadLettersIT {
     }
 
     private static void deadLetter(String topic, String key, byte[] value, Map<String, String> headers) {
+        deadLetter(topic, TIME, key, value, headers);
+    }
+
+    private static void deadLetter(String topic, long time, String key, byte[] value, Map<String, String> headers) {
         byte[] keyBytes = key == null ? null : key.getBytes(UTF_8);
-        ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(topic, null, TIME, keyBytes, value);
+        ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(topic, null, time, keyBytes, value);
         headers.forEach((name, text) -> record.headers().add(name, text.getBytes(UTF_8)));
-        Map<String, Object> settings =
-                Map.of("bootstrap.servers", kafka.bootstrapServers(), "max.request.size", 4_000_000);
-        try (var producer = new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer())) {
+        try {
+            Topics.ofDeadLetters(topic).ifPresent(producer::partitionsFor);
             producer.send(record).get();
         } catch (InterruptedException | ExecutionException e) {
             throw new AssertionError(e);
         }
     }
 
+    private static KafkaProducer<byte[], byte[]> producer() {
+        Properties settings = new Properties();
+        settings.putAll(running.settings().client());
+        settings.put("max.request.size", 4_000_000);
+        return new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
+    }
+
     /** Also those whose transaction is committed, though its marker may still be on the way. */
     private static List<ConsumerRecord<byte[], byte[]>> recordsOf(String topic) {
-        Map<String, Object> settings =
-                Map.of("bootstrap.servers", kafka.bootstrapServers(), "auto.offset.reset", "earliest");
+        Properties settings = new Properties();
+        settings.putAll(running.settings().client());
+        settings.put("auto.offset.reset", "earliest");
         List<ConsumerRecord<byte[], byte[]>> records = new ArrayList<>();
         try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
             consumer.assign(consumer.partitionsFor(topic).stream()

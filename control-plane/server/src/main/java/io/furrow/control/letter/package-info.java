@@ -1,0 +1,2 @@
+/** Lists, reads and redrives dead letters. */
+package io.furrow.control.letter;

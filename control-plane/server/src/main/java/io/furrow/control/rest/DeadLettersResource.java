@@ -1,0 +1,264 @@
+package io.furrow.control.rest;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.util.List;
+import java.util.Optional;
+import java.util.Properties;
+import java.util.Set;
+import java.util.concurrent.Semaphore;
+import java.util.function.Predicate;
+import java.util.regex.Pattern;
+
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.annotation.security.RolesAllowed;
+import jakarta.ws.rs.Consumes;
+import jakarta.ws.rs.DefaultValue;
+import jakarta.ws.rs.GET;
+import jakarta.ws.rs.POST;
+import jakarta.ws.rs.Path;
+import jakarta.ws.rs.PathParam;
+import jakarta.ws.rs.Produces;
+import jakarta.ws.rs.QueryParam;
+import jakarta.ws.rs.container.ContainerRequestContext;
+import jakarta.ws.rs.core.Context;
+import jakarta.ws.rs.core.MediaType;
+import jakarta.ws.rs.core.Response;
+import jakarta.ws.rs.core.UriInfo;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.errors.InvalidTopicException;
+import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
+
+import io.furrow.control.audit.AuditEntry;
+import io.furrow.control.letter.DeadLetterReader;
+import io.furrow.control.letter.LetterPositions;
+import io.furrow.control.letter.Redrive;
+import io.furrow.control.letter.StoredLetter;
+import io.furrow.control.rest.access.ProblemException;
+import io.furrow.control.rest.access.RequestContext;
+import io.furrow.control.rest.view.CommandClient;
+import io.furrow.model.control.CommandResult;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.JsonObjectReader;
+import io.furrow.model.control.RejectedException;
+import io.furrow.model.control.Role;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.text.FailureText;
+import io.furrow.model.topic.Topics;
+
+/**
+ * {@code /api/dead-letters}: records that could not be processed. They contain whatever was sent to Furrow, as it was, so that
+ * reading them needs more than the role viewer.
+ */
+@Path("/api/dead-letters")
+@Consumes(MediaType.APPLICATION_JSON)
+@Produces(MediaType.APPLICATION_JSON)
+public final class DeadLettersResource {
+    private static final int MAX_READERS = 2;
+    private static final Pattern NUMBER = Pattern.compile("[0-9]{1,9}");
+    private static final Pattern LONG_NUMBER = Pattern.compile("[0-9]{1,18}");
+    private static final Pattern CODE = Pattern.compile("[^\\p{Cntrl}]{1,100}");
+
+    private final Properties client;
+    private final CommandClient managers;
+    private final DeadLetterReader reader;
+    private final Semaphore readers = new Semaphore(MAX_READERS);
+    private final Semaphore redrivePermit = new Semaphore(1);
+
+    /** @param client settings of a Kafka client */
+    DeadLettersResource(Properties client, CommandClient managers) {
+        this.client = client;
+        this.managers = managers;
+        this.reader = new DeadLetterReader(client);
+    }
+
+    /**
+     * Lists letters without their values, the newest first. If there may be older ones, a {@code Link} with {@code rel="next"}
+     * refers to them.
+     */
+    @RolesAllowed(Role.OPERATORS)
+    @GET
+    public Response list(
+            @Context UriInfo uri,
+            @QueryParam("limit") @DefaultValue("50") int limit,
+            @QueryParam("before") String before,
+            @QueryParam("topic") String topic) {
+        LetterPositions positions = before == null
+                ? null
+                : LetterPositions.of(before)
+                        .orElseThrow(() -> new ProblemException(
+                                ErrorCode.WRONG_MEMBER,
+                                "'before' must be that of the Link of the previous page; without it the newest come"));
+        DeadLetterReader.Page page = read(topic, () -> reader.read(topic, positions, limit, desired(uri)));
+        ArrayNode letters = NgsiJson.array();
+        page.letters().forEach(letter -> letters.add(letter.json()));
+        Response.ResponseBuilder answer = JsonResponses.json(200, letters);
+        if (!page.next().isEmpty()) {
+            answer.header("Link", AuditResource.next(uri, page.next()));
+        }
+        return answer.build();
+    }
+
+    private static Predicate<StoredLetter> desired(UriInfo uri) {
+        var query = uri.getQueryParameters();
+        String reason = query.getFirst("reason");
+        String stage = query.getFirst("stage");
+        long from = ParameterValues.time("from", query.getOrDefault("from", List.of()), Long.MIN_VALUE);
+        long to = ParameterValues.time("to", query.getOrDefault("to", List.of()), Long.MAX_VALUE);
+        return letter -> (reason == null || reason.equals(letter.reason()))
+                && (stage == null || stage.equals(letter.stage()))
+                && letter.time() >= from
+                && letter.time() < to;
+    }
+
+    /** Returns a letter with its headers and value. */
+    @RolesAllowed(Role.OPERATORS)
+    @GET
+    @Path("{topic}/{partition}/{offset}")
+    public Response show(
+            @PathParam("topic") String topic,
+            @PathParam("partition") String partition,
+            @PathParam("offset") String offset) {
+        boolean isPlace = NUMBER.matcher(partition).matches()
+                && LONG_NUMBER.matcher(offset).matches();
+        return JsonResponses.ok(read(
+                        topic,
+                        () -> isPlace
+                                ? reader.find(topic, Integer.parseInt(partition), Long.parseLong(offset))
+                                : Optional.<ObjectNode>empty())
+                .orElseThrow(() -> new ProblemException(
+                        404,
+                        "unknown-dead-letter",
+                        "'%s' has no dead letter at partition '%s' and offset '%s', or has it no longer; GET /api/dead-letters lists those that there are"
+                                .formatted(topic, partition, offset))));
+    }
+
+    private interface Work<T> {
+        T run() throws IOException;
+    }
+
+    private <T> T read(String topic, Work<T> work) {
+        checkTopic(topic);
+        if (!readers.tryAcquire()) {
+            throw ProblemException.overloaded();
+        }
+        try {
+            return run(work);
+        } finally {
+            readers.release();
+        }
+    }
+
+    private static void checkTopic(String topic) {
+        if (topic != null && Topics.ofDeadLetters(topic).isEmpty()) {
+            throw new ProblemException(
+                    404,
+                    "unknown-topic",
+                    "'%s' is no topic of dead letters; those of a topic are on '%s'"
+                            .formatted(topic, Topics.dead("<topic>")));
+        }
+    }
+
+    private static <T> T run(Work<T> work) {
+        try {
+            return work.run();
+        } catch (UnknownTopicOrPartitionException | InvalidTopicException e) {
+            throw new ProblemException(404, "unknown-topic", e.getMessage());
+        } catch (IOException | KafkaException e) {
+            throw new ProblemException(
+                    503,
+                    "kafka-away",
+                    "Kafka does not answer or refuses (%s); check that it runs, and what the control plane may do there"
+                            .formatted(FailureText.of(e)));
+        }
+    }
+
+    /**
+     * Sends letters to the topic to which they belong, or to another, each once. A request takes a limited time; the answer says
+     * whether it has seen all letters.
+     *
+     * @param body {@code topic} of dead letters; {@code to}, {@code reasons}, {@code stages}, {@code again}
+     */
+    @POST
+    @Path("redrive")
+    public Response redrive(
+            @Context ContainerRequestContext request,
+            @QueryParam(CommandResult.DRY_RUN) boolean dryRun,
+            InputStream body)
+            throws IOException {
+        RequestContext caller = RequestContext.of(request);
+        ObjectNode members = JsonBodyReader.read(body);
+        ObjectNode about = NgsiJson.object();
+        try {
+            Redrive.Request desired = request(members, dryRun);
+            about.setAll(members);
+            ObjectNode answer = answer(desired, redrive(desired));
+            audit(caller, about.put("count", answer.path("count").asLong()), dryRun ? "dry-run" : "redriven", null);
+            return JsonResponses.ok(answer);
+        } catch (ProblemException problem) {
+            audit(caller, about, CommandResult.ERROR, problem);
+            throw problem;
+        }
+    }
+
+    private static Redrive.Request request(ObjectNode members, boolean dryRun) {
+        JsonObjectReader reader = new JsonObjectReader(members);
+        try {
+            JsonObjectReader.checkReadable(members);
+            String topic = reader.text("topic");
+            checkTopic(topic);
+            return new Redrive.Request(
+                    topic,
+                    reader.textOrNull("to"),
+                    new Redrive.Choice(
+                            Set.copyOf(reader.texts("reasons", CODE, "codes such as not-json")),
+                            Set.copyOf(reader.texts("stages", CODE, "names such as ingest"))),
+                    reader.flag("again"),
+                    dryRun);
+        } catch (RejectedException e) {
+            throw new ProblemException(e.code(), e.getMessage());
+        }
+    }
+
+    private Redrive.Outcome redrive(Redrive.Request desired) {
+        if (!redrivePermit.tryAcquire()) {
+            throw new ProblemException(
+                    409, "redrive-running", "another redrive is running; ask again when it has ended, in some seconds");
+        }
+        try {
+            return run(() -> new Redrive(client, desired).run());
+        } finally {
+            redrivePermit.release();
+        }
+    }
+
+    private static ObjectNode answer(Redrive.Request request, Redrive.Outcome outcome) {
+        ObjectNode answer = CommandResult.of("redriven")
+                .with("topic", request.from())
+                .with("to", request.target())
+                .with("count", outcome.total())
+                .json();
+        ObjectNode reasons = answer.putObject("reasons");
+        outcome.sent().forEach(reasons::put);
+        ArrayNode left = answer.putArray("left");
+        outcome.left()
+                .forEach((why, count) -> left.addObject().put("count", count).put("why", why));
+        answer.put("complete", outcome.isComplete());
+        return request.dryRun() ? answer.put(CommandResult.DRY_RUN, true) : answer;
+    }
+
+    /** @param problem null if there is none */
+    private void audit(RequestContext caller, ObjectNode about, String result, ProblemException problem) {
+        managers.audit(new AuditEntry(
+                System.currentTimeMillis(),
+                caller.user(),
+                "dead-letters",
+                "redrive",
+                about,
+                result,
+                problem == null ? null : problem.error(),
+                problem == null ? null : problem.getMessage(),
+                caller.requestId()));
+    }
+}

@@ -1,0 +1,161 @@
+package io.furrow.cli.control;
+
+import java.net.URLEncoder;
+import java.nio.charset.StandardCharsets;
+import java.util.ArrayList;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.stream.Collectors;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.table.DeadLetterTable;
+import io.furrow.cli.option.CommandGroup;
+
+/** {@code ./furrow dead-letters}. */
+@Command(
+        name = "dead-letters",
+        description = "Lists, shows and redrives records that could not be processed.",
+        addMethodSubcommands = false,
+        synopsisSubcommandLabel = "COMMAND")
+public final class DeadLetterCommandGroup extends CommandGroup {
+    private static final String PATH = "/api/dead-letters";
+    private static final int MAX_LISTED = 1000;
+
+    @Command(name = "list", abbreviateSynopsis = true, description = "Lists dead letters, the newest first.")
+    int list(
+            @Mixin ControlOptions control,
+            @Option(
+                            names = "--topic",
+                            paramLabel = "TOPIC",
+                            description = "Only this topic of dead letters, for instance data.raw.dead. Default: all.")
+                    String topic,
+            @Option(
+                            names = "--reason",
+                            paramLabel = "CODE",
+                            description = "Only those with this reason, for instance not-json.")
+                    String reason,
+            @Option(
+                            names = "--stage",
+                            paramLabel = "NAME",
+                            description = "Only those of this stage, for instance ngsi-source.")
+                    String stage,
+            @Option(
+                            names = "--from",
+                            paramLabel = "TIME",
+                            description = "Only those not before this time, ISO 8601 or epoch ms.")
+                    String from,
+            @Option(
+                            names = "--to",
+                            paramLabel = "TIME",
+                            description = "Only those before this time, ISO 8601 or epoch ms.")
+                    String to,
+            @Option(
+                            names = "--limit",
+                            paramLabel = "N",
+                            defaultValue = "50",
+                            description = "How many at most, 1 to 1000. Default: ${DEFAULT-VALUE}.")
+                    int limit) {
+        if (limit < 1 || limit > MAX_LISTED) {
+            throw control.refused("--limit is 1 to %d, not %d".formatted(MAX_LISTED, limit));
+        }
+        Map<String, String> query = new LinkedHashMap<>();
+        query.put("topic", topic);
+        query.put("reason", reason);
+        query.put("stage", stage);
+        query.put("from", from);
+        query.put("to", to);
+        return control.showPage(PATH + query(limit, query), letters -> {
+            List<String> lines = new ArrayList<>(DeadLetterTable.lines(letters));
+            if (letters.size() == limit) {
+                lines.add("There may be more than %d; --limit, --from and --to show others.".formatted(limit));
+            }
+            return lines;
+        });
+    }
+
+    private static String query(int limit, Map<String, String> others) {
+        return "?limit=" + limit
+                + others.entrySet().stream()
+                        .filter(each -> each.getValue() != null)
+                        .map(each ->
+                                "&" + each.getKey() + "=" + URLEncoder.encode(each.getValue(), StandardCharsets.UTF_8))
+                        .collect(Collectors.joining());
+    }
+
+    @Command(name = "show", description = "Shows a dead letter with its headers and its value.")
+    int show(
+            @Mixin ControlOptions control,
+            @Parameters(
+                            paramLabel = "LETTER",
+                            description =
+                                    "<topic>-<partition>@<offset>, as list shows it, for instance data.raw.dead-0@17.")
+                    String letter) {
+        if (!letter.matches(".+-[0-9]+@[0-9]+")) {
+            throw control.refused("a dead letter is <topic>-<partition>@<offset>, as list shows it, not " + letter);
+        }
+        int dash = letter.lastIndexOf('-');
+        String place = letter.substring(dash + 1).replace('@', '/');
+        return control.showPage(PATH + ControlApi.part(letter.substring(0, dash)) + "/" + place, DeadLetterTable::page);
+    }
+
+    @Command(
+            name = "redrive",
+            abbreviateSynopsis = true,
+            description = "Writes dead letters unchanged to the topic that they came from, each once. Use it after the "
+                    + "cause has been repaired. Notifications of the NGSI source came from no topic: they are left "
+                    + "without --to.")
+    int redrive(
+            @Mixin ControlOptions control,
+            @Option(
+                            names = "--topic",
+                            paramLabel = "TOPIC",
+                            defaultValue = "data.raw.dead",
+                            description = "Topic of the dead letters. Default: ${DEFAULT-VALUE}.")
+                    String topic,
+            @Option(
+                            names = "--to",
+                            paramLabel = "TOPIC",
+                            description = "Topic to write them to, which must exist. Default: that of --topic without "
+                                    + "'.dead'. Notifications of the NGSI source can be read from the topic of the "
+                                    + "normalize job, ngsi.notifications, where that job runs.")
+                    String to,
+            @Option(
+                            names = "--reason",
+                            paramLabel = "CODE,…",
+                            split = ",",
+                            hideParamSyntax = true,
+                            description = "Only those with one of these reasons, for instance not-json. Default: all.")
+                    List<String> reasons,
+            @Option(
+                            names = "--stage",
+                            paramLabel = "NAME,…",
+                            split = ",",
+                            hideParamSyntax = true,
+                            description =
+                                    "Only those of these stages. Default: all but routes, ingest-images, missions and the "
+                                            + "analytics jobs, where the event itself was processed and would become a duplicate.")
+                    List<String> stages,
+            @Option(names = "--again", description = "Also those that this command has sent back before.")
+                    boolean again,
+            @Option(names = "--dry-run", description = "Count them, write nothing.") boolean dryRun) {
+        Map<String, Object> body = new LinkedHashMap<>();
+        body.put("topic", topic);
+        body.put("to", to);
+        body.put("reasons", reasons);
+        body.put("stages", stages);
+        body.put("again", again ? true : null);
+        return control.run(api -> {
+            JsonNode answer =
+                    api.send("POST", PATH + "/redrive" + (dryRun ? "?dryRun=true" : ""), ControlOptions.object(body));
+            control.answered(answer, DeadLetterTable.redriven(answer));
+        });
+    }
+}

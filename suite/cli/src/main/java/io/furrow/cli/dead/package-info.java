@@ -1,2 +1,0 @@
-/** Redrives dead letters. */
-package io.furrow.cli.dead;
