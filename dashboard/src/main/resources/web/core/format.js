@@ -1,6 +1,6 @@
 /** Formats numbers, times and names. */
 import { t } from '../texts.js';
-import { unitOf } from './readings.js';
+import { codeOf, unitOf } from './readings.js';
 
 const SECOND = 1000;
 const MINUTE = 60 * SECOND;
@@ -136,11 +136,12 @@ const SHARES = new Set(['battery', 'relativehumidity', 'humidity', 'batterylevel
 export function quantity(name, attribute) {
   let value = attribute.value;
   if (typeof value === 'number') {
-    const code = unitOf(attribute);
+    const reported = unitOf(attribute);
+    const code = codeOf(reported);
     const isShare = SHARES.has(name.toLowerCase()) && (code === SHARE_CODE || (code === '' && value >= 0 && value <= 1 && !attribute.percent));
     const unit = isShare ? 'percent' : unitNamed(name, code);
     value *= isShare ? 100 : 1;
-    const words = unit ? t(`units.${unit}`) : code.slice(0, 12);
+    const words = unit ? t(`units.${unit}`) : reported.slice(0, 12);
     return { label: label(name), value: WHOLE.has(unit) ? String(Math.round(value)) : number(value), unit: words, numeric: true };
   }
   return { label: label(name), value: plain(value), unit: '', numeric: false };

@@ -18,6 +18,13 @@ const QUANTITIES = {
   SHARE: { __proto__: null, C62: (value) => value, P1: (value) => value / 100 },
 };
 
+/** Codes of UN/CEFACT by spellings in lower case. */
+const SPELLINGS = {
+  __proto__: null,
+  'm/s': 'MTS', 'km/h': 'KMH', mph: 'HM', kn: 'KNT', kt: 'KNT', '°': 'DD', deg: 'DD', rad: 'C81', c: 'CEL', '°c': 'CEL', celsius: 'CEL', f: 'FAH', '°f': 'FAH', fahrenheit: 'FAH',
+  k: 'KEL', kelvin: 'KEL', '%': 'P1', percent: 'P1',
+};
+
 /** A finite number, also given as text or as a FIROS message with one number; null for everything else. */
 export function finite(value) {
   const text = typeof value === 'string' ? trimmed(value) : '';
@@ -49,6 +56,12 @@ export function unitOf(attribute) {
   return typeof unitCode?.value === 'string' && unitCode.value ? unitCode.value : typeof named === 'object' ? '' : String(named);
 }
 
+/** The code of a unit given as a code or as a common spelling. */
+export function codeOf(unit) {
+  const name = trimmed(unit);
+  return SPELLINGS[name.toLowerCase()] ?? name.toUpperCase();
+}
+
 /**
  * Reads a quantity in its unit.
  *
@@ -58,11 +71,11 @@ export function unitOf(attribute) {
  */
 export function quantityOf(attribute, quantity) {
   const number = finite(attribute?.value);
-  const unit = unitOf(attribute);
-  if (number === null || unit === '') {
+  const code = codeOf(unitOf(attribute));
+  if (number === null || code === '') {
     return number;
   }
-  const read = QUANTITIES[quantity][unit];
+  const read = QUANTITIES[quantity][code];
   return read ? read(number) : quantity === 'TEMPERATURE' ? number : null;
 }
 

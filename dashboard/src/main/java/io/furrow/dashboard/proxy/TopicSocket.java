@@ -149,8 +149,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
         synchronized (this) {
             to = session;
         }
-        closed(why);
-        if (to != null && to.isOpen()) {
+        if (closed(why) && to != null) {
             to.close(code, reason.substring(0, Math.min(reason.length(), MAX_REASON_LENGTH)), Callback.NOOP);
             streams.disconnectLater(to::disconnect);
         }
@@ -244,13 +243,15 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
         closed(Closing.CLIENT);
     }
 
-    private void closed(Closing why) {
+    /** Returns whether it was open until now. */
+    private boolean closed(Closing why) {
         synchronized (this) {
             if (closed) {
-                return;
+                return false;
             }
             closed = true;
         }
         streams.end(ticket.request().topic(), this, why);
+        return true;
     }
 }

@@ -5,6 +5,7 @@ import java.time.Duration;
 import java.util.Map;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -18,6 +19,7 @@ import static org.awaitility.Awaitility.await;
 class NgsiSourceAwayIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
 
+    @Tag("full")
     @Test
     void takesNotificationsWhileKafkaIsAwayAndWritesThemWhenItIsBack(@TempDir Path directory)
             throws InterruptedException {

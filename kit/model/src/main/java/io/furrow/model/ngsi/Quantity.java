@@ -1,5 +1,6 @@
 package io.furrow.model.ngsi;
 
+import java.util.Locale;
 import java.util.Map;
 import java.util.Optional;
 import java.util.function.DoubleUnaryOperator;
@@ -8,8 +9,8 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 /**
  * A quantity and the unit in which it is read. Metadata {@code unitCode}, a code of UN/CEFACT Recommendation 20, names
- * the reported unit; a number without it already has the unit of the quantity. The dashboard's page follows the same
- * rules, and its tests use the same table of cases.
+ * the reported unit, as does a common spelling such as {@code km/h}; a number without it already has the unit of the
+ * quantity. The dashboard's page follows the same rules, and its tests use the same table of cases.
  */
 public enum Quantity {
     /** Speed in m/s; unknown units are rejected. */
@@ -27,6 +28,27 @@ public enum Quantity {
     /** A fraction, 0 to 1; unknown units are rejected. */
     SHARE(Map.of("C62", number -> number, "P1", number -> number / 100), number -> Double.NaN);
 
+    /** Codes by spellings in lower case. */
+    private static final Map<String, String> SPELLINGS = Map.ofEntries(
+            Map.entry("m/s", "MTS"),
+            Map.entry("km/h", "KMH"),
+            Map.entry("mph", "HM"),
+            Map.entry("kn", "KNT"),
+            Map.entry("kt", "KNT"),
+            Map.entry("°", "DD"),
+            Map.entry("deg", "DD"),
+            Map.entry("rad", "C81"),
+            Map.entry("c", "CEL"),
+            Map.entry("°c", "CEL"),
+            Map.entry("celsius", "CEL"),
+            Map.entry("f", "FAH"),
+            Map.entry("°f", "FAH"),
+            Map.entry("fahrenheit", "FAH"),
+            Map.entry("k", "KEL"),
+            Map.entry("kelvin", "KEL"),
+            Map.entry("%", "P1"),
+            Map.entry("percent", "P1"));
+
     private final Map<String, DoubleUnaryOperator> units;
     private final DoubleUnaryOperator other;
 
@@ -38,11 +60,17 @@ public enum Quantity {
     /**
      * Converts a number.
      *
-     * @param unitCode empty if none was reported
+     * @param unit a code or a spelling; empty if none was reported
      * @return NaN for a number in an unknown unit
      */
-    public double read(double number, String unitCode) {
-        return unitCode.isEmpty() ? number : units.getOrDefault(unitCode, other).applyAsDouble(number);
+    public double read(double number, String unit) {
+        String code = unit.isEmpty() ? unit : codeOf(unit);
+        return code.isEmpty() ? number : units.getOrDefault(code, other).applyAsDouble(number);
+    }
+
+    private static String codeOf(String unit) {
+        String trimmed = unit.trim();
+        return SPELLINGS.getOrDefault(trimmed.toLowerCase(Locale.ROOT), trimmed.toUpperCase(Locale.ROOT));
     }
 
     /** Reads an attribute as this quantity; empty if it is missing, not a finite number, or in an unknown unit. */
