@@ -88,6 +88,13 @@ class BrokerClientTest {
         assertThat(answered(status, "too odd")).isEqualTo(new Outcome.Rejected(status, status + " too odd"));
     }
 
+    /** Whoever says so: a smaller one may pass. */
+    @ParameterizedTest
+    @ValueSource(ints = {413, 414, 431})
+    void callsThePageAboutARequestThatIsTooLargeARefusal(int status) {
+        assertThat(answered(status, "<html>too large</html>")).isInstanceOf(Outcome.Rejected.class);
+    }
+
     @Test
     void takesNoAnswerThatIsLargerThanAllowed() {
         answering = exchange -> StubServer.answer(exchange, 200, "[" + " ".repeat(99_998) + "]");
@@ -106,6 +113,23 @@ class BrokerClientTest {
         assertThat(answered(404, "{\"title\": \"no entity\"}")).isInstanceOf(Outcome.Absent.class);
     }
 
+    /** Answers of Orion, Orion-LD and Scorpio of several versions, and Stellio. */
+    @ParameterizedTest
+    @ValueSource(
+            strings = {
+                "{'error': 'NotFound', 'description': 'The requested entity has not been found. Check type and id'}",
+                "{'error': 'NonExistingTenant', 'description': 'the tenant does not exist'}",
+                "{'type': 'https://uri.etsi.org/ngsi-ld/errors/ResourceNotFound', 'title': 'Entity Not Found'}",
+                "{'type': 'https://uri.etsi.org/ngsi-ld/errors/NonExistingTenant', 'title': 'No such tenant'}",
+                "{'type': 'http://uri.etsi.org/ngsi-ld/errors/BadRequestData', 'title': 'Entity does not exist'}",
+                "{'type': 404, 'title': 'Resource not found.', 'detail': 'Resource not found.'}",
+                "{'type': 'https://uri.etsi.org/ngsi-ld/errors/ResourceNotFound', 'title': 'The referred resource has"
+                        + " not been found', 'status': 404, 'instance': '/ngsi-ld/v1/entities/urn:x:1'}"
+            })
+    void readsInTheAnswerOfAContextBrokerThatSomethingIsAbsent(String body) {
+        assertThat(answered(404, body.replace('\'', '"'))).isInstanceOf(Outcome.Absent.class);
+    }
+
     @ParameterizedTest
     @CsvSource(
             delimiter = '|',
@@ -113,7 +137,16 @@ class BrokerClientTest {
                 "200 | <html>log in</html>",
                 "404 | <html>nginx</html>",
                 "404 | not found",
-                "404 | {\"message\": \"no Route\"}"
+                "404 | {\"message\": \"no Route\"}",
+                "404 | ''",
+                "404 | {\"timestamp\": 1, \"status\": 404, \"error\": \"Not Found\", \"path\": \"/v2/op/update\"}",
+                "404 | {\"timestamp\": 1, \"status\": 404, \"title\": \"Not Found\", \"path\": \"/v2/op/update\"}",
+                "404 | {\"error\": {\"code\": \"NOT_FOUND\", \"message\": \"The requested URL was not found\"}}",
+                "404 | {\"type\": \"https://tools.ietf.org/html/rfc9110#section-15.5.5\", \"title\": \"Not Found\"}",
+                "404 | {\"type\": \"about:blank\", \"title\": \"Not Found\", \"instance\": \"/v2/op/update\"}",
+                "400 | <html><head><title>400 The SSL certificate error</title></head></html>",
+                "406 | <html>Not Acceptable!</html>",
+                "409 | <!DOCTYPE html><p>log in</p>"
             })
     void callsThePageOfAProxyAWrongSetting(int status, String page) {
         assertThat(answered(status, page))
@@ -124,7 +157,7 @@ class BrokerClientTest {
     }
 
     @ParameterizedTest
-    @ValueSource(ints = {301, 401, 403, 405})
+    @ValueSource(ints = {301, 401, 402, 403, 405, 407, 410, 421, 423, 451})
     void callsAnAnswerThatNoRepetitionHelpsAWrongSetting(int status) {
         assertThat(answered(status, "no"))
                 .isInstanceOfSatisfying(
@@ -139,6 +172,7 @@ class BrokerClientTest {
                 .isInstanceOfSatisfying(
                         Outcome.Unavailable.class,
                         unavailable -> assertThat(unavailable.retryAfter()).isEmpty());
+        assertThat(answered(status, "<html>later</html>")).isInstanceOf(Outcome.Unavailable.class);
     }
 
     @Test
