@@ -103,7 +103,7 @@ public final class CorrectClocks extends KeyedProcessFunction<String, TopicRecor
 
     private static ClockReport report(TopicRecord record, long millis, long time) {
         return new ClockReport(
-                ClockReport.Kind.OFFSET, record.topic(), identity(record), id(record), "", "", millis, 0, time);
+                ClockReport.Kind.OFFSET, record.topic(), identity(record), id(record), "", "", millis, 0, 0, time);
     }
 
     static String identity(TopicRecord record) {

@@ -26,7 +26,7 @@ import io.furrow.model.topic.Topics;
  *
  * <p><b>Late</b>: no record.
  *
- * <p><b>Emits</b>: that the device is delayed, and once a minute that it still is. Replayed and repaired records do not count, nor does
+ * <p><b>Emits</b>: that the device is delayed, and at most once a minute that it still is. Replayed and repaired records do not count, nor does
  * a backlog, which a gateway sends faster than it came about.
  */
 final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockReport> {
@@ -107,7 +107,7 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
         boolean catchesUp = record.timestamp() - lag.first() > CATCHES_UP * (received - lag.since());
         if (!catchesUp && lag.isDue(MIN_RECORDS)) {
             String mission = entity.text("Mission").orElse("");
-            out.collect(ClockReport.delayed(position, entity.type(), mission, lag.positions()));
+            out.collect(ClockReport.delayed(position, entity.type(), mission, lag));
             lag = lag.afterReport();
         }
         return new Run(lag, record.timestamp());

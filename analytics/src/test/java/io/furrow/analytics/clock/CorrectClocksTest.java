@@ -69,6 +69,7 @@ class CorrectClocksTest {
                         "",
                         3000,
                         0,
+                        0,
                         START + 122 * SECOND));
     }
 

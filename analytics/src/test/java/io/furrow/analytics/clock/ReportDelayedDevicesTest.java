@@ -63,6 +63,19 @@ class ReportDelayedDevicesTest {
     }
 
     @Test
+    void reportsOneThatReportsEveryQuarterOfAnHour() throws Exception {
+        assertThat(reports(15 * MINUTE, 4, time -> time - 2 * HOUR)).isEqualTo(2);
+        assertThat(harness.extractOutputValues())
+                .extracting(ClockReport::interval)
+                .containsExactly(15 * MINUTE, 15 * MINUTE);
+    }
+
+    @Test
+    void endsAStreakWithALongSilence() throws Exception {
+        assertThat(reports(4 * HOUR, 10, time -> time - 2 * HOUR)).isZero();
+    }
+
+    @Test
     void reportsAClockThatWentWrongMeanwhileAndNoneThatIsRightNowAndThen() throws Exception {
         assertThat(reports(SECOND, 60, time -> time)).isZero();
         assertThat(reports(SECOND, 60, time -> time - (time / SECOND % 20 == 0 ? 0 : HOUR)))
