@@ -38,6 +38,7 @@ record ClockEntity(String job, String topic) implements Serializable {
     private static void describe(EntityBuilder entity, ClockReport report, String what) {
         entity.integer(ClockResult.LATE, report.millis())
                 .integer(what, report.positions())
+                .integer(ClockResult.INTERVAL, report.interval())
                 .text("Mission", report.mission());
     }
 }

@@ -2,6 +2,7 @@ package io.furrow.analytics.clock;
 
 import java.time.Duration;
 import java.util.Arrays;
+import java.util.Objects;
 
 /**
  * The offset of a device's clock, estimated from its delays: receipt less event time. The delay of a message without latency is the
@@ -10,12 +11,13 @@ import java.util.Arrays;
  * that late and no three later ones were earlier: a backlog that a gateway sends at once has no effect unless that takes longer than
  * a span.
  *
+ * @param type of the entity; empty if unknown, as in state that was stored without it
  * @param millis the offset in force, which is added to the device's times; 0 for none
  * @param since the receipt that began the current span
  * @param before the three least delays of the previous span, ascending; {@link #UNKNOWN} for missing ones
  * @param least the same of the current span
  */
-public record ClockOffset(long millis, long since, long[] before, long[] least) {
+public record ClockOffset(String type, long millis, long since, long[] before, long[] least) {
     static final long SPAN = Duration.ofMinutes(2).toMillis();
     /** A smaller offset is attributed to latency, not to the clock. */
     static final long MIN = Duration.ofSeconds(1).toMillis();
@@ -27,9 +29,13 @@ public record ClockOffset(long millis, long since, long[] before, long[] least) 
     private static final long UNKNOWN = Long.MAX_VALUE;
     private static final long[] NONE = {UNKNOWN, UNKNOWN, UNKNOWN};
 
+    public ClockOffset {
+        type = type == null ? "" : type;
+    }
+
     /** The offset after the first message of a device. */
     static ClockOffset first(long time, long receipt) {
-        return new ClockOffset(0, receipt, NONE, with(NONE, receipt - time));
+        return new ClockOffset("", 0, receipt, NONE, with(NONE, receipt - time));
     }
 
     /**
@@ -43,7 +49,26 @@ public record ClockOffset(long millis, long since, long[] before, long[] least) 
         long[] last = over ? least : before;
         long[] now = with(over ? NONE : least, receipt - time);
         long newMillis = third(now) == UNKNOWN ? millis : inForce(learned(last, now));
-        return new ClockOffset(newMillis, over ? receipt : since, last, now);
+        return new ClockOffset(type, newMillis, over ? receipt : since, last, now);
+    }
+
+    ClockOffset of(String newType) {
+        return new ClockOffset(newType, millis, since, before, least);
+    }
+
+    @Override
+    public boolean equals(Object other) {
+        return other instanceof ClockOffset that
+                && type.equals(that.type)
+                && millis == that.millis
+                && since == that.since
+                && Arrays.equals(before, that.before)
+                && Arrays.equals(least, that.least);
+    }
+
+    @Override
+    public int hashCode() {
+        return Objects.hash(type, millis, since, Arrays.hashCode(before), Arrays.hashCode(least));
     }
 
     /** The device's time as a correct clock shows it; not after its receipt, unless it is corrected backwards. */

@@ -13,6 +13,7 @@ import io.furrow.model.event.FiwareScope;
  * @param millis {@link Kind#BEHIND}: lateness of the newest position; {@link Kind#DELAYED}: delay of the newest record, from event
  *     time to receipt; {@link Kind#OFFSET}: the offset added to the device's times
  * @param positions {@link Kind#BEHIND}: number of late positions in a row; {@link Kind#DELAYED}: number of records
+ * @param interval milliseconds after which the next report is expected; 0 for {@link Kind#OFFSET}
  * @param time event time of the report, epoch ms
  */
 public record ClockReport(
@@ -24,6 +25,7 @@ public record ClockReport(
         String mission,
         long millis,
         int positions,
+        long interval,
         long time) {
     /** The kind of finding. */
     public enum Kind {
@@ -35,16 +37,16 @@ public record ClockReport(
         OFFSET
     }
 
-    static ClockReport behind(LaggingPosition position, int positions) {
+    static ClockReport behind(LaggingPosition position, LagStreak streak) {
         String type = FiwareScope.typeOf(position.identity(), position.id());
-        return of(Kind.BEHIND, position, type, position.mission(), positions);
+        return of(Kind.BEHIND, position, type, position.mission(), streak);
     }
 
-    static ClockReport delayed(LaggingPosition record, String type, String mission, int records) {
-        return of(Kind.DELAYED, record, type, mission, records);
+    static ClockReport delayed(LaggingPosition record, String type, String mission, LagStreak streak) {
+        return of(Kind.DELAYED, record, type, mission, streak);
     }
 
-    private static ClockReport of(Kind kind, LaggingPosition position, String type, String mission, int positions) {
+    private static ClockReport of(Kind kind, LaggingPosition position, String type, String mission, LagStreak streak) {
         return new ClockReport(
                 kind,
                 position.topic(),
@@ -53,7 +55,8 @@ public record ClockReport(
                 type,
                 mission,
                 position.reached() - position.time(),
-                positions,
+                streak.positions(),
+                streak.interval(),
                 position.reached());
     }
 

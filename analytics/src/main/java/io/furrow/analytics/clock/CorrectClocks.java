@@ -3,26 +3,28 @@ package io.furrow.analytics.clock;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.OptionalLong;
+import java.util.Set;
 
 import org.apache.flink.api.common.functions.OpenContext;
-import org.apache.flink.api.common.state.ValueState;
-import org.apache.flink.api.common.state.ValueStateDescriptor;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
 import io.furrow.analytics.eventtime.SingleTimer;
+import io.furrow.flink.record.ByType;
 import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.result.ResultTypes;
 
 /**
  * Corrects the event times of each device's records by the offset of its clock, before lateness is decided. Key: the device of a topic,
- * see {@link #deviceOf}. Watermarks still follow the times that the devices reported.
+ * see {@link #deviceOf}. Entities that share an id have clocks of their own, by type. Watermarks still follow the times that the devices reported.
  *
- * <p><b>State</b>: the estimated offset of the device's clock, see {@link ClockOffset}. It depends only on the device's records in their
+ * <p><b>State</b>: the estimated offset of the device's clock by type, see {@link ClockOffset}. It depends only on the device's records in their
  * order, not on the wall clock, so that a restart and a second pass give the same.
  *
  * <p><b>Cleared</b>: a day of event time after the receipt that began the current span.
@@ -41,11 +43,13 @@ public final class CorrectClocks extends KeyedProcessFunction<String, TopicRecor
     static final String HEADER = "clock-offset";
 
     private static final long serialVersionUID = 1L;
+    private static final ByType.Descriptor<ClockOffset> OFFSET =
+            new ByType.Descriptor<>("offset", ClockOffset.class, ClockOffset::type);
     private static final long KEPT = Duration.ofDays(1).toMillis();
 
     private final ReceiptTime receiptTime;
     private transient SingleTimer timer;
-    private transient ValueState<ClockOffset> offset;
+    private transient ByType<ClockOffset> offsets;
     private transient Counter corrected;
 
     CorrectClocks(ReceiptTime receiptTime) {
@@ -60,7 +64,7 @@ public final class CorrectClocks extends KeyedProcessFunction<String, TopicRecor
     @Override
     public void open(OpenContext context) {
         timer = new SingleTimer(getRuntimeContext());
-        offset = getRuntimeContext().getState(new ValueStateDescriptor<>("offset", ClockOffset.class));
+        offsets = OFFSET.of(getRuntimeContext());
         corrected = getRuntimeContext().getMetricGroup().counter("corrected");
     }
 
@@ -72,15 +76,16 @@ public final class CorrectClocks extends KeyedProcessFunction<String, TopicRecor
             return;
         }
         long received = stamp.getAsLong();
-        ClockOffset before = offset.value();
+        String type = typeOf(record);
+        ClockOffset before = offsets.get(type);
         ClockOffset now = before == null
                 ? ClockOffset.first(record.timestamp(), received)
                 : before.after(record.timestamp(), received);
-        offset.update(now);
+        offsets.put(type, now.of(type));
         timer.ask(now.since() + KEPT, context.timerService());
         long time = now.corrected(record.timestamp(), received);
         if (before != null && before.millis() != now.millis()) {
-            context.output(REPORTS, report(record, now.millis(), time));
+            context.output(REPORTS, report(record, type, now.millis(), time));
         }
         if (now.millis() == 0) {
             out.collect(record);
@@ -93,17 +98,27 @@ public final class CorrectClocks extends KeyedProcessFunction<String, TopicRecor
     @Override
     public void onTimer(long time, OnTimerContext context, Collector<TopicRecord> out) throws Exception {
         timer.rang();
-        long end = offset.value().since() + KEPT;
-        if (end <= context.timerService().currentWatermark()) {
-            offset.clear();
-        } else {
-            timer.ask(end, context.timerService());
+        for (ClockOffset each : offsets.allOf("")) {
+            long end = each.since() + KEPT;
+            if (end <= context.timerService().currentWatermark()) {
+                offsets.remove(each);
+            } else {
+                timer.ask(end, context.timerService());
+            }
         }
     }
 
-    private static ClockReport report(TopicRecord record, long millis, long time) {
+    private static ClockReport report(TopicRecord record, String type, long millis, long time) {
         return new ClockReport(
-                ClockReport.Kind.OFFSET, record.topic(), identity(record), id(record), "", "", millis, 0, time);
+                ClockReport.Kind.OFFSET, record.topic(), identity(record), id(record), type, "", millis, 0, 0, time);
+    }
+
+    private static String typeOf(TopicRecord record) {
+        try {
+            return Entity.parse(record.value(), Set.of()).type();
+        } catch (UnreadableException e) { // another stage emits its dead letter
+            return "";
+        }
     }
 
     static String identity(TopicRecord record) {

@@ -16,11 +16,11 @@ import io.furrow.model.topic.Topics;
  *
  * <p><b>State</b>: the streak, see {@link LagStreak}.
  *
- * <p><b>Cleared</b>: after 10 min of event time without a late position.
+ * <p><b>Cleared</b>: after 3 h of event time without a late position.
  *
  * <p><b>Late</b>: every input.
  *
- * <p><b>Emits</b>: that the device is behind, and once a minute of event time that it still is.
+ * <p><b>Emits</b>: that the device is behind, and at most once a minute of event time that it still is.
  */
 public final class DetectClockLag extends KeyedProcessFunction<String, LaggingPosition, ClockReport> {
     private static final long serialVersionUID = 1L;
@@ -47,7 +47,7 @@ public final class DetectClockLag extends KeyedProcessFunction<String, LaggingPo
         }
         LagStreak now = LagStreak.after(streak.value(), position);
         if (now.isDue()) {
-            out.collect(ClockReport.behind(position, now.positions()));
+            out.collect(ClockReport.behind(position, now));
             now = now.afterReport();
         }
         streak.update(now);

@@ -17,8 +17,8 @@ public record LagStreak(long first, long since, long reached, int positions, lon
     static final long MIN_TIME = Duration.ofSeconds(30).toMillis();
     /** Least event time between two reports of a streak. */
     static final long AGAIN = Duration.ofMinutes(1).toMillis();
-    /** A longer silence ends a streak. */
-    static final long MAX_GAP = Duration.ofMinutes(10).toMillis();
+    /** A longer silence ends a streak; devices with a battery report every hour or two. */
+    static final long MAX_GAP = Duration.ofHours(3).toMillis();
 
     private static final long NEVER = Long.MIN_VALUE;
 
@@ -41,6 +41,11 @@ public record LagStreak(long first, long since, long reached, int positions, lon
 
     boolean isDue(int min) {
         return positions >= min && reached - since >= MIN_TIME && (emitted == NEVER || reached - emitted >= AGAIN);
+    }
+
+    /** The time after which the next report of a streak that is due is expected. */
+    long interval() {
+        return emitted == NEVER ? Math.max(AGAIN, (reached - since) / (positions - 1)) : reached - emitted;
     }
 
     LagStreak afterReport() {

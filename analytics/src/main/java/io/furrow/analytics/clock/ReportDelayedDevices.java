@@ -1,10 +1,12 @@
 package io.furrow.analytics.clock;
 
 import java.time.Duration;
+import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.Map;
-import java.util.Set;
+import java.util.regex.Pattern;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
@@ -19,14 +21,14 @@ import io.furrow.model.topic.Topics;
 
 /**
  * Reports devices of any kind with a streak of records that are behind their {@link ReceiptTime} by more than a limit, independently of
- * watermarks. A record on time ends the streak; a record no newer than the last is ignored. All records of a device pass through the
- * same subtask.
+ * watermarks. A record on time ends the streak. An older record than the last is ignored, and so is one of the same time, unless it was
+ * received later and has other measurements: then the clock stands still. All records of a device pass through the same subtask.
  *
  * <p><b>State</b>: in memory only; streaks begin again after a restart.
  *
  * <p><b>Late</b>: no record.
  *
- * <p><b>Emits</b>: that the device is delayed, and once a minute that it still is. Replayed and repaired records do not count, nor does
+ * <p><b>Emits</b>: that the device is delayed, and at most once a minute that it still is. Replayed and repaired records do not count, nor does
  * a backlog, which a gateway sends faster than it came about.
  */
 final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockReport> {
@@ -37,13 +39,20 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
     private static final int MAX_DEVICES = 10_000;
     private static final int MAX_TYPES = 10;
     private static final int CATCHES_UP = 2;
+    /** Attributes that others than the device write; commands also have types of their own. */
+    private static final Pattern NOT_MEASURED = Pattern.compile("TimeInstant|Domain|Mission|cmd|.+_(status|info)");
 
     private final ReceiptTime receiptTime;
     private final long maxBehindMillis;
     /** By type, for entities of one id. */
     private transient Map<String, Map<String, Run>> runs;
 
-    private record Run(LagStreak lag, long newest) {}
+    /** @param measured hash of the measurements of the newest record */
+    private record Run(LagStreak lag, long newest, int measured) {
+        private boolean isFollowedBy(long time, long received, int nowMeasured) {
+            return time > newest || time == newest && received > lag.reached() && nowMeasured != measured;
+        }
+    }
 
     ReportDelayedDevices(ReceiptTime receiptTime, Duration maxBehind) {
         this.receiptTime = receiptTime;
@@ -92,7 +101,8 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
     }
 
     private static Run after(Run before, TopicRecord record, long received, Entity entity, Collector<ClockReport> out) {
-        if (before != null && record.timestamp() <= before.newest) {
+        int measured = measured(entity);
+        if (before != null && !before.isFollowedBy(record.timestamp(), received, measured)) {
             return before;
         }
         LaggingPosition position = new LaggingPosition(
@@ -107,10 +117,20 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
         boolean catchesUp = record.timestamp() - lag.first() > CATCHES_UP * (received - lag.since());
         if (!catchesUp && lag.isDue(MIN_RECORDS)) {
             String mission = entity.text("Mission").orElse("");
-            out.collect(ClockReport.delayed(position, entity.type(), mission, lag.positions()));
+            out.collect(ClockReport.delayed(position, entity.type(), mission, lag));
             lag = lag.afterReport();
         }
-        return new Run(lag, record.timestamp());
+        return new Run(lag, record.timestamp(), measured);
+    }
+
+    private static int measured(Entity entity) {
+        Map<String, JsonNode> values = new HashMap<>();
+        entity.attributes().forEach(each -> values.put(each.getKey(), each.getValue()));
+        values.keySet().removeAll(Entity.BUILT_INS);
+        values.keySet().removeIf(NOT_MEASURED.asMatchPredicate());
+        values.values().removeIf(each -> each.path("type").asText().startsWith("command"));
+        values.replaceAll((name, each) -> each.path("value"));
+        return values.hashCode();
     }
 
     private static boolean isReported(TopicRecord record) {
@@ -120,7 +140,7 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
 
     private static Entity entityOf(TopicRecord record) {
         try {
-            return Entity.parse(record.value(), Set.of("Mission"));
+            return Entity.parse(record.value());
         } catch (UnreadableException e) { // another stage emits its dead letter
             return Entity.builder(CorrectClocks.id(record), "").build();
         }

@@ -18,9 +18,11 @@ import org.junit.jupiter.api.Test;
 import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.Entity;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.tuple;
 
 class CorrectClocksTest {
     private static final long START = 1_700_000_000_000L;
@@ -69,6 +71,7 @@ class CorrectClocksTest {
                         "",
                         3000,
                         0,
+                        0,
                         START + 122 * SECOND));
     }
 
@@ -80,6 +83,29 @@ class CorrectClocksTest {
             start();
             assertThat(run(restart)).isEqualTo(undisturbed);
         }
+    }
+
+    @Test
+    void correctsEachEntityOfAnIdByItsOwnClock() throws Exception {
+        for (long now = START; now < START + 20 * SECOND; now += SECOND) {
+            receive(record(entity("7", "Robot"), "7", now, now));
+            receive(record(entity("7", "WeatherStation"), "7", now + 300 * SECOND, now));
+        }
+        List<TopicRecord> out = harness.extractOutputValues();
+        assertThat(out)
+                .filteredOn(record -> new String(record.value(), UTF_8).contains("Robot"))
+                .hasSize(20)
+                .allMatch(record -> record.timestamp() == received(record))
+                .noneMatch(record -> record.headers().containsKey(CorrectClocks.HEADER));
+        assertThat(out)
+                .filteredOn(record -> new String(record.value(), UTF_8).contains("WeatherStation"))
+                .hasSize(20)
+                .filteredOn(record -> received(record) >= START + 2 * SECOND)
+                .allMatch(record -> record.timestamp() == received(record))
+                .allMatch(record -> "-300000".equals(record.headers().get(CorrectClocks.HEADER)));
+        assertThat(reports())
+                .extracting(ClockReport::type, ClockReport::millis)
+                .containsExactly(tuple("WeatherStation", -300_000L));
     }
 
     private List<String> run(int restartedAfter) throws Exception {
@@ -140,11 +166,19 @@ class CorrectClocksTest {
     }
 
     private static TopicRecord record(String device, long time, long received) {
+        return record(new byte[] {1}, device, time, received);
+    }
+
+    private static byte[] entity(String id, String type) {
+        return Entity.builder(id, type).build().toBytes();
+    }
+
+    private static TopicRecord record(byte[] value, String device, long time, long received) {
         Map<String, String> headers = Map.of(
                 HeaderNames.SERVICE, "farm",
                 HeaderNames.SERVICE_PATH, "/",
                 HeaderNames.TS_SOURCE, Long.toString(received));
-        return TopicRecord.of("data.raw", time, device, new byte[] {1}, headers);
+        return TopicRecord.of("data.raw", time, device, value, headers);
     }
 
     private static String key(TopicRecord record) {

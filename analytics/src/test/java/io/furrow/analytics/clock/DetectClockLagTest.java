@@ -17,6 +17,7 @@ import static org.assertj.core.api.Assertions.tuple;
 
 class DetectClockLagTest {
     private static final long MINUTE = 60_000;
+    private static final long HOUR = 60 * MINUTE;
     private static final long NOTHING = Long.MIN_VALUE;
 
     private KeyedOneInputStreamOperatorTestHarness<String, LaggingPosition, ClockReport> harness;
@@ -32,7 +33,7 @@ class DetectClockLagTest {
 
     @AfterEach
     void leaveNothing() throws Exception {
-        harness.processWatermark(new Watermark(100 * MINUTE));
+        harness.processWatermark(new Watermark(12 * HOUR));
         assertThat(harness.numKeyedStateEntries()).isZero();
         assertThat(harness.numEventTimeTimers()).isZero();
         harness.close();
@@ -65,12 +66,12 @@ class DetectClockLagTest {
     void beginsAnewWherePositionsCountedInBetweenOrNoneCameForLong() throws Exception {
         for (int run = 0; run < 3; run++) {
             for (int second = 0; second < 29; second++) {
-                long reached = run * 11 * MINUTE + second * 1000;
+                long reached = run * 4 * HOUR + second * 1000;
                 late("r", reached, 700, NOTHING);
             }
         }
         assertThat(told()).isEmpty();
-        late("r", 23 * MINUTE, 700, 23 * MINUTE - 2000);
+        late("r", 8 * HOUR + MINUTE, 700, 8 * HOUR + MINUTE - 2000);
         assertThat(told()).isEmpty();
     }
 
@@ -82,6 +83,16 @@ class DetectClockLagTest {
         assertThat(told()).isEmpty();
         late("r", 9 * MINUTE, 700, NOTHING);
         assertThat(told()).hasSize(1);
+    }
+
+    @Test
+    void reportsADeviceThatReportsEveryQuarterOfAnHour() throws Exception {
+        for (int report = 0; report < 12; report++) {
+            late("r", report * 15 * MINUTE, 700, NOTHING);
+        }
+        assertThat(told())
+                .extracting(ClockReport::positions, ClockReport::interval)
+                .containsExactly(tuple(10, 15 * MINUTE), tuple(11, 15 * MINUTE), tuple(12, 15 * MINUTE));
     }
 
     private void late(String device, long reached, long by, long counted) throws Exception {

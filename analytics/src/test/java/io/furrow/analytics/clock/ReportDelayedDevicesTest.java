@@ -4,6 +4,7 @@ import java.time.Duration;
 import java.util.Map;
 import java.util.function.LongUnaryOperator;
 
+import com.fasterxml.jackson.databind.node.TextNode;
 import org.apache.flink.streaming.api.operators.ProcessOperator;
 import org.apache.flink.streaming.util.OneInputStreamOperatorTestHarness;
 import org.junit.jupiter.api.AutoClose;
@@ -63,6 +64,19 @@ class ReportDelayedDevicesTest {
     }
 
     @Test
+    void reportsOneThatReportsEveryQuarterOfAnHour() throws Exception {
+        assertThat(reports(15 * MINUTE, 4, time -> time - 2 * HOUR)).isEqualTo(2);
+        assertThat(harness.extractOutputValues())
+                .extracting(ClockReport::interval)
+                .containsExactly(15 * MINUTE, 15 * MINUTE);
+    }
+
+    @Test
+    void endsAStreakWithALongSilence() throws Exception {
+        assertThat(reports(4 * HOUR, 10, time -> time - 2 * HOUR)).isZero();
+    }
+
+    @Test
     void reportsAClockThatWentWrongMeanwhileAndNoneThatIsRightNowAndThen() throws Exception {
         assertThat(reports(SECOND, 60, time -> time)).isZero();
         assertThat(reports(SECOND, 60, time -> time - (time / SECOND % 20 == 0 ? 0 : HOUR)))
@@ -87,6 +101,42 @@ class ReportDelayedDevicesTest {
             receive(slow.to("data.m.replay.0a1b2c3d"));
             receive(slow.with(HeaderNames.ORIGIN, "repair"));
             report("Analytics:FieldTemperature:f", now - HOUR);
+        }
+        assertThat(harness.extractOutputValues()).isEmpty();
+    }
+
+    @Test
+    void reportsAClockThatStandsStill() throws Exception {
+        for (long behind : new long[] {365 * 24 * HOUR, 2 * MINUTE}) {
+            int before = harness.extractOutputValues().size();
+            long still = now - behind;
+            for (int i = 0; i < 10; i++) {
+                receive(measured("robot " + behind, still, i));
+                now += 10 * SECOND;
+            }
+            assertThat(harness.extractOutputValues()).hasSizeGreaterThan(before);
+        }
+    }
+
+    @Test
+    void countsNoCommandNorTheSameMeasurementTwiceAsOneOfAClockThatStandsStill() throws Exception {
+        long still = START - HOUR;
+        for (int i = 0; i < 10; i++) {
+            now += 10 * SECOND;
+            Entity commanded = Entity.builder("robot", "Thermometer")
+                    .text("TimeInstant", "2023-11-14T22:13:%02dZ".formatted(i))
+                    .text("Mission", "m" + i)
+                    .text("cmd", "go " + i)
+                    .attribute("water", "command", TextNode.valueOf("go " + i))
+                    .attribute("water_info", "commandResult", TextNode.valueOf("gone " + i))
+                    .integer("Temperature", 1)
+                    .build();
+            receive(record(commanded, still));
+        }
+        TopicRecord first = measured("robot", still, 2);
+        for (int i = 0; i < 10; i++) {
+            receive(first);
+            receive(measured("robot", still, 3));
         }
         assertThat(harness.extractOutputValues()).isEmpty();
     }
@@ -126,8 +176,19 @@ class ReportDelayedDevicesTest {
     }
 
     private TopicRecord record(String device, String type, long time) {
-        byte[] entity =
-                Entity.builder(device, type).text("Mission", "m").build().toBytes();
-        return TopicRecord.of("data.raw", time, device, entity, Map.of(HeaderNames.TS_SOURCE, Long.toString(now)));
+        return record(Entity.builder(device, type).text("Mission", "m").build(), time);
+    }
+
+    private TopicRecord measured(String device, long time, int value) {
+        return record(
+                Entity.builder(device, "Thermometer")
+                        .integer("Temperature", value)
+                        .build(),
+                time);
+    }
+
+    private TopicRecord record(Entity entity, long time) {
+        Map<String, String> headers = Map.of(HeaderNames.TS_SOURCE, Long.toString(now));
+        return TopicRecord.of("data.raw", time, entity.id(), entity.toBytes(), headers);
     }
 }

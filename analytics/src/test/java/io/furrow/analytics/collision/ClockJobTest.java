@@ -43,6 +43,7 @@ class ClockJobTest {
             assertThat(entity.text("job")).contains("collision");
             assertThat(entity.text("Mission")).contains("hoeing");
             assertThat(entity.number("late")).hasValue(999.0);
+            assertThat(entity.number("interval")).hasValue(60_000.0);
         });
         assertThat(behind.get(0).number("positions")).hasValue(31.0);
         assertThat(behind.get(0).number("time")).hasValue(START + 30_000 - 2001.0);

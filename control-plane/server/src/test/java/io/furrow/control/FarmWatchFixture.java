@@ -91,11 +91,20 @@ final class FarmWatchFixture implements AutoCloseable {
     }
 
     void clockBehind(String device, long late) {
-        EntityBuilder entity = Entity.builder("Analytics:ClockBehind:" + device, "Analytics:ClockBehind")
+        pipe(Topics.CLOCKS, device, behind(device, late).toBytes());
+    }
+
+    /** @param interval after which the next report is expected */
+    void clockBehind(String device, long late, Duration interval) {
+        EntityBuilder entity = behind(device, late).integer("interval", interval.toMillis());
+        pipe(Topics.CLOCKS, device, entity.toBytes());
+    }
+
+    private static EntityBuilder behind(String device, long late) {
+        return Entity.builder("Analytics:ClockBehind:" + device, "Analytics:ClockBehind")
                 .text("device", device)
                 .text("Mission", "m")
                 .integer("late", late);
-        pipe(Topics.CLOCKS, device, entity.toBytes());
     }
 
     void request(String manager, String members) {

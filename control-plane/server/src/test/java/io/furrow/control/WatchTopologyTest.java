@@ -78,6 +78,22 @@ class WatchTopologyTest {
     }
 
     @Test
+    void retainsTheAlarmOfADeviceThatReportsSeldomUntilItsReportsHaveEnded() throws Exception {
+        for (int report = 0; report < 3; report++) {
+            farm.pass(Duration.ofMinutes(report == 0 ? 0 : 5));
+            farm.clockBehind("slow", 999, Duration.ofMinutes(5));
+        }
+        farm.pass(Duration.ofMinutes(2));
+        assertThat(farm.all(Topics.ALARMS))
+                .extracting(alarm -> alarm.path("change").asText())
+                .containsExactly("opened");
+        farm.pass(Duration.ofMinutes(17));
+        assertThat(farm.all(Topics.ALARMS)).isEmpty();
+        farm.pass(Duration.ofMinutes(1));
+        assertThat(countClosedClockAlarms()).isEqualTo(1);
+    }
+
+    @Test
     void raisesOneAlarmPerEntityOfAnAmbiguousId() throws Exception {
         for (String[] each :
                 new String[][] {{"farm", "ROBOT"}, {"other", "ROBOT"}, {"farm", "Camera"}, {"other", "ROBOT"}}) {

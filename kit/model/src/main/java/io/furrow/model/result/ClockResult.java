@@ -15,6 +15,8 @@ public final class ClockResult {
     public static final String LATE = "late";
     /** Number of reports of a {@link #BEHIND_TYPE} that were received long after their time. */
     public static final String REPORTS = "reports";
+    /** Milliseconds after which the next {@link #BEHIND_TYPE} of the device is expected. */
+    public static final String INTERVAL = "interval";
 
     private ClockResult() {}
 }

@@ -20,11 +20,13 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.result.ClockResult;
 
 /**
- * Raises alarms for devices whose reports arrive too late and are dropped by all analyses. A job reports such a
- * device once a minute; the alarm ends after three minutes without a report.
+ * Raises alarms for devices whose reports arrive too late and are dropped by all analyses. A report names the
+ * interval to the next one; the alarm ends after four intervals, at least three minutes, without a report. Four: a job that was
+ * restarted reports a device after three of its records.
  */
 record ClockAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types) implements Observer {
-    private static final Duration VALIDITY = Duration.ofMinutes(3);
+    private static final Duration MIN_VALIDITY = Duration.ofMinutes(3);
+    private static final int INTERVALS = 4;
 
     @Override
     public void take(Record<String, byte[]> record, long now) throws UnreadableException {
@@ -48,8 +50,13 @@ record ClockAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> 
         String type = entity.text(ClockResult.DEVICE_TYPE).orElse("");
         String existing = type.isEmpty() ? types.apply(scope.identity(device)) : type;
         List<Cause.AffectedDevice> devices = List.of(Cause.AffectedDevice.of(device, existing, scope));
-        Cause cause = new Cause(AlarmKind.CLOCK_BEHIND, device, text, devices, VALIDITY)
+        Cause cause = new Cause(AlarmKind.CLOCK_BEHIND, device, text, devices, validity(entity))
                 .identifiedBy(scope.identity(type, device));
         alarms.raise(cause.inGroup(AlarmGroup.of(entity.text("Mission").orElse(""), "")), now);
+    }
+
+    private static Duration validity(Entity report) {
+        double millis = INTERVALS * report.number(ClockResult.INTERVAL).orElse(0.0);
+        return Duration.ofMillis(Math.max(MIN_VALIDITY.toMillis(), (long) millis));
     }
 }
