@@ -15,12 +15,17 @@ import java.time.Instant;
 import java.time.ZonedDateTime;
 import java.time.format.DateTimeFormatter;
 import java.util.Optional;
+import java.util.Set;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
 import java.util.regex.Pattern;
 
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.text.LogText;
 
@@ -29,8 +34,13 @@ import io.furrow.model.text.LogText;
  * broker. Thread-safe.
  */
 public final class BrokerClient {
-    /** A member of an error of NGSI-v2 or NGSI-LD. */
-    private static final Pattern ERROR = Pattern.compile("^\\{.*\"(error|type|title)\"\\s*:", Pattern.DOTALL);
+    /** The errors of NGSI-v2 with status 404. */
+    private static final Set<String> ABSENCES = Set.of("NotFound", "NonExistingTenant");
+    /** In the types of all errors of NGSI-LD. */
+    private static final String ERRORS_OF_LD = "/ngsi-ld/errors/";
+
+    private static final Pattern JSON = Pattern.compile("\\s*([{\\[]|$)");
+    private static final Pattern PAGE = Pattern.compile("[\\s\\uFEFF]*<");
 
     /** Bytes of an error answer that are read for its message. */
     private static final int MAX_READ = 4000;
@@ -116,35 +126,48 @@ public final class BrokerClient {
     private static Outcome outcome(URI uri, HttpResponse<byte[]> answer) {
         int status = answer.statusCode();
         String words = status + " " + text(answer.body());
-        if (!isOfBroker(status, answer.body())) {
-            return new Outcome.WrongSetting(
-                    uri + " answered " + words + ", which is not the answer of a context broker");
-        }
-        if (status / 100 == 2) {
-            return new Outcome.Done(status, new ResponseHeaders(answer.headers()), answer.body());
-        }
+        Outcome wrong = new Outcome.WrongSetting(uri + " answered " + words);
+        Outcome ofProxy =
+                new Outcome.WrongSetting(uri + " answered " + words + ", which is not the answer of a context broker");
         return switch (status) {
-            case 404 -> new Outcome.Absent(words);
-            case 401, 403, 405 -> new Outcome.WrongSetting(uri + " answered " + words);
+            case 404 -> isAbsence(answer.body()) ? new Outcome.Absent(words) : ofProxy;
+            case 401, 402, 403, 405, 407, 410, 421, 423, 451 -> wrong;
             case 408, 425, 429 -> away(uri, words, answer);
+            // A smaller request may pass the proxy, too.
+            case 413, 414, 431 -> new Outcome.Rejected(status, words);
             default ->
                 switch (status / 100) {
-                    case 4 -> new Outcome.Rejected(status, words);
+                    case 2 ->
+                        begins(JSON, answer.body())
+                                ? new Outcome.Done(status, new ResponseHeaders(answer.headers()), answer.body())
+                                : ofProxy;
+                    case 4 -> begins(PAGE, answer.body()) ? ofProxy : new Outcome.Rejected(status, words);
                     case 5 -> away(uri, words, answer);
-                    default -> new Outcome.WrongSetting(uri + " answered " + words);
+                    default -> wrong;
                 };
         };
     }
 
-    /** A proxy may answer 2xx with a page to log in, and 404 with its own page or JSON; a context broker names the error. */
-    private static boolean isOfBroker(int status, byte[] body) {
-        String text = new String(body, 0, Math.min(body.length, MAX_READ), StandardCharsets.UTF_8).strip();
-        boolean isJson = text.isEmpty() || text.startsWith("{") || text.startsWith("[");
-        return switch (status / 100) {
-            case 2 -> isJson;
-            case 4 -> status != 404 || text.isEmpty() || ERROR.matcher(text).find();
-            default -> true;
-        };
+    private static boolean begins(Pattern beginning, byte[] body) {
+        return beginning.matcher(beginning(body)).lookingAt();
+    }
+
+    /** Whether a body is the error of a context broker; a proxy answers 404 with nothing, or a page or JSON of its own. */
+    private static boolean isAbsence(byte[] body) {
+        try {
+            JsonNode json = NgsiJson.read(body);
+            return ABSENCES.contains(json.path("error").asText()) || isProblemOfLd(json);
+        } catch (UnreadableException e) {
+            return false;
+        }
+    }
+
+    /** Some versions of Scorpio have the status as type; an error of Spring has a path and a time. */
+    private static boolean isProblemOfLd(JsonNode json) {
+        JsonNode type = json.path("type");
+        return type.isTextual()
+                ? type.textValue().contains(ERRORS_OF_LD)
+                : json.path("title").isTextual() && !json.has("path") && !json.has("timestamp");
     }
 
     private static Outcome tooLarge(URI uri, LimitedBody.TooLargeException e) {
@@ -154,7 +177,11 @@ public final class BrokerClient {
     }
 
     private static String text(byte[] body) {
-        return LogText.beginning(new String(body, 0, Math.min(body.length, MAX_READ), StandardCharsets.UTF_8));
+        return LogText.beginning(beginning(body));
+    }
+
+    private static String beginning(byte[] body) {
+        return new String(body, 0, Math.min(body.length, MAX_READ), StandardCharsets.UTF_8);
     }
 
     private static Outcome away(String reason, Throwable cause) {

@@ -42,8 +42,13 @@ public sealed interface Outcome {
         }
     }
 
-    /** 404: the requested resource does not exist. {@code words} are the status and the broker's reason. */
-    record Absent(String words) implements Outcome {}
+    /** 404 of the context broker: a resource or the tenant does not exist. {@code words} are the status and the broker's reason. */
+    record Absent(String words) implements Outcome {
+        /** Whether NGSI-v2 says so of a resource, and not of the tenant. */
+        public boolean isResourceOfV2() {
+            return words.contains("\"NotFound\"");
+        }
+    }
 
     /**
      * The context broker rejects the request (any other 4xx), or its answer is larger than allowed (2xx). {@code words}
@@ -66,6 +71,9 @@ public sealed interface Outcome {
      */
     record Unavailable(String reason, Optional<Duration> retryAfter, Throwable cause, int status) implements Outcome {}
 
-    /** No request can succeed until a setting is changed (401, 403, 405, 3xx, or the page of a proxy). {@code words} are the URL and the answer. */
+    /**
+     * No request can succeed until a setting is changed (401, 402, 403, 405, 407, 410, 421, 423, 451, 3xx, or the answer of
+     * a proxy). {@code words} are the URL and the answer.
+     */
     record WrongSetting(String words) implements Outcome {}
 }

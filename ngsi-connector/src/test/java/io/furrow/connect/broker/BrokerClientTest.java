@@ -113,7 +113,16 @@ class BrokerClientTest {
                 "200 | <html>log in</html>",
                 "404 | <html>nginx</html>",
                 "404 | not found",
-                "404 | {\"message\": \"no Route\"}"
+                "404 | {\"message\": \"no Route\"}",
+                "404 | ''",
+                "404 | {\"timestamp\": 1, \"status\": 404, \"error\": \"Not Found\", \"path\": \"/v2/op/update\"}",
+                "404 | {\"timestamp\": 1, \"status\": 404, \"title\": \"Not Found\", \"path\": \"/v2/op/update\"}",
+                "404 | {\"error\": {\"code\": \"NOT_FOUND\", \"message\": \"The requested URL was not found\"}}",
+                "404 | {\"type\": \"https://tools.ietf.org/html/rfc9110#section-15.5.5\", \"title\": \"Not Found\"}",
+                "404 | {\"type\": \"about:blank\", \"title\": \"Not Found\", \"instance\": \"/v2/op/update\"}",
+                "400 | <html><head><title>400 The SSL certificate error</title></head></html>",
+                "406 | <html>Not Acceptable!</html>",
+                "409 | <!DOCTYPE html><p>log in</p>"
             })
     void callsThePageOfAProxyAWrongSetting(int status, String page) {
         assertThat(answered(status, page))
@@ -124,7 +133,7 @@ class BrokerClientTest {
     }
 
     @ParameterizedTest
-    @ValueSource(ints = {301, 401, 403, 405})
+    @ValueSource(ints = {301, 401, 402, 403, 405, 407, 410, 421, 423, 451})
     void callsAnAnswerThatNoRepetitionHelpsAWrongSetting(int status) {
         assertThat(answered(status, "no"))
                 .isInstanceOfSatisfying(
@@ -139,6 +148,7 @@ class BrokerClientTest {
                 .isInstanceOfSatisfying(
                         Outcome.Unavailable.class,
                         unavailable -> assertThat(unavailable.retryAfter()).isEmpty());
+        assertThat(answered(status, "<html>later</html>")).isInstanceOf(Outcome.Unavailable.class);
     }
 
     @Test

@@ -7,6 +7,7 @@ import org.apache.kafka.connect.errors.RetriableException;
 import org.apache.kafka.connect.sink.SinkRecord;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.connect.sink.FakeContextBroker.Reply;
@@ -81,12 +82,24 @@ class DeletionsTest extends SinkFixture {
     }
 
     @ParameterizedTest
-    @ValueSource(strings = {"ngsi-v2", "ngsi-ld"})
-    void areTriedAgainWhereAProxyAnswersForTheContextBroker(String api) {
+    @CsvSource(
+            delimiter = '|',
+            value = {
+                "ngsi-v2 | <html>nginx</html>",
+                "ngsi-ld | <html>nginx</html>",
+                "ngsi-v2 | ''",
+                "ngsi-ld | ''",
+                "ngsi-v2 | {\"timestamp\": 1, \"status\": 404, \"error\": \"Not Found\", \"path\": \"/v2/op/update\"}",
+                "ngsi-ld | {\"timestamp\": 1, \"status\": 404, \"error\": \"Not Found\", \"path\": \"/v2/op/update\"}",
+                "ngsi-v2 | {\"error\": {\"code\": \"NOT_FOUND\", \"message\": \"The requested URL was not found\"}}",
+                "ngsi-ld | {\"error\": {\"code\": \"NOT_FOUND\", \"message\": \"The requested URL was not found\"}}"
+            })
+    void areTriedAgainWhereAProxyAnswersForTheContextBroker(String api, String answer) {
         startOf(api);
         task.put(entities());
-        broker.behaviour = update -> new Reply(404, "<html>nginx</html>");
+        broker.behaviour = update -> new Reply(404, answer);
 
+        assertThatThrownBy(() -> task.put(deletions().subList(0, 1))).isInstanceOf(RetriableException.class);
         assertThatThrownBy(() -> task.put(deletions())).isInstanceOf(RetriableException.class);
 
         assertThat(broker.entities).hasSize(MANY);

@@ -31,7 +31,7 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * A context broker over real HTTP that keeps the last value of each attribute, by id: batch updates, queries and deletions of
- * NGSI-v2 and NGSI-LD. Writes are answered as a test says; those answered below 300 are done.
+ * NGSI-v2 and NGSI-LD. Writes are answered as a test says; those answered below 300 are done. So are queries, if it says.
  */
 final class FakeContextBroker implements AutoCloseable {
     /** One write as it came in. */
@@ -66,6 +66,8 @@ final class FakeContextBroker implements AutoCloseable {
     final Map<String, JsonNode> entities = new ConcurrentHashMap<>();
     final AtomicInteger queries = new AtomicInteger();
     volatile Function<Update, Reply> behaviour = request -> Reply.WRITTEN;
+    /** Null for what is there. */
+    volatile Reply toQueries;
 
     private final Server server = new Server();
     private final ServerConnector connector = new ServerConnector(server);
@@ -127,6 +129,9 @@ final class FakeContextBroker implements AutoCloseable {
     }
 
     private Reply found(List<String> ids) {
+        if (toQueries != null) {
+            return toQueries;
+        }
         ArrayNode found = JsonNodeFactory.instance.arrayNode();
         ids.stream().distinct().filter(entities::containsKey).map(entities::get).forEach(found::add);
         return new Reply(200, found.toString());

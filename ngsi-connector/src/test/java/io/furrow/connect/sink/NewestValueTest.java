@@ -5,18 +5,21 @@ import java.util.stream.IntStream;
 
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.record.TimestampType;
+import org.apache.kafka.connect.errors.RetriableException;
 import org.apache.kafka.connect.sink.SinkRecord;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
+import io.furrow.connect.sink.FakeContextBroker.Reply;
 import io.furrow.connect.sink.FakeContextBroker.Update;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.unchecked.Unchecked;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 /** What is newer by event time stays, whatever comes when. */
 class NewestValueTest extends SinkFixture {
@@ -61,6 +64,45 @@ class NewestValueTest extends SinkFixture {
         assertThat(broker.queries).hasValue(2);
         assertThat(broker.value("a", "x").intValue()).isEqualTo(2);
         assertThat(broker.value("a", "y").intValue()).isEqualTo(1);
+    }
+
+    @ParameterizedTest
+    @CsvSource(
+            delimiter = '|',
+            value = {
+                "ngsi-v2 | 404 | ''",
+                "ngsi-ld | 404 | ''",
+                "ngsi-v2 | 404 | {\"error\": \"NotFound\"}",
+                "ngsi-v2 | 404 | {\"error\": {\"code\": \"NOT_FOUND\"}}",
+                "ngsi-v2 | 400 | <html>400 The SSL certificate error</html>",
+                "ngsi-ld | 407 | ''"
+            })
+    void readsThemAgainWhenAProxyAnsweredForTheContextBroker(String api, int status, String answer) {
+        restart("api", api);
+        task.put(List.of(record("urn:x:a", "x", 2, 20)));
+        restart();
+        broker.toQueries = new Reply(status, answer);
+        assertThatThrownBy(() -> task.put(List.of(record("urn:x:a", "x", 1, 10))))
+                .isInstanceOf(RetriableException.class);
+        broker.toQueries = null;
+        task.put(List.of(record("urn:x:a", "x", 1, 10)));
+
+        assertThat(broker.value("urn:x:a", "x").intValue()).isEqualTo(2);
+    }
+
+    @ParameterizedTest
+    @CsvSource(
+            delimiter = '|',
+            value = {
+                "ngsi-v2 | {\"error\": \"NonExistingTenant\"}",
+                "ngsi-ld | {\"type\": \"https://uri.etsi.org/ngsi-ld/errors/NonexistentTenant\"}"
+            })
+    void writesTheFirstEntityOfATenant(String api, String answer) {
+        restart("api", api);
+        broker.toQueries = new Reply(404, answer);
+        task.put(List.of(record("urn:x:a", "x", 2, 20)));
+
+        assertThat(broker.value("urn:x:a", "x").intValue()).isEqualTo(2);
     }
 
     @Test

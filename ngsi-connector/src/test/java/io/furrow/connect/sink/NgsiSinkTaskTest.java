@@ -155,7 +155,18 @@ class NgsiSinkTaskTest extends SinkFixture {
     @ParameterizedTest
     @CsvSource(
             delimiter = '|',
-            value = {"301 | ''", "401 | ''", "404 | ''", "404 | <html>nginx</html>", "200 | <html>log in</html>"})
+            value = {
+                "301 | ''",
+                "401 | ''",
+                "404 | ''",
+                "404 | <html>nginx</html>",
+                "200 | <html>log in</html>",
+                "400 | <html><head><title>400 The SSL certificate error</title></head></html>",
+                "407 | ''",
+                "407 | <html>log in</html>",
+                "451 | ''",
+                "451 | <html>not here</html>"
+            })
     void triesAgainWhereAProxyAnswersForTheContextBroker(int status, String page) {
         broker.behaviour = update -> new Reply(status, page);
         List<SinkRecord> delivery = List.of(record("a", entity("a", "x", 1)));

@@ -78,6 +78,8 @@ record EntityTimesLoader(BrokerClient client, ContextBrokerApi api, EntityTimesC
             throw new BrokerUnavailableException(unavailable);
         } else if (outcome instanceof Outcome.WrongSetting wrong) {
             throw new WrongSettingException(wrong.words());
+        } else if (outcome instanceof Outcome.Absent absent && absent.isResourceOfV2()) {
+            throw new WrongSettingException(api.name() + " is not there: " + absent.words());
         }
     }
 
