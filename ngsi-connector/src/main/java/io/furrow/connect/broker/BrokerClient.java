@@ -126,9 +126,9 @@ public final class BrokerClient {
     private static Outcome outcome(URI uri, HttpResponse<byte[]> answer) {
         int status = answer.statusCode();
         String words = status + " " + text(answer.body());
-        Outcome wrong = new Outcome.WrongSetting(uri + " answered " + words);
-        Outcome ofProxy =
-                new Outcome.WrongSetting(uri + " answered " + words + ", which is not the answer of a context broker");
+        Outcome wrong = new Outcome.WrongSetting(status, uri + " answered " + words);
+        Outcome ofProxy = new Outcome.WrongSetting(
+                status, uri + " answered " + words + ", which is not the answer of a context broker");
         return switch (status) {
             case 404 -> isAbsence(answer.body()) ? new Outcome.Absent(words) : ofProxy;
             case 401, 402, 403, 405, 407, 410, 421, 423, 451 -> wrong;

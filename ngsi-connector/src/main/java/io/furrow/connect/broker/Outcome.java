@@ -73,7 +73,7 @@ public sealed interface Outcome {
 
     /**
      * No request can succeed until a setting is changed (401, 402, 403, 405, 407, 410, 421, 423, 451, 3xx, or the answer of
-     * a proxy). {@code words} are the URL and the answer.
+     * a proxy). {@code words} are the URL and the answer, which has the {@code status}.
      */
-    record WrongSetting(String words) implements Outcome {}
+    record WrongSetting(int status, String words) implements Outcome {}
 }

@@ -2,6 +2,7 @@ package io.furrow.connect.sink;
 
 import java.util.List;
 
+import org.apache.kafka.connect.errors.RetriableException;
 import org.apache.kafka.connect.sink.SinkRecord;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
@@ -10,6 +11,7 @@ import io.furrow.connect.sink.FakeContextBroker.Reply;
 import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class NgsiLdSinkTest extends SinkFixture {
     @BeforeEach
@@ -88,6 +90,19 @@ class NgsiLdSinkTest extends SinkFixture {
         assertThat(context.reported)
                 .singleElement()
                 .satisfies(reported -> assertThat(reported.cause()).hasMessageContaining("'y' keeps its value"));
+    }
+
+    @Test
+    void deletesTheAttributeWhenItsTokenIsAcceptedAgain() {
+        task.put(List.of(record("urn:x:a", 1, "{'id':'urn:x:a','type':'T','x':1,'y':2}")));
+        List<SinkRecord> cleared = List.of(record("urn:x:a", 2, "{'id':'urn:x:a','type':'T','x':3,'y':null}"));
+        broker.behaviour = update -> update.path().contains("/attrs/") ? new Reply(401, "expired") : Reply.WRITTEN;
+        assertThatThrownBy(() -> task.put(cleared)).isInstanceOf(RetriableException.class);
+        broker.behaviour = update -> Reply.WRITTEN;
+        task.put(cleared);
+
+        assertThat(broker.entities.get("urn:x:a").has("y")).isFalse();
+        assertThat(context.reported).isEmpty();
     }
 
     @Test

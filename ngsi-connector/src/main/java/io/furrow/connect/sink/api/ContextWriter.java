@@ -28,6 +28,9 @@ public final class ContextWriter implements AutoCloseable {
         public final List<RejectedChange> refused = new ArrayList<>();
     }
 
+    /** The answer of a context broker that cannot delete attributes. */
+    private static final int METHOD_NOT_ALLOWED = 405;
+
     private final BrokerClient client;
     private final ContextBrokerApi api;
     private final EntityTimesCache known;
@@ -132,18 +135,21 @@ public final class ContextWriter implements AutoCloseable {
                 if (known.of(written.key()).has(written.type(), name)) {
                     Outcome outcome =
                             client.send(api.delete(written.key(), new EntityTimes.Name(written.type(), name)));
-                    if (outcome instanceof Outcome.Unavailable) {
-                        BatchSender.fail(outcome);
+                    if (outcome instanceof Outcome.Rejected rejected) {
+                        refuseDeletion(written, name, rejected.words());
+                    } else if (outcome instanceof Outcome.WrongSetting wrong && wrong.status() == METHOD_NOT_ALLOWED) {
+                        refuseDeletion(written, name, wrong.words());
                     } else if (!(outcome instanceof Outcome.Done || outcome instanceof Outcome.Absent)) {
-                        String words =
-                                outcome instanceof Outcome.Rejected rejected ? rejected.words() : outcome.toString();
-                        EntityChange newest =
-                                written.changes().get(written.changes().size() - 1);
-                        refuse(newest, "'%s' keeps its value: %s".formatted(name, words));
+                        BatchSender.fail(outcome);
                     }
                 }
             }
             results.written++;
+        }
+
+        private void refuseDeletion(AttributeUpdate written, String name, String words) {
+            EntityChange newest = written.changes().get(written.changes().size() - 1);
+            refuse(newest, "'%s' keeps its value: %s".formatted(name, words));
         }
 
         private void delete(List<EntityChange> deletions) throws BrokerUnavailableException, WrongSettingException {

@@ -8,6 +8,8 @@ import io.furrow.connect.sink.api.Batches.Rendered;
 
 /** Writes updates in concurrent batches. */
 final class EntityWriter extends BatchSender<AttributeUpdate> {
+    private static final int NOT_FOUND = 404;
+
     private final BrokerClient client;
 
     EntityWriter(BrokerClient client, ContextBrokerApi api, Batches batches, int parallel) {
@@ -30,7 +32,7 @@ final class EntityWriter extends BatchSender<AttributeUpdate> {
         Outcome outcome = client.send(api.write(
                 batch.get(0).scope(), batch.stream().map(Rendered::json).toList()));
         return outcome instanceof Outcome.Absent absent
-                ? new Outcome.WrongSetting(api.name() + " is not there: " + absent.words())
+                ? new Outcome.WrongSetting(NOT_FOUND, api.name() + " is not there: " + absent.words())
                 : outcome;
     }
 
