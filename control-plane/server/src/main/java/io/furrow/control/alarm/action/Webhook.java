@@ -16,6 +16,7 @@ import java.util.Set;
 import java.util.concurrent.CancellationException;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.TimeUnit;
+import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
@@ -37,6 +38,10 @@ public final class Webhook {
     /** 4xx status codes that do not concern the alarm: an expired token, a proxy that does not find the receiver. */
     private static final Set<Integer> TEMPORARY =
             Set.of(401, 402, 403, 404, 405, 407, 408, 410, 421, 423, 425, 429, 451);
+
+    private static final Pattern HTML = Pattern.compile("text/html\\b.*", Pattern.CASE_INSENSITIVE);
+    private static final Pattern PAGE =
+            Pattern.compile("[\\s\\uFEFF]*(<!doctype html|<html)", Pattern.CASE_INSENSITIVE);
 
     private final URI url;
     private final WebhookSecret secret;
@@ -125,7 +130,7 @@ public final class Webhook {
      */
     CompletableFuture<Answer> post(String id, Alarm alarm) {
         HttpRequest request = request(id, body(id, alarm));
-        CompletableFuture<HttpResponse<Void>> sent = client.sendAsync(request, BoundedBody::discarding);
+        CompletableFuture<HttpResponse<String>> sent = client.sendAsync(request, BoundedBody::beginning);
         // The request's own timeout covers only the headers; a body could take forever.
         CompletableFuture.delayedExecutor(TIMEOUT.toMillis(), TimeUnit.MILLISECONDS)
                 .execute(() -> sent.cancel(true));
@@ -144,10 +149,13 @@ public final class Webhook {
         return request.build();
     }
 
-    private Answer answer(HttpResponse<Void> response) {
+    private Answer answer(HttpResponse<String> response) {
         int status = response.statusCode();
         if (status / 100 == 2) {
-            return new Answer(Outcome.ACCEPTED, null, null);
+            return isPage(response)
+                    ? Answer.failed("it responded with %d and a web page, as to log in: name the URL of the receiver"
+                            .formatted(status))
+                    : new Answer(Outcome.ACCEPTED, null, null);
         }
         if (status / 100 == 4 && !TEMPORARY.contains(status)) {
             return new Answer(Outcome.REJECTED, "it responded with " + status, null);
@@ -162,6 +170,11 @@ public final class Webhook {
                         .orElse(null)
                 : null;
         return new Answer(Outcome.FAILED, reason, retryAfter);
+    }
+
+    private static boolean isPage(HttpResponse<String> response) {
+        String type = response.headers().firstValue("Content-Type").orElse("");
+        return HTML.matcher(type).matches() && PAGE.matcher(response.body()).lookingAt();
     }
 
     /** Parses seconds or a date; at most an hour. Null if it is neither. */

@@ -3,6 +3,7 @@ package io.furrow.control.alarm.action;
 import java.io.IOException;
 import java.io.OutputStream;
 import java.net.URI;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Clock;
@@ -39,6 +40,8 @@ class WebhookTest {
     private final List<byte[]> posted = Collections.synchronizedList(new ArrayList<>());
     private final List<Headers> headers = Collections.synchronizedList(new ArrayList<>());
     private int status = 204;
+    private String type = "text/plain";
+    private String body = "";
     private String retryAfter;
     private boolean endless;
     private final CountDownLatch cut = new CountDownLatch(1);
@@ -51,7 +54,10 @@ class WebhookTest {
             exchange.getResponseHeaders().add("Retry-After", retryAfter);
         }
         exchange.getResponseHeaders().add("Location", "/elsewhere");
-        exchange.sendResponseHeaders(status, endless ? 0 : -1);
+        exchange.getResponseHeaders().add("Content-Type", type);
+        byte[] bytes = body.getBytes(StandardCharsets.UTF_8);
+        exchange.sendResponseHeaders(status, endless ? 0 : bytes.length == 0 ? -1 : bytes.length);
+        exchange.getResponseBody().write(bytes);
         if (endless) {
             writeUntilItIsCut(exchange.getResponseBody());
         }
@@ -118,6 +124,31 @@ class WebhookTest {
         status = answered;
         retryAfter = header;
         assertThat(post(settings()).retryAfter()).isEqualTo(expected);
+    }
+
+    @ParameterizedTest
+    @ValueSource(
+            strings = {
+                "<html>log in</html>",
+                "\r\n <!DOCTYPE HTML PUBLIC '-//W3C//DTD HTML 4.01//EN'>",
+                "\uFEFF<!doctype html><title>log in</title>"
+            })
+    void postsAgainIfAWebPageAnswers(String page) throws Exception {
+        status = 200;
+        type = "text/html; charset=utf-8";
+        body = page;
+        assertThat(post(settings()))
+                .returns(Webhook.Outcome.FAILED, Webhook.Answer::outcome)
+                .satisfies(answer -> assertThat(answer.reason()).contains("200", "web page"));
+    }
+
+    @ParameterizedTest
+    @CsvSource({"text/html, ok", "text/html, ''", "text/html, <p>ok</p>", "text/plain, <html>ok</html>"})
+    void acceptsOtherBodies(String answeredType, String answered) throws Exception {
+        status = 200;
+        type = answeredType;
+        body = answered;
+        assertThat(post(settings()).outcome()).isEqualTo(Webhook.Outcome.ACCEPTED);
     }
 
     @Test
