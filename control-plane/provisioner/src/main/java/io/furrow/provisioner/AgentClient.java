@@ -38,8 +38,8 @@ final class AgentClient {
     private static final String GROUPS = "/iot/services";
     private static final int CONFLICT = 409;
     private static final int NOT_FOUND = 404;
-    /** Status codes that a proxy sends: authentication, method not allowed, too many requests. */
-    private static final Set<Integer> STATUSES_OF_PROXIES = Set.of(401, 403, 405, 407, 429);
+    /** Status codes that a proxy sends. */
+    private static final Set<Integer> STATUSES_OF_PROXIES = Set.of(401, 402, 403, 405, 407, 410, 421, 423, 429, 451);
 
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
 
@@ -153,20 +153,23 @@ final class AgentClient {
     /** Removes a device, if it exists. */
     void removeDevice(FiwareScope scope, String device)
             throws IOException, RejectedByAgentException, InterruptedException {
-        checkRemoved(send(scope, "DELETE", DEVICES + "/" + encoded(device), null));
+        checkRemoved(send(scope, "DELETE", DEVICES + "/" + encoded(device), null), "DEVICE_NOT_FOUND");
     }
 
     /** Removes a service group, if it exists. */
     void remove(FiwareScope scope, Group group) throws IOException, RejectedByAgentException, InterruptedException {
-        checkRemoved(send(
-                scope,
-                "DELETE",
-                "%s?resource=%s&apikey=%s".formatted(GROUPS, encoded(group.resource()), encoded(group.apiKey())),
-                null));
+        checkRemoved(
+                send(
+                        scope,
+                        "DELETE",
+                        "%s?resource=%s&apikey=%s"
+                                .formatted(GROUPS, encoded(group.resource()), encoded(group.apiKey())),
+                        null),
+                "DEVICE_GROUP_NOT_FOUND");
     }
 
-    private static void checkRemoved(Answer answer) throws RejectedByAgentException {
-        if (answer.status() != NOT_FOUND) {
+    private static void checkRemoved(Answer answer, String absence) throws RejectedByAgentException {
+        if (!answer.isNotFound(absence)) {
             answer.check();
         }
     }
@@ -193,6 +196,15 @@ final class AgentClient {
                 return status == NOT_FOUND
                         && NgsiJson.read(body).path("name").asText().equals(name);
             } catch (UnreadableException e) { // the response of another server
+                return false;
+            }
+        }
+
+        /** Whether an error has a name, as those of the agent have; a proxy answers with nothing, a page or JSON of its own. */
+        boolean isOfAgent() {
+            try {
+                return NgsiJson.read(body).path("name").isTextual();
+            } catch (UnreadableException e) {
                 return false;
             }
         }
@@ -247,7 +259,7 @@ final class AgentClient {
         if (answer.status() / 100 == 5) {
             throw new AgentFaultException(answer.toString());
         }
-        if (STATUSES_OF_PROXIES.contains(answer.status())) {
+        if (STATUSES_OF_PROXIES.contains(answer.status()) || answer.status() / 100 == 4 && !answer.isOfAgent()) {
             throw new IOException(answer.toString());
         }
         return answer;

@@ -109,7 +109,8 @@ final class FakeAgent implements AutoCloseable {
                 throw new Rejection(503, "AWAY", "the registry is away");
             }
             if (proxy > 0 && !exchange.getRequestMethod().equals("GET")) {
-                throw new Rejection(proxy, "PROXY", "no token");
+                answer(exchange, proxy, "<html>no token</html>".getBytes(UTF_8));
+                return;
             }
             if (fixedAnswer != null && exchange.getRequestMethod().equals("GET")) {
                 answer(exchange, 200, fixedAnswer.getBytes(UTF_8));

@@ -75,7 +75,7 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
     }
 
     @ParameterizedTest
-    @ValueSource(ints = {401, 403, 407})
+    @ValueSource(ints = {400, 401, 403, 404, 407, 451})
     void doesNotRejectADeviceBecauseOfAProxysAnswer(int status) throws Exception {
         addDesired(1);
         agent.proxy = status;
@@ -86,6 +86,20 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
         agent.proxy = 0;
         assertThat(provisioning.step().rejected()).isEmpty();
         assertThat(agent.devices).containsKey(id(1));
+    }
+
+    @Test
+    void doesNotTakeADeviceForRemovedBecauseOfAProxysAnswer() throws Exception {
+        DesiredDevice device = addDesired(1).get(0);
+        provisioning.step();
+        desired.take(device.version().key(), null);
+        agent.proxy = 404;
+        assertThatThrownBy(provisioning::step).isInstanceOf(IOException.class).hasMessageContaining("404");
+        assertThat(agent.devices).containsKey(id(1));
+
+        agent.proxy = 0;
+        provisioning.step();
+        assertThat(agent.devices).isEmpty();
     }
 
     @Test

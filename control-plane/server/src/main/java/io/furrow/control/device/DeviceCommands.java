@@ -40,7 +40,7 @@ public final class DeviceCommands implements CommandSender {
     private static final int MAX_QUOTE_LENGTH = 200;
     private static final String ERROR = "error";
     private static final int NOT_FOUND = 404;
-    /** Of the context broker; a proxy that cannot find it answers 404 as well. */
+    /** Of the context broker; a proxy that cannot find it answers 404 as well. An error of a proxy may have a path. */
     private static final Set<String> ABSENCES = Set.of("NotFound", "NonExistingTenant");
 
     private static final int CONFLICT = 409;
@@ -151,7 +151,7 @@ public final class DeviceCommands implements CommandSender {
         JsonNode error = error(answer.body());
         boolean isOfBroker = status == NOT_FOUND
                 ? ABSENCES.contains(error.path(ERROR).asText())
-                : error.has(ERROR) && REJECTIONS.contains(status);
+                : error.path(ERROR).isTextual() && !error.has("path") && REJECTIONS.contains(status);
         if (isOfBroker && status == NOT_FOUND) {
             throw new RejectedCommandException(
                     NOT_FOUND,

@@ -3,6 +3,7 @@ package io.furrow.control.rest;
 import java.io.IOException;
 import java.io.InputStream;
 import java.util.Comparator;
+import java.util.List;
 import java.util.concurrent.CompletionStage;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -70,7 +71,7 @@ public final class AlarmsResource {
             @PathParam("command") String command,
             InputStream body)
             throws IOException {
-        return manager.command(request, command, JsonBodyReader.read(body).put("alarm", alarm));
+        return manager.command(request, command, read(command, body).put("alarm", alarm));
     }
 
     /** Mutes alarms by {@code kind} and {@code subject}, including future ones. */
@@ -79,6 +80,10 @@ public final class AlarmsResource {
     public CompletionStage<Response> commandKind(
             @Context ContainerRequestContext request, @PathParam("command") String command, InputStream body)
             throws IOException {
-        return manager.command(request, command, JsonBodyReader.read(body));
+        return manager.command(request, command, read(command, body));
+    }
+
+    private static ObjectNode read(String command, InputStream body) throws IOException {
+        return JsonBodyReader.read(body, command, command.equals("mute") ? List.of() : List.of("for"));
     }
 }

@@ -5,6 +5,7 @@ import java.io.IOException;
 import java.io.InputStream;
 import java.lang.reflect.Method;
 import java.time.Duration;
+import java.util.List;
 import java.util.Set;
 import java.util.stream.Stream;
 
@@ -52,6 +53,18 @@ final class JsonBodyReader {
             throw new ProblemException(ErrorCode.NOT_JSON, "the body is not JSON: " + e.getMessage());
         }
         throw new ProblemException(ErrorCode.NOT_A_REQUEST, "the body is not a JSON object");
+    }
+
+    /** Returns the body of a command. @param others members that only other commands of the same path have */
+    static ObjectNode read(InputStream body, String command, List<String> others) throws IOException {
+        ObjectNode members = read(body);
+        for (String other : others) {
+            ProblemException.rejectIf(
+                    members.hasNonNull(other),
+                    ErrorCode.WRONG_MEMBER,
+                    "'%s' does not take '%s'".formatted(command, other));
+        }
+        return members;
     }
 
     /** Reads at most {@code max} bytes. A larger body is read too but discarded, else many clients would not see the answer. */

@@ -2,6 +2,7 @@ package io.furrow.control.rest;
 
 import java.io.IOException;
 import java.io.InputStream;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.CompletionStage;
 import java.util.function.UnaryOperator;
@@ -92,7 +93,7 @@ public final class ReplaysResource {
             @PathParam("command") String command,
             InputStream body)
             throws IOException {
-        return manager.command(request, command, JsonBodyReader.read(body).put(REPLAY, replay));
+        return manager.command(request, command, read(command, body).put(REPLAY, replay));
     }
 
     @GET
@@ -121,7 +122,20 @@ public final class ReplaysResource {
             @PathParam("command") String command,
             InputStream body)
             throws IOException {
-        return manager.command(request, command, JsonBodyReader.read(body).put(GROUP, group));
+        return manager.command(request, command, read(command, body).put(GROUP, group));
+    }
+
+    private static ObjectNode read(String command, InputStream body) throws IOException {
+        List<String> others = new ArrayList<>(List.of("to", "from", "speed", "count"));
+        others.removeAll(
+                switch (command) {
+                    case "seek" -> List.of("to");
+                    case "loop" -> List.of("from", "to");
+                    case "speed" -> List.of("speed");
+                    case "step" -> List.of("count");
+                    default -> List.of();
+                });
+        return JsonBodyReader.read(body, command, others);
     }
 
     private static ObjectNode none() {

@@ -80,6 +80,7 @@ class DeviceCommandsTest {
                 "404,{\"message\":\"no Route matched\"},",
                 "404,{\"error\":\"Not Found\"},",
                 "400,{\"message\":\"bad header\"},",
+                "400,`{\"error\":\"Bad Request\",\"path\":\"/v2\"}`,",
                 "409,,",
                 "200,<html>log in</html>,",
                 "503,{\"error\":\"busy\"},"

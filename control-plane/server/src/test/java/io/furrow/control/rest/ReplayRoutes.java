@@ -47,6 +47,7 @@ interface ReplayRoutes extends RestApiRoutes {
         assertThat(running().get(replay).at("/range/to").asLong()).isEqualTo(4000);
         assertThat(client().status("POST", replay + "/loop", null)).isEqualTo(200);
         assertThat(running().get(replay).has("range")).isFalse();
+        running().rejects("POST", replay + "/pause", "{\"to\":5}", 400, "wrong-member");
         running()
                 .rejects(
                         "POST",

@@ -2,7 +2,6 @@ package io.furrow.model.control;
 
 import java.time.Duration;
 import java.util.Arrays;
-import java.util.List;
 import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.annotation.JsonProperty;
@@ -55,12 +54,6 @@ public sealed interface AlarmCommand extends Command {
     }
 
     static AlarmCommand read(String verb, JsonObjectReader members) throws RejectedException {
-        AlarmCommand command = command(verb, members);
-        members.rejectMembers(verb, command instanceof Mute ? List.of() : List.of("for"));
-        return command;
-    }
-
-    private static AlarmCommand command(String verb, JsonObjectReader members) throws RejectedException {
         return switch (verb == null ? "" : verb) {
             case "acknowledge" -> new Acknowledge(members.name(ALARM), members.textOrNull(USER));
             case "close" -> new Close(members.name(ALARM), members.textOrNull(USER));

@@ -38,16 +38,6 @@ public final class JsonObjectReader {
         return json.hasNonNull(member);
     }
 
-    /** Rejects members that only other commands have. */
-    void rejectMembers(String command, List<String> others) throws RejectedException {
-        for (String other : others) {
-            if (has(other)) {
-                throw new RejectedException(
-                        ErrorCode.WRONG_MEMBER, "'%s' does not take '%s'".formatted(command, other));
-            }
-        }
-    }
-
     /** Reads a legal name of a domain, a mission or a template. */
     String name(String member) throws RejectedException {
         String name = text(member);

@@ -189,18 +189,8 @@ public sealed interface ReplayCommand extends Command {
     record Loop(@JsonUnwrapped Target target, @JsonUnwrapped DesiredReplay.Range range) implements Steering {}
 
     static ReplayCommand read(String verb, JsonObjectReader members) throws RejectedException {
-        if ("start".equals(verb)) {
-            return Start.read(members);
-        }
-        ReplayCommand command = steering(verb, members);
-        List<String> others = new ArrayList<>(List.of("to", "from", "speed", "count"));
-        others.removeAll(membersOf(verb));
-        members.rejectMembers(verb, others);
-        return command;
-    }
-
-    private static ReplayCommand steering(String verb, JsonObjectReader members) throws RejectedException {
         return switch (verb == null ? "" : verb) {
+            case "start" -> Start.read(members);
             case "stop" -> new Simple(Target.read(members), Verb.STOP);
             case "pause" -> new Simple(Target.read(members), Verb.PAUSE);
             case "resume" -> new Simple(Target.read(members), Verb.RESUME);
@@ -209,16 +199,6 @@ public sealed interface ReplayCommand extends Command {
             case "step" -> new Step(Target.read(members), steps(members));
             case "loop" -> new Loop(Target.read(members), range(members));
             default -> throw Requests.unknown(verb, "start, stop, pause, resume, seek, speed, step, loop");
-        };
-    }
-
-    private static List<String> membersOf(String verb) {
-        return switch (verb) {
-            case "seek" -> List.of("to");
-            case "speed" -> List.of("speed");
-            case "step" -> List.of("count");
-            case "loop" -> List.of("from", "to");
-            default -> List.of();
         };
     }
 

@@ -157,7 +157,7 @@ public final class Webhook {
                             .formatted(status))
                     : new Answer(Outcome.ACCEPTED, null, null);
         }
-        if (status / 100 == 4 && !TEMPORARY.contains(status)) {
+        if (status / 100 == 4 && !TEMPORARY.contains(status) && !isPage(response)) {
             return new Answer(Outcome.REJECTED, "it responded with " + status, null);
         }
         String reason = status / 100 == 3

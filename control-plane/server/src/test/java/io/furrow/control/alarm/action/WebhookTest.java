@@ -142,6 +142,14 @@ class WebhookTest {
                 .satisfies(answer -> assertThat(answer.reason()).contains("200", "web page"));
     }
 
+    @Test
+    void postsAgainIfAWebPageRejectsTheCertificate() throws Exception {
+        status = 400;
+        type = "text/html";
+        body = "<html><title>400 No required SSL certificate was sent</title></html>";
+        assertThat(post(settings()).outcome()).isEqualTo(Webhook.Outcome.FAILED);
+    }
+
     @ParameterizedTest
     @CsvSource({"text/html, ok", "text/html, ''", "text/html, <p>ok</p>", "text/plain, <html>ok</html>"})
     void acceptsOtherBodies(String answeredType, String answered) throws Exception {
