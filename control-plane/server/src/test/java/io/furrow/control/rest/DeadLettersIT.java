@@ -67,6 +67,7 @@ class DeadLettersIT {
     private static final Pattern NEXT = Pattern.compile("<(\\?[^>]+)>; ?rel=\"next\"");
 
     /** Letters of two topics whose times alternate, between those of other stages. */
+    @Tag("full")
     @Test
     void pagesBackThroughAllTopicsWithoutGapsOrDuplicates() throws Exception {
         for (int i = 0; i < 20; i++) {
