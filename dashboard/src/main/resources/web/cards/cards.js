@@ -60,7 +60,9 @@ class FurrowCards extends HTMLElement {
     if (!this.drawing) {
       this.drawing = setTimeout(() => this.drawDirty(), REDRAW_MILLIS);
     }
-    if (all) {
+    const isFirst = store.primed && !this.primed;
+    this.primed = store.primed;
+    if (all || isFirst) {
       this.order(true);
     } else if (!this.ordering) {
       // The first cards are shown sooner.

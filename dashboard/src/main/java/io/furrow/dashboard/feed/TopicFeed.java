@@ -64,7 +64,7 @@ public final class TopicFeed implements AutoCloseable {
         thread.start();
     }
 
-    static Properties settings(Properties client) {
+    private static Properties settings(Properties client) {
         Properties settings = CommittedReader.settings(client);
         settings.setProperty("fetch.max.wait.ms", "250");
         return settings;

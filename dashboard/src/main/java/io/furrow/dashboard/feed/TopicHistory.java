@@ -17,6 +17,7 @@ import org.apache.kafka.clients.consumer.OffsetAndTimestamp;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
+import io.furrow.kafka.CommittedReader;
 import io.furrow.kafka.KafkaClients;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
@@ -62,7 +63,7 @@ public record TopicHistory(Properties client, Limits limits, int valueBytes) {
 
     public Answer read(Range range) {
         try (KafkaConsumer<byte[], byte[]> consumer = new KafkaConsumer<>(
-                TopicFeed.settings(client), new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
+                CommittedReader.boundedSettings(client), new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
             return new Reading(range, consumer).read();
         }
     }

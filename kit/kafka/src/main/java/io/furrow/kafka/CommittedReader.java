@@ -90,6 +90,16 @@ public final class CommittedReader<K> implements AutoCloseable {
         return settings;
     }
 
+    /**
+     * Like {@link #settings}, for a consumer that reads to the end and is closed then: {@code close} waits for a fetch
+     * that is pending at the broker.
+     */
+    public static Properties boundedSettings(Properties client) {
+        Properties settings = settings(client);
+        settings.put("fetch.max.wait.ms", "10");
+        return settings;
+    }
+
     private CommittedReader<K> at(String... topics) {
         try {
             assign(List.of(topics));
@@ -191,9 +201,10 @@ public final class CommittedReader<K> implements AutoCloseable {
         consumer.wakeup();
     }
 
+    /** Does not wait for a fetch that is pending at the broker, for up to {@code fetch.max.wait.ms}. */
     @Override
     public void close() {
-        consumer.close();
+        consumer.close(CloseOptions.timeout(Duration.ZERO));
     }
 
     /** Processes a record. */

@@ -34,7 +34,7 @@ record TopicEndReader(Properties client) implements Serializable {
 
     /** @throws IOException if Kafka is unavailable */
     TopicEnd of(String topic) throws IOException, InterruptedException {
-        Properties settings = CommittedReader.settings(client);
+        Properties settings = CommittedReader.boundedSettings(client);
         settings.setProperty(ConsumerConfig.ISOLATION_LEVEL_CONFIG, "read_uncommitted");
         try (KafkaConsumer<byte[], byte[]> consumer =
                 new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {

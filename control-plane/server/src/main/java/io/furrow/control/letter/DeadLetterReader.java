@@ -117,7 +117,7 @@ public final class DeadLetterReader {
 
     /** @param client settings of a Kafka client */
     static KafkaConsumer<byte[], byte[]> consumer(Properties client) {
-        Properties settings = CommittedReader.settings(client);
+        Properties settings = CommittedReader.boundedSettings(client);
         settings.put(ConsumerConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, Long.toString(Redrive.TIMEOUT.toMillis()));
         settings.put(ConsumerConfig.FETCH_MAX_BYTES_CONFIG, Integer.toString(MAX_FETCHED_BYTES));
         return new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer());

@@ -43,7 +43,7 @@ final class ResultReader implements AutoCloseable {
 
     /** @param client settings of Kafka clients, with {@code bootstrap.servers} */
     ResultReader(Properties client) {
-        Properties properties = CommittedReader.settings(client);
+        Properties properties = CommittedReader.boundedSettings(client);
         properties.setProperty(ConsumerConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, Long.toString(TIMEOUT.toMillis()));
         try {
             consumer = new KafkaConsumer<>(properties, new ByteArrayDeserializer(), new ByteArrayDeserializer());

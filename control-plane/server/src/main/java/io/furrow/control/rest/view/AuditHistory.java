@@ -44,7 +44,7 @@ public final class AuditHistory {
 
     /** @param client settings of a Kafka client */
     public AuditHistory(Properties client) {
-        settings.putAll(CommittedReader.settings(client));
+        settings.putAll(CommittedReader.boundedSettings(client));
         settings.put("default.api.timeout.ms", Long.toString(TIMEOUT.toMillis()));
     }
 
