@@ -280,5 +280,5 @@ function unreachable(error) {
 }
 
 readTokenFromLink();
-loadFirst();
 start();
+loadFirst();

@@ -273,7 +273,9 @@ export const feeds = new Feeds();
 
 /** Reads the configuration of the server and the user. @throws {import('./api.js').ApiError} */
 export async function loadUser() {
+  const me = api.get('/api/me');
+  me.catch(() => {}); // reported below
   store.config = await api.get('/config.json').catch(() => store.config);
-  store.me = await api.get('/api/me');
+  store.me = await me;
   store.notify('me');
 }
