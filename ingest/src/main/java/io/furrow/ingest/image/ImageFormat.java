@@ -19,7 +19,11 @@ enum ImageFormat {
             boolean pixels = false;
             for (boolean first = true; ; first = false) {
                 int type = chunk(image);
-                if (first && (type != IHDR || image.getInt(16) <= 0 || image.getInt(20) <= 0)) {
+                if (first
+                        && (type != IHDR
+                                || image.position() != PNG_HEADER_END
+                                || image.getInt(16) <= 0
+                                || image.getInt(20) <= 0)) {
                     throw broken(this, "does not begin with a header that has a size");
                 }
                 pixels |= type == IDAT;
@@ -103,6 +107,9 @@ enum ImageFormat {
     private static final int PNG_SIGNATURE_BYTES = 8;
     /** Length, type and checksum. */
     private static final int PNG_CHUNK_FRAME = 12;
+
+    /** Of the signature and a header of 13 bytes. */
+    private static final int PNG_HEADER_END = PNG_SIGNATURE_BYTES + PNG_CHUNK_FRAME + 13;
 
     private static final int IHDR = 0x49484452;
     private static final int IDAT = 0x49444154;

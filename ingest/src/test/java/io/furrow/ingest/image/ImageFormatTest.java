@@ -1,11 +1,13 @@
 package io.furrow.ingest.image;
 
 import java.util.Arrays;
+import java.util.Base64;
 import java.util.Random;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
@@ -48,6 +50,17 @@ class ImageFormatTest {
             damaged[i] ^= (byte) (1 << i % 8);
             assertThatThrownBy(() -> ImageFormat.of(damaged)).as("byte %d", i).isInstanceOf(UnreadableException.class);
         }
+    }
+
+    /** Its checksum is right. */
+    @ParameterizedTest
+    @ValueSource(strings = {"iVBORw0KGgoAAAABSUhEUgFFeJer", "iVBORw0KGgoAAAAASUhEUqihrgo="})
+    void refusesAPngWithAHeaderOfAnotherLength(String base64) {
+        byte[] bytes = Base64.getDecoder().decode(base64);
+
+        assertThatThrownBy(() -> ImageFormat.of(bytes))
+                .isInstanceOf(UnreadableException.class)
+                .hasMessageContaining("header");
     }
 
     @Test
