@@ -44,7 +44,10 @@ public record FieldInput(Optional<DataStream<TopicRecord>> topic, TopicSnapshot 
      * time to its end as soon as the events are idle, even with a backlog.
      */
     public DataStream<TopicRecord> recordsBeside(DataStream<TopicRecord> events) {
-        return topic.orElseGet(
-                () -> events.filter(event -> false).uid("no-changes-of-fields").name("Fields never change"));
+        return topic.orElseGet(() -> events.filter(event -> false)
+                .uid("no-changes-of-fields")
+                .name("Fields never change")
+                // chained at one parallelism only, an unaligned checkpoint could not be restored at another
+                .rebalance());
     }
 }
