@@ -18,6 +18,8 @@ import org.apache.kafka.clients.admin.OffsetSpec;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.config.ConfigResource;
 import org.apache.kafka.common.config.TopicConfig;
+import org.apache.kafka.common.errors.InvalidTopicException;
+import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -137,10 +139,25 @@ public final class TopicFeeds implements AutoCloseable {
                 503, "kafka-away", "Kafka does not return the list of its topics; check --kafka and that it runs");
     }
 
-    /** @throws Problem 404 if the topic does not exist */
+    /** @throws Problem 404 if the topic does not exist, 503 if Kafka does not respond */
     public void check(String topic) {
-        if (!topics().contains(topic)) {
-            throw new Problem(404, "unknown-topic", "there is no topic '%s'".formatted(topic));
+        if (isKafkaUnavailable()) {
+            throw unavailable();
+        }
+        try {
+            // not the list of all topics: a farm has thousands after a year, and the page opens a dozen streams
+            admin.describeTopics(List.of(topic)).allTopicNames().get(TIMEOUT_SECONDS, TimeUnit.SECONDS);
+            lastAnswer = System.nanoTime();
+        } catch (ExecutionException e) {
+            if (e.getCause() instanceof UnknownTopicOrPartitionException
+                    || e.getCause() instanceof InvalidTopicException) {
+                throw new Problem(404, "unknown-topic", "there is no topic '%s'".formatted(topic));
+            }
+            throw unavailable();
+        } catch (TimeoutException e) {
+            throw unavailable();
+        } catch (InterruptedException e) {
+            throw Problem.stopping();
         }
     }
 
