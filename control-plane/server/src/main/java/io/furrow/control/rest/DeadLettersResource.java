@@ -58,6 +58,9 @@ public final class DeadLettersResource {
     private static final int MAX_READERS = 2;
     private static final Pattern NUMBER = Pattern.compile("[0-9]{1,9}");
     private static final Pattern LONG_NUMBER = Pattern.compile("[0-9]{1,18}");
+    /** What the names of the topics begin with that may be named as the target. */
+    private static final List<String> TARGETS = List.of("data.", "ngsi.");
+
     private static final Pattern CODE = Pattern.compile("[^\\p{Cntrl}]{1,100}");
 
     private final Properties client;
@@ -208,7 +211,7 @@ public final class DeadLettersResource {
             JsonObjectReader.checkReadable(members);
             String topic = reader.text("topic");
             checkTopic(topic);
-            return new Redrive.Request(
+            Redrive.Request request = new Redrive.Request(
                     topic,
                     reader.textOrNull("to"),
                     new Redrive.Choice(
@@ -216,8 +219,25 @@ public final class DeadLettersResource {
                             Set.copyOf(reader.texts("stages", CODE, "names such as ingest"))),
                     reader.flag("again"),
                     dryRun);
+            checkTarget(request);
+            return request;
         } catch (RejectedException e) {
             throw new ProblemException(e.code(), e.getMessage());
+        }
+    }
+
+    /**
+     * Anyone can send a notification that becomes a letter: on another topic it could be a request of an administrator,
+     * or a setting of Kafka Connect.
+     */
+    private static void checkTarget(Redrive.Request request) {
+        boolean isOrigin = Topics.ofDeadLetters(request.from()).orElseThrow().equals(request.target());
+        if (!isOrigin && TARGETS.stream().noneMatch(request.target()::startsWith)) {
+            throw new ProblemException(
+                    403,
+                    "topic-not-allowed",
+                    "letters are not sent to '%s'; name a topic that begins with data. or ngsi."
+                            .formatted(request.target()));
         }
     }
 

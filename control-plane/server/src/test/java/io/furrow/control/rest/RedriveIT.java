@@ -55,10 +55,10 @@ class RedriveIT {
         assertThat(topics.recordsOf("mixed"))
                 .extracting(record -> record.value()[0])
                 .containsExactlyInAnyOrder((byte) 2, (byte) 3);
-        assertThat(redrive("--topic", "mixed.dead", "--to", "mixed.notifications", "--stage", "ngsi-source"))
+        assertThat(redrive("--topic", "mixed.dead", "--to", "ngsi.mixed", "--stage", "ngsi-source"))
                 .startsWith("sent 2 ");
         await().untilAsserted(() -> assertThat(ask("GET", "/api/audit?limit=1000", null))
-                .filteredOn(entry -> entry.at("/about/to").asText().equals("mixed.notifications"))
+                .filteredOn(entry -> entry.at("/about/to").asText().equals("ngsi.mixed"))
                 .singleElement()
                 .satisfies(entry -> {
                     assertThat(entry.path("command").asText()).isEqualTo("redrive");
@@ -113,10 +113,10 @@ class RedriveIT {
         topics.deadLetter("some.dead", "k", new byte[] {2}, Reason.NOT_AN_ENTITY, "why", Map.of());
         topics.deadLetter("some.dead", "k", new byte[] {3}, Reason.NOT_JSON, "why (truncated to 1 bytes)", Map.of());
 
-        assertThat(redrive("--topic", "some.dead", "--to", "elsewhere", "--reason", "not-json"))
-                .isEqualTo("sent 1 dead letter from some.dead to elsewhere: 1 not-json\n"
+        assertThat(redrive("--topic", "some.dead", "--to", "data.elsewhere", "--reason", "not-json"))
+                .isEqualTo("sent 1 dead letter from some.dead to data.elsewhere: 1 not-json\n"
                         + "left where they are: 1 not-an-entity of test, 1 truncated");
-        assertThat(topics.recordsOf("elsewhere"))
+        assertThat(topics.recordsOf("data.elsewhere"))
                 .extracting(ConsumerRecord::value)
                 .containsExactly(new byte[] {1});
     }
@@ -169,9 +169,9 @@ class RedriveIT {
     void remembersEachTargetByItself() {
         topics.deadLetter("two.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
 
-        assertThat(redrive("--topic", "two.dead", "--to", "first")).startsWith("sent 1 ");
-        assertThat(redrive("--topic", "two.dead", "--to", "second")).startsWith("sent 1 ");
-        assertThat(redrive("--topic", "two.dead", "--to", "first")).startsWith("sent 0 ");
+        assertThat(redrive("--topic", "two.dead", "--to", "data.first")).startsWith("sent 1 ");
+        assertThat(redrive("--topic", "two.dead", "--to", "data.second")).startsWith("sent 1 ");
+        assertThat(redrive("--topic", "two.dead", "--to", "data.first")).startsWith("sent 0 ");
     }
 
     @Tag("full")
@@ -206,10 +206,10 @@ class RedriveIT {
         topics.standIn("large.dead", "robot", new OriginalReference("large", place.partition(), 99, 2_000_000));
         topics.standIn("large.dead", "robot", new OriginalReference("nowhere", 0, 0, 2_000_000));
 
-        assertThat(redrive("--topic", "large.dead", "--to", "whole"))
-                .isEqualTo("sent 1 dead letter from large.dead to whole: 1 not-json\n"
+        assertThat(redrive("--topic", "large.dead", "--to", "data.whole"))
+                .isEqualTo("sent 1 dead letter from large.dead to data.whole: 1 not-json\n"
                         + "left where they are: 3 original gone");
-        assertThat(topics.recordsOf("whole")).singleElement().satisfies(record -> {
+        assertThat(topics.recordsOf("data.whole")).singleElement().satisfies(record -> {
             assertThat(record.value()).isEqualTo(whole);
             assertThat(record.timestamp()).isEqualTo(TIME);
             assertThat(DeadLetterTopics.headers(record)).isEqualTo(Map.of("trace", "7"));
@@ -222,7 +222,10 @@ class RedriveIT {
         assertThat(redrive("--topic", "nowhere.dead")).startsWith("unknown-topic: there is no topic 'nowhere.dead'");
         assertThat(redrive("--topic", "data.raw")).startsWith("unknown-topic: 'data.raw' is no topic of dead letters");
         assertThat(redrive()).startsWith("missing-member: ");
-        assertThat(ask("POST", "/api/dead-letters/redrive", "{\"topic\":\"once.dead\",\"to\":\"nowhere\"}")
+        assertThat(redrive("--topic", "once.dead", "--to", "service.domainmanager"))
+                .startsWith("topic-not-allowed: letters are not sent to 'service.domainmanager'");
+        assertThat(redrive("--topic", "once.dead", "--to", "connect-configs")).startsWith("topic-not-allowed: ");
+        assertThat(ask("POST", "/api/dead-letters/redrive", "{\"topic\":\"once.dead\",\"to\":\"data.nowhere\"}")
                         .path("error")
                         .asText())
                 .isEqualTo("unknown-topic");

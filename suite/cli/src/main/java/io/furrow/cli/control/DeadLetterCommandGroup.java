@@ -123,9 +123,10 @@ public final class DeadLetterCommandGroup extends CommandGroup {
             @Option(
                             names = "--to",
                             paramLabel = "TOPIC",
-                            description = "Topic to write them to, which must exist. Default: that of --topic without "
-                                    + "'.dead'. Notifications of the NGSI source can be read from the topic of the "
-                                    + "normalize job, ngsi.notifications, where that job runs.")
+                            description =
+                                    "Topic to write them to, data.* or ngsi.*, which must exist. Default: that of --topic without "
+                                            + "'.dead'. Notifications of the NGSI source can be read from the topic of the "
+                                            + "normalize job, ngsi.notifications, where that job runs.")
                     String to,
             @Option(
                             names = "--reason",
