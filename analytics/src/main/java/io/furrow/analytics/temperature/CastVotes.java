@@ -60,8 +60,7 @@ final class CastVotes extends WindowOperator<String, FieldReading, DeviceReading
     @Override
     public void initializeState(StateInitializationContext context) throws Exception {
         super.initializeState(context);
-        reached = EventTimeProgress.restore(
-                context.getOperatorStateStore(), getRuntimeContext().getTaskInfo());
+        reached = EventTimeProgress.restore(context.getOperatorStateStore(), getRuntimeContext());
     }
 
     @Override

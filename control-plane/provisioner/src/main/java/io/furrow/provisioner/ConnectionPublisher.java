@@ -22,6 +22,7 @@ import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceConnection.ForeignTopic;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.FarmSecret;
+import io.furrow.model.time.Elapsed;
 import io.furrow.model.topic.Topics;
 import io.furrow.provisioner.account.LoginReport;
 
@@ -67,7 +68,7 @@ final class ConnectionPublisher {
     /** @param registered keys of the devices that the IoT Agent has; null before the first request to it */
     void publish(Set<String> registered) {
         long now = clock.getAsLong();
-        if (now - last < INTERVAL.toMillis()) {
+        if (!Elapsed.hasPassed(INTERVAL.toMillis(), last, now)) {
             return;
         }
         last = now;

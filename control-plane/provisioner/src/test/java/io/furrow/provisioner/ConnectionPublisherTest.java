@@ -130,6 +130,13 @@ class ConnectionPublisherTest {
     }
 
     @Test
+    void goesOnWhenTheClockIsSetBack() {
+        now.addAndGet(-7_200_000);
+        publisher.publish(Set.of(key));
+        assertThat(producer.history()).hasSize(1);
+    }
+
+    @Test
     void reportsThatLoginsAreNotObserved() throws Exception {
         ConnectionPublisher unobserved = publisher(ConnectionSources.NONE);
         now.addAndGet(INTERVAL);

@@ -33,14 +33,17 @@ public record InitialState(Properties client, StreamLimits limits, Predicate<Str
     /** Older records are history, not state: such a topic may hold a week of records per second. */
     private static final Duration NOT_COMPACTED = Duration.ofHours(1);
 
+    /** Every stream that begins holds its initial state until the client has read it. */
+    private static final long MAX_BYTES = 64L * 1024 * 1024;
+
     private static final String EPOCH = "replay-epoch";
     private static final String KIND = "replay-kind";
 
-    /** @throws Problem if reading takes too long, or there are too many keys */
+    /** @throws Problem if reading takes too long, or there are too many keys or bytes */
     public List<FeedRecord> read(String topic) {
         boolean live = topic.equals(Topics.RAW) || LIVE.matcher(topic).matches();
         Predicate<ConsumerRecord<byte[], byte[]>> filter = live ? record -> isOf(topic, record) : record -> true;
-        Map<String, FeedRecord> newest = new LinkedHashMap<>();
+        Newest newest = new Newest();
         long[] epoch = {-1};
         String source = live ? Topics.LATEST : topic;
         long startedAt = System.nanoTime();
@@ -58,12 +61,55 @@ public record InitialState(Properties client, StreamLimits limits, Predicate<Str
         } catch (TimeoutException e) {
             throw tooSlow(source);
         }
-        return new ArrayList<>(newest.values());
+        return new ArrayList<>(newest.byKey.values());
+    }
+
+    /** The newest record of each key, and their memory. */
+    static final class Newest {
+        private final Map<String, FeedRecord> byKey = new LinkedHashMap<>();
+        private long bytes;
+
+        void put(FeedRecord record) {
+            remove(record);
+            byKey.put(record.key(), record);
+            bytes += record.bytes();
+        }
+
+        void remove(FeedRecord record) {
+            FeedRecord older = byKey.remove(record.key());
+            bytes -= older == null ? 0 : older.bytes();
+        }
+
+        /** @param deletion its key need not have a type */
+        void delete(FeedRecord deletion) {
+            byKey.values().removeIf(each -> {
+                boolean deleted = deletion.deletes(each);
+                bytes -= deleted ? each.bytes() : 0;
+                return deleted;
+            });
+        }
+
+        void clear() {
+            byKey.clear();
+            bytes = 0;
+        }
+
+        /** @throws Problem if a client must not read that much */
+        void check(String source, int maxRecords) {
+            if (byKey.size() > maxRecords) {
+                throw new Problem(503, "too-much", "topic '%s' has more than %d keys".formatted(source, maxRecords));
+            }
+            if (bytes > MAX_BYTES) {
+                throw new Problem(
+                        503,
+                        "too-much",
+                        "the state of topic '%s' has more than %d MiB".formatted(source, MAX_BYTES / 1024 / 1024));
+            }
+        }
     }
 
     /** Each epoch of a replay repeats the state of its entities, and ends with a record without an entity. */
-    private static boolean isOfNewestEpoch(
-            ConsumerRecord<byte[], byte[]> record, long[] epoch, Map<String, FeedRecord> newest) {
+    private static boolean isOfNewestEpoch(ConsumerRecord<byte[], byte[]> record, long[] epoch, Newest newest) {
         String text = KafkaClients.text(record.headers(), EPOCH);
         if (text == null) {
             return true;
@@ -77,23 +123,18 @@ public record InitialState(Properties client, StreamLimits limits, Predicate<Str
     }
 
     private void put(
-            ConsumerRecord<byte[], byte[]> record,
-            Map<String, FeedRecord> newest,
-            Predicate<ConsumerRecord<byte[], byte[]>> filter) {
+            ConsumerRecord<byte[], byte[]> record, Newest newest, Predicate<ConsumerRecord<byte[], byte[]>> filter) {
         FeedRecord next = new FeedRecord(record, FeedRecord.NO_SEQUENCE, limits.valueBytes());
-        newest.remove(next.key());
+        newest.remove(next);
         if (record.value() == null) {
-            newest.values().removeIf(next::deletes);
+            newest.delete(next);
         } else if (filter.test(record)) {
-            newest.put(next.key(), next);
+            newest.put(next);
         }
     }
 
-    private void check(String source, Map<String, FeedRecord> newest, long startedAt) {
-        if (newest.size() > limits.primeRecords()) {
-            throw new Problem(
-                    503, "too-much", "topic '%s' has more than %d keys".formatted(source, limits.primeRecords()));
-        }
+    private void check(String source, Newest newest, long startedAt) {
+        newest.check(source, limits.primeRecords());
         if (System.nanoTime() - startedAt > TIMEOUT.toNanos()) {
             throw tooSlow(source);
         }

@@ -69,8 +69,7 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
     @Override
     public void initializeState(StateInitializationContext context) throws Exception {
         super.initializeState(context);
-        reached = EventTimeProgress.restore(
-                context.getOperatorStateStore(), getRuntimeContext().getTaskInfo());
+        reached = EventTimeProgress.restore(context.getOperatorStateStore(), getRuntimeContext());
         restored = RestoredRules.of(context.getOperatorStateStore(), rules);
     }
 

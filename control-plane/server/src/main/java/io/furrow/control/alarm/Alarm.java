@@ -205,6 +205,14 @@ public record Alarm(
         return extended(period.until(newUntil), seen);
     }
 
+    /** Returns the alarm as if it were seen now, if a clock that was ahead says later; the same instance otherwise. */
+    Alarm notAfter(long now) {
+        if (seen == null || seen <= now) {
+            return this;
+        }
+        return extended(period.until == null ? null : Long.valueOf(period.until - seen + now), now);
+    }
+
     private Alarm extended(Period newPeriod, Long at) {
         return new Alarm(
                 head,

@@ -251,7 +251,11 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     @Override
     public void passTime(long now) {
         for (Alarm alarm : current()) {
-            change(alarm, AlarmStateMachine::afterTime, now);
+            Alarm seen = alarm.notAfter(now);
+            if (seen != alarm) {
+                tables.alarms().put(seen.alarm(), seen);
+            }
+            change(seen, AlarmStateMachine::afterTime, now);
         }
         List<Cause> beyondLimit = limit.causes(now);
         beyondLimit.forEach(cause -> report(cause, null, now));

@@ -11,6 +11,7 @@ import java.util.stream.Stream;
 
 import io.furrow.control.manager.Table;
 import io.furrow.model.control.AlarmKind;
+import io.furrow.model.time.Elapsed;
 
 /** Limits the number of open alarms per kind and mission or field. Causes beyond the limit are counted and share one group alarm. */
 final class AlarmLimit {
@@ -56,7 +57,13 @@ final class AlarmLimit {
      * @param seen when it was last reported, epoch ms, with a resolution of {@link #SEEN_INTERVAL}
      */
     record Overflow(
-            String key, AlarmKind kind, String group, List<Cause.AffectedDevice> devices, Long until, long seen) {}
+            String key, AlarmKind kind, String group, List<Cause.AffectedDevice> devices, Long until, long seen) {
+        /** As {@link Alarm#notAfter}. */
+        private Overflow seenAt(long now) {
+            return new Overflow(
+                    key, kind, group, devices, until == null ? null : Long.valueOf(until - seen + now), now);
+        }
+    }
 
     AlarmLimit(Table<Group> groups, Table<Overflow> overflows) {
         this.groups = groups;
@@ -112,7 +119,7 @@ final class AlarmLimit {
     private static boolean isUpdate(Overflow before, Overflow now) {
         boolean validityChanged =
                 !(lastsLong(before) && lastsLong(now)) && !Objects.equals(before.until(), now.until());
-        return validityChanged || now.seen() - before.seen() >= SEEN_INTERVAL;
+        return validityChanged || Elapsed.hasPassed(SEEN_INTERVAL, before.seen(), now.seen());
     }
 
     private static boolean lastsLong(Overflow cause) {
@@ -127,7 +134,8 @@ final class AlarmLimit {
     boolean clear(AlarmKind kind, String group, long now) {
         List<Overflow> members =
                 overflows.where(each -> each.kind() == kind && each.group().equals(group));
-        if (members.stream().anyMatch(each -> now - each.seen() < AlarmStateMachine.ACTIVE_TIMEOUT.toMillis())) {
+        if (members.stream()
+                .anyMatch(each -> !Elapsed.hasPassed(AlarmStateMachine.ACTIVE_TIMEOUT.toMillis(), each.seen(), now))) {
             return false;
         }
         members.forEach(each -> overflows.put(each.key(), null));
@@ -165,7 +173,7 @@ final class AlarmLimit {
 
     /** Removes expired causes and returns the causes of the group alarms. */
     List<Cause> causes(long now) {
-        if (now - recounted >= RECOUNT_INTERVAL) {
+        if (Elapsed.hasPassed(RECOUNT_INTERVAL, recounted, now)) {
             recounted = now;
             recount(now);
         }
@@ -180,6 +188,7 @@ final class AlarmLimit {
     }
 
     private void recount(long now) {
+        overflows.where(each -> each.seen() > now).forEach(each -> overflows.put(each.key(), each.seenAt(now)));
         overflows
                 .where(each -> each.until() != null && each.until() <= now)
                 .forEach(each -> overflows.put(each.key(), null));

@@ -6,6 +6,7 @@ import java.util.Objects;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RejectedException;
+import io.furrow.model.time.Elapsed;
 
 /** Computes the life cycle of an alarm: open, acknowledged, closed. A pure function of an alarm and an event. */
 final class AlarmStateMachine {
@@ -34,7 +35,9 @@ final class AlarmStateMachine {
     static Event reported(Cause cause, String inhibitedBy) {
         return ofOpen((alarm, now) -> {
             boolean inhibition = !Objects.equals(alarm.inhibitedBy(), inhibitedBy);
-            boolean extent = !alarm.concerns(cause) && now - alarm.period().changed() >= UPDATE_INTERVAL.toMillis();
+            boolean extent = !alarm.concerns(cause)
+                    && Elapsed.hasPassed(
+                            UPDATE_INTERVAL.toMillis(), alarm.period().changed(), now);
             if (!inhibition && !extent) {
                 return alarm;
             }
@@ -55,10 +58,11 @@ final class AlarmStateMachine {
      */
     static Event closedManually(String user, boolean causesEnded) {
         return ofOpen((alarm, now) -> {
-            Duration ago = alarm.seen() == null ? null : Duration.ofMillis(now - alarm.seen());
-            boolean active = alarm.isOfGroup() ? !causesEnded : ago != null && ago.compareTo(ACTIVE_TIMEOUT) < 0;
+            boolean active = alarm.isOfGroup()
+                    ? !causesEnded
+                    : alarm.seen() != null && !Elapsed.hasPassed(ACTIVE_TIMEOUT.toMillis(), alarm.seen(), now);
             if (active) {
-                String seen = alarm.isOfGroup() ? "" : " (seen %d s ago)".formatted(ago.toSeconds());
+                String seen = alarm.isOfGroup() ? "" : " (seen %d s ago)".formatted((now - alarm.seen()) / 1000);
                 throw new RejectedException(
                         ErrorCode.WRONG_STATE,
                         "alarm '%s' closes when its cause is over: %s%s. Acknowledge it, or mute it for a while."

@@ -12,6 +12,7 @@ import io.furrow.control.domain.Domain;
 import io.furrow.control.mission.Mission;
 import io.furrow.control.mission.MissionStatus;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.time.Elapsed;
 
 /**
  * Publishes domains and missions to the context broker: each changed entity at most once a second, and only if it
@@ -94,7 +95,7 @@ final class ContextProjection {
 
     /** Called about once a second, on one projection only. */
     void passTime(long now) {
-        if (now - fieldsReadAt >= FIELDS_POLL_INTERVAL.toMillis()) {
+        if (Elapsed.hasPassed(FIELDS_POLL_INTERVAL.toMillis(), fieldsReadAt, now)) {
             fieldsReadAt = now;
             forgetOldFields(now);
         }
@@ -120,7 +121,8 @@ final class ContextProjection {
     }
 
     private void forgetOldFields(long now) {
-        for (FieldState field : tables.fields().where(each -> each.known() + MAX_FIELD_AGE.toMillis() <= now)) {
+        for (FieldState field :
+                tables.fields().where(each -> Elapsed.hasPassed(MAX_FIELD_AGE.toMillis(), each.known(), now))) {
             tables.fields().put(field.field(), null);
             markDomainsOutdated(field);
         }

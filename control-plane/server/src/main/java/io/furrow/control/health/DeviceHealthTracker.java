@@ -8,6 +8,7 @@ import java.util.Set;
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Table;
 import io.furrow.model.device.DesiredDevice;
+import io.furrow.model.time.Elapsed;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -68,10 +69,10 @@ final class DeviceHealthTracker {
 
     /** Called about once a second. */
     void passTime(long now) {
-        if (startedAt == null) {
+        if (startedAt == null || startedAt > now) {
             startedAt = now;
         }
-        if (now - checkedAt >= POLL_INTERVAL.toMillis()) {
+        if (Elapsed.hasPassed(POLL_INTERVAL.toMillis(), checkedAt, now)) {
             checkedAt = now;
             Set<String> running = new HashSet<>();
             desired.forEach(device -> {
@@ -87,7 +88,8 @@ final class DeviceHealthTracker {
         String key = device.version().key();
         DeviceHealth stored = health.get(key);
         DeviceHealth existing = stored == null ? DeviceHealth.unreported(device, now) : stored.of(device);
-        long silentSince = Math.max(device.version().from(), heard(existing, now));
+        long from = device.version().from() > now ? 0 : device.version().from();
+        long silentSince = Math.max(from, heard(existing, now));
         boolean silent = now - Math.max(silentSince, startedAt) > options.silentAfter(device) + TIMEOUT.toMillis();
         DeviceHealth next = silent && !existing.report().off() && !existing.silent() ? existing.silent(now) : existing;
         if (!next.equals(stored)) {
@@ -96,7 +98,7 @@ final class DeviceHealthTracker {
         watch(key, next, device);
     }
 
-    /** When it was heard; 0 if never, or if the clock of another host, which was ahead, says so. */
+    /** When it was heard; 0 if never, or if a clock that was ahead says so, of another host or of this one. */
     private static long heard(DeviceHealth device, long now) {
         Long heard = device.report().heard();
         return heard == null || heard > now ? 0 : heard;

@@ -41,6 +41,10 @@ record Heartbeat(
         return new Heartbeat(id, type, true, heard, reported, deviceTime, battery, percent, off);
     }
 
+    Heartbeat heardAt(long time) {
+        return new Heartbeat(id, type, silent, time, reported, deviceTime, battery, percent, off);
+    }
+
     boolean isPulse() {
         return id.isEmpty();
     }

@@ -15,6 +15,7 @@ import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.time.Elapsed;
 
 /**
  * Derives heartbeats from the reports of devices, with one {@link SilenceDetector} per partition. The detector is not
@@ -58,7 +59,8 @@ final class HeartbeatProcessor extends ContextualProcessor<String, byte[], Strin
         try {
             Entity entity = Entity.parse(record.value());
             long now = context().currentSystemTimeMs();
-            if (detector.process(key, entity, record.timestamp(), now) && now - pulsed >= PULSE.toMillis()) {
+            if (detector.process(key, entity, record.timestamp(), now)
+                    && Elapsed.hasPassed(PULSE.toMillis(), pulsed, now)) {
                 pulsed = now;
                 forward(Heartbeat.PULSE_KEY, Heartbeat.pulse(now));
             }

@@ -247,6 +247,8 @@ final class SilenceAlarmReconciler {
      */
     private Cause farm(GroupSummary all, long startedAt, long now) {
         boolean wasRaised = alarms.isRaised(AlarmKind.SILENT_FARM, Topics.RAW);
+        lastReport = Math.min(lastReport, now); // the clock may have been set back
+        resumed = resumed == null ? null : Long.valueOf(Math.min(resumed, now));
         double expectedInterval = all.expectedPerMs == 0 ? 0 : 1 / all.expectedPerMs;
         double minQuiet = Math.max(FARM_QUIET.toMillis(), expectedInterval);
         boolean unreported = wasRaised && lastReport == 0; // since this process began to read

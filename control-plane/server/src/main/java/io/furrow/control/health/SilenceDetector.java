@@ -12,6 +12,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.time.Elapsed;
 
 /**
  * Reduces the reports of devices to heartbeats: emits one at the first report of a device, then one with its newest
@@ -61,7 +62,7 @@ final class SilenceDetector {
         private long from;
 
         boolean isDue(long now) {
-            return now - emittedAt >= HEARTBEAT_INTERVAL.toMillis();
+            return Elapsed.hasPassed(HEARTBEAT_INTERVAL.toMillis(), emittedAt, now);
         }
 
         /** Whether an entity is the device: several types may have its id, of which the desired one, else the first is. */
@@ -172,9 +173,9 @@ final class SilenceDetector {
 
     /** Called about once a second. After a pause, in which no reports were read, detects no silence until the pending reports are read. */
     void passTime(long now) {
-        boolean paused = now - lastTick > MAX_TICK.toMillis();
+        boolean paused = Elapsed.hasPassed(MAX_TICK.toMillis() + 1, lastTick, now);
         lastTick = now;
-        if (now - refreshedAt >= LOOKUP_INTERVAL.toMillis()) {
+        if (Elapsed.hasPassed(LOOKUP_INTERVAL.toMillis(), refreshedAt, now)) {
             refreshedAt = now;
             devices.entrySet().removeIf(entry -> !isDesiredStill(entry.getKey(), entry.getValue()));
         }
@@ -185,6 +186,9 @@ final class SilenceDetector {
 
     private void emitSilent(long now) {
         devices.forEach((key, tracked) -> {
+            if (tracked.newest != null && tracked.newest.heard() > now) { // the clock was set back
+                tracked.newest = tracked.newest.heardAt(now);
+            }
             if (!tracked.silent
                     && tracked.newest != null
                     && !tracked.newest.off()

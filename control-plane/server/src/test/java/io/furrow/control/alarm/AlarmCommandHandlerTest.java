@@ -72,6 +72,29 @@ class AlarmCommandHandlerTest extends AlarmHandlerFixture {
     }
 
     @Test
+    void closesAnAlarmOfWhenTheClockWasAhead() throws Exception {
+        long ahead = NOW + 2 * HOUR.toMillis();
+        handler.raise(new Cause(AlarmKind.SUSPECT_SENSOR, "s", "odd", List.of(), HOUR), ahead);
+        handler.raise(silent("urn:t:1"), ahead);
+        handler.passTime(NOW);
+        handler.passTime(NOW + HOUR.toMillis() - 1);
+        assertThat(alarm("suspect-sensor-1").state()).isEqualTo(AlarmState.OPEN);
+        handler.passTime(NOW + HOUR.toMillis());
+        assertThat(alarm("suspect-sensor-1").state()).isEqualTo(AlarmState.CLOSED);
+
+        handler.raise(silent("urn:t:2"), ahead);
+        handler.answer(new AlarmCommand.Close(current().get(1).alarm(), "bob"), NOW);
+        assertThat(current()).hasSize(1);
+    }
+
+    @Test
+    void updatesAGroupAlarmOfWhenTheClockWasAhead() {
+        handler.report(many(3), null, NOW + HOUR.toMillis());
+        handler.report(many(4), null, NOW);
+        assertThat(current()).singleElement().returns(4, alarm -> alarm.extent().affected());
+    }
+
+    @Test
     void addsTypesToTheNextAlarmOfAResultWithoutTypes() {
         Cause cause = new Cause(AlarmKind.SUSPECT_SENSOR, "s", "odd", List.of(), HOUR);
         Cause newer = cause.identifiedBy("farm|/|Thermometer|s");

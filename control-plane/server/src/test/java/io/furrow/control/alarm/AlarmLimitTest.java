@@ -32,6 +32,20 @@ class AlarmLimitTest extends AlarmHandlerFixture {
     }
 
     @Test
+    void forgetsCountedCausesOfWhenTheClockWasAhead() {
+        long ahead = NOW + HOUR.toMillis() * 48;
+        for (int i = 0; i < AlarmLimit.MAX_ALARMS + 3; i++) {
+            Cause lasting = new Cause(AlarmKind.COLLISION, "pair" + i, "too close", List.of(), HOUR);
+            handler.raise(lasting.inGroup("urn:ngsi-ld:Mission:m"), ahead);
+        }
+        handler.passTime(ahead);
+        assertThat(current()).hasSize(AlarmLimit.MAX_ALARMS + 1);
+        handler.passTime(NOW);
+        handler.passTime(NOW + HOUR.toMillis() * 24);
+        assertThat(current()).isEmpty();
+    }
+
+    @Test
     void countsPairsBeyondTheLimit() {
         for (int i = 0; i < AlarmLimit.MAX_ALARMS + 30; i++) {
             handler.raise(pair(i), NOW);

@@ -106,6 +106,18 @@ class DeviceHealthTrackerTest {
         assertThat(existing().silent()).isTrue();
     }
 
+    @Test
+    void detectsSilenceWithinItsTimeWhenTheClockIsSetBack() {
+        addDesired("m", START + 7_200_000);
+        tracker.passTime(START + 7_200_000);
+        tracker.take(KEY, heartbeat(false, START + 7_200_000), START + 7_200_000);
+        tracker.passTime(START);
+        assertThat(existing().silent()).isFalse();
+        tracker.passTime(START + LONG_ENOUGH + 10_000);
+        assertThat(existing().silent()).isTrue();
+        assertThat(alarms()).isNotEmpty();
+    }
+
     /** The instance that watched before had a clock that is two hours ahead. */
     @Test
     void detectsSilenceAndReportsThoughAnotherClockWasAhead() {

@@ -41,6 +41,16 @@ class SilenceAlarmReconcilerTest {
         assertThat(farm()).contains("reports arrive");
     }
 
+    @Test
+    void raisesTheFarmAlarmWithinItsTimeWhenTheClockIsSetBack() {
+        SilenceAlarmReconciler silence = silent();
+        silence.reported(NOW + 2 * HOUR);
+        silence.reconcile(NOW - HOUR, NOW);
+        assertThat(farm()).isEmpty();
+        silence.reconcile(NOW - HOUR, NOW + 40_000);
+        assertThat(farm()).contains("nothing arrives");
+    }
+
     @ParameterizedTest
     @ValueSource(strings = {"%s", "|/|%s", "|/|Thermometer|%s"})
     void ignoresADeviceThatIsMutedByIdOrIdentity(String form) throws Exception {

@@ -87,6 +87,25 @@ class SilenceDetectorTest {
     }
 
     @Test
+    void goesOnWhenTheClockIsSetBack() {
+        addDesired(PERIOD);
+        process(5);
+        now -= 7_200_000;
+        pass(0);
+        pass(1000);
+        assertThat(signs).as("not silent at once").hasSize(1);
+        process(6);
+        assertThat(signs).as("the next report is emitted").hasSize(2);
+        for (int i = 0; i <= 30; i++) {
+            pass(1000);
+        }
+        assertThat(signs.get(2).silent()).isTrue();
+        desired.put(KEY, null);
+        pass(5000);
+        assertThat(listener.isMonitored(KEY)).isFalse();
+    }
+
+    @Test
     void detectsNoSilenceRightAfterAPause() {
         addDesired(PERIOD);
         process(5);

@@ -17,6 +17,9 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 /** Sets checkpointing, restarts, parallelism and type rules of all jobs; see {@link JobSettings}. */
 public final class JobEnvironment {
+    /** The parameter of how far event time may be ahead of the clock when it is restored; ISO 8601. Absent: as far as it is. */
+    public static final String MAX_RESTORED_AHEAD = "event-time.max-restored-ahead";
+
     /** Number of key groups; fixed forever, because state is partitioned by them. */
     private static final int MAX_PARALLELISM = 720;
     /** Short, because it is the maximum time for which a record is buffered on its way to the next subtask. */
@@ -54,8 +57,15 @@ public final class JobEnvironment {
         options.parallelism().ifPresent(env::setParallelism);
         Map<String, String> shown = new TreeMap<>(settings.origins());
         shown.putAll(options.effective());
+        maxRestoredAhead(options).ifPresent(max -> shown.put(MAX_RESTORED_AHEAD, max.toString()));
         env.getConfig().setGlobalJobParameters(new EffectiveOptions(shown));
         return env;
+    }
+
+    /** Empty for replays, which may be of any time, and for jobs without event time. */
+    private static Optional<Duration> maxRestoredAhead(JobOptions options) {
+        Duration skew = options.clocks().clockSkew();
+        return skew == null || options.inputTopics().replay().isPresent() ? Optional.empty() : Optional.of(skew);
     }
 
     private static JobSettings settings(JobOptions options, ReadableConfig cluster) {

@@ -60,9 +60,12 @@ public final class AdvanceIdleInput<T> extends AbstractStreamOperator<T>
                 .getUnionListState(new ListStateDescriptor<>("idle-input", Types.TUPLE(Types.LONG, Types.BOOLEAN)));
         long slowest = Long.MAX_VALUE;
         long furthest = NOTHING_YET;
+        RestoredTimeLimit limit = RestoredTimeLimit.of(getRuntimeContext());
         for (Tuple2<Long, Boolean> each : saved.get()) {
-            slowest = each.f1 ? Math.min(slowest, each.f0) : slowest;
-            furthest = Math.max(furthest, each.f0);
+            if (limit.allows(each.f0)) {
+                slowest = each.f1 ? Math.min(slowest, each.f0) : slowest;
+                furthest = Math.max(furthest, each.f0);
+            }
         }
         before = slowest == Long.MAX_VALUE ? furthest : slowest;
         reached = NOTHING_YET;

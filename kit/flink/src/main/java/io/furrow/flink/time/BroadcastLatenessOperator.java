@@ -22,8 +22,7 @@ public final class BroadcastLatenessOperator<K, I, B, O> extends KeyedTimelessBr
     @Override
     public void initializeState(StateInitializationContext context) throws Exception {
         super.initializeState(context);
-        reached = EventTimeProgress.restore(
-                context.getOperatorStateStore(), getRuntimeContext().getTaskInfo());
+        reached = EventTimeProgress.restore(context.getOperatorStateStore(), getRuntimeContext());
         ((LatenessAware) userFunction).judgeBy(reached);
     }
 

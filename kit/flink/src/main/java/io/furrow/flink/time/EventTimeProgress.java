@@ -5,6 +5,7 @@ import java.util.Arrays;
 import java.util.List;
 
 import org.apache.flink.api.common.TaskInfo;
+import org.apache.flink.api.common.functions.RuntimeContext;
 import org.apache.flink.api.common.state.ListState;
 import org.apache.flink.api.common.state.ListStateDescriptor;
 import org.apache.flink.api.common.state.OperatorStateStore;
@@ -19,7 +20,7 @@ import org.apache.flink.runtime.state.KeyGroupRangeAssignment;
  *
  * <p>Each key group has its own: in an unaligned checkpoint one subtask may have passed a watermark that is still in flight to
  * another, and events before that watermark are not late. The end of event time is not stored, so that a job that was stopped
- * with {@code --drain} can continue.
+ * with {@code --drain} can continue. Event time of when the clock was ahead is not restored, see {@link RestoredTimeLimit}.
  *
  * <p>State: the union list {@code event-time-reached-by-key-group} with ranges of key groups (first, last, time).
  */
@@ -43,28 +44,28 @@ public final class EventTimeProgress {
     }
 
     /** Restores from the task's checkpoint, if there is one. */
-    public static EventTimeProgress restore(OperatorStateStore states, TaskInfo task) throws Exception {
-        EventTimeProgress reached = new EventTimeProgress(states, task);
-        reached.read();
+    public static EventTimeProgress restore(OperatorStateStore states, RuntimeContext runtime) throws Exception {
+        EventTimeProgress reached = new EventTimeProgress(states, runtime.getTaskInfo());
+        reached.read(RestoredTimeLimit.of(runtime));
         return reached;
     }
 
-    private void read() throws Exception {
+    private void read(RestoredTimeLimit limit) throws Exception {
         before = new long[keyGroups.getNumberOfKeyGroups()];
         Arrays.fill(before, NOTHING_YET);
         int first = keyGroups.getStartKeyGroup();
         for (Tuple3<Integer, Integer, Long> range : byKeyGroup.get()) {
-            take(Math.max(first, range.f0), Math.min(keyGroups.getEndKeyGroup(), range.f1), range.f2);
+            if (!EndOfEventTime.isAt(range.f2) && limit.allows(range.f2)) {
+                take(Math.max(first, range.f0), Math.min(keyGroups.getEndKeyGroup(), range.f1), range.f2);
+            }
         }
         forgetWhatIsPassed();
     }
 
     private void take(int first, int last, long time) {
-        if (!EndOfEventTime.isAt(time)) {
-            for (int group = first; group <= last; group++) {
-                int index = group - keyGroups.getStartKeyGroup();
-                before[index] = Math.max(before[index], time);
-            }
+        for (int group = first; group <= last; group++) {
+            int index = group - keyGroups.getStartKeyGroup();
+            before[index] = Math.max(before[index], time);
         }
     }
 

@@ -85,6 +85,17 @@ class JobEnvironmentTest {
                 .containsEntry("execution.checkpointing.dir", "s3://***@store/c (option)");
     }
 
+    @Test
+    void limitsRestoredEventTimeExceptForReplays() {
+        assertThat(parameters("--clock-skew", "7s")).containsEntry(JobEnvironment.MAX_RESTORED_AHEAD, "PT7S");
+        assertThat(parameters("--input", "data.hoeing.replay.0123abcd"))
+                .doesNotContainKey(JobEnvironment.MAX_RESTORED_AHEAD);
+    }
+
+    private static Map<String, String> parameters(String... arguments) {
+        return environment(arguments).getConfig().getGlobalJobParameters().toMap();
+    }
+
     @TempDir
     private Path folder;
 

@@ -2,7 +2,9 @@ package io.furrow.flink.time;
 
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
 
+import org.apache.flink.configuration.Configuration;
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
 import org.apache.flink.streaming.api.watermark.Watermark;
 import org.apache.flink.streaming.runtime.watermarkstatus.WatermarkStatus;
@@ -10,6 +12,8 @@ import org.apache.flink.streaming.util.AbstractStreamOperatorTestHarness;
 import org.apache.flink.streaming.util.OneInputStreamOperatorTestHarness;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
+
+import io.furrow.flink.job.JobEnvironment;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -19,6 +23,7 @@ class AdvanceIdleInputTest {
     private static final int MAX_PARALLELISM = 16;
 
     private final List<OneInputStreamOperatorTestHarness<String, String>> opened = new ArrayList<>();
+    private String maxAhead;
 
     @AfterEach
     void close() throws Exception {
@@ -112,6 +117,20 @@ class AdvanceIdleInputTest {
         assertThat(watermarks(again)).containsExactly(350_000L);
     }
 
+    @Test
+    void waitsForRecordsIfTheClockWasAhead() throws Exception {
+        var before = start(1, 0, null, CLOCK);
+        before.processWatermark(System.currentTimeMillis() + 3_600_000);
+
+        maxAhead = "PT10S";
+        var input = start(1, 0, snapshot(before), CLOCK + 30_000);
+        input.processWatermarkStatus(WatermarkStatus.IDLE);
+        input.processWatermarkStatus(WatermarkStatus.ACTIVE);
+        input.processWatermark(1_000);
+
+        assertThat(watermarks(input)).containsExactly(1_000L);
+    }
+
     private static List<Long> watermarks(OneInputStreamOperatorTestHarness<String, String> input) {
         return input.getOutput().stream()
                 .filter(Watermark.class::isInstance)
@@ -132,6 +151,10 @@ class AdvanceIdleInputTest {
             int parallelism, int index, OperatorSubtaskState state, long clock) throws Exception {
         var input = new OneInputStreamOperatorTestHarness<String, String>(
                 new AdvanceIdleInput<>(), MAX_PARALLELISM, parallelism, index);
+        if (maxAhead != null) {
+            input.getExecutionConfig()
+                    .setGlobalJobParameters(Configuration.fromMap(Map.of(JobEnvironment.MAX_RESTORED_AHEAD, maxAhead)));
+        }
         opened.add(input);
         input.setProcessingTime(clock);
         if (state != null) {

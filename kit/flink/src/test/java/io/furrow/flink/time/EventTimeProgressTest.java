@@ -2,8 +2,10 @@ package io.furrow.flink.time;
 
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
 
 import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.configuration.Configuration;
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
 import org.apache.flink.runtime.state.KeyGroupRangeAssignment;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
@@ -14,6 +16,8 @@ import org.apache.flink.util.Collector;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.flink.job.JobEnvironment;
+
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Elements are keys; their timestamps decide. */
@@ -21,6 +25,7 @@ class EventTimeProgressTest {
     private static final int KEY_GROUPS = 16;
 
     private final List<KeyedOneInputStreamOperatorTestHarness<String, String, String>> opened = new ArrayList<>();
+    private String maxAhead;
 
     @AfterEach
     void close() throws Exception {
@@ -78,6 +83,24 @@ class EventTimeProgressTest {
         assertThat(again.extractOutputValues()).containsExactly("a late", "a");
     }
 
+    @Test
+    void startsAnewIfTheClockWasAhead() throws Exception {
+        long ahead = System.currentTimeMillis() + 3_600_000;
+        var before = start(1);
+        before.get(0).processWatermark(ahead);
+
+        var replay = restarted(before, 1).get(0);
+        replay.processElement("a", ahead);
+        assertThat(replay.extractOutputValues()).containsExactly("a late");
+
+        maxAhead = "PT10S";
+        var again = restarted(before, 1).get(0);
+        again.processElement("a", 1_000);
+        again.processWatermark(1_000);
+        again.processElement("a", 1_000);
+        assertThat(again.extractOutputValues()).containsExactly("a", "a late");
+    }
+
     private static String keyAt(int subtaskOfTwo) {
         int i = 0;
         while (KeyGroupRangeAssignment.assignKeyToParallelOperator("k" + i, KEY_GROUPS, 2) != subtaskOfTwo) {
@@ -119,6 +142,10 @@ class EventTimeProgressTest {
             OneInputStreamOperator<String, String> operator, int parallelism, int index) throws Exception {
         var harness = new KeyedOneInputStreamOperatorTestHarness<>(
                 operator, key -> key, Types.STRING, KEY_GROUPS, parallelism, index);
+        if (maxAhead != null) {
+            harness.getExecutionConfig()
+                    .setGlobalJobParameters(Configuration.fromMap(Map.of(JobEnvironment.MAX_RESTORED_AHEAD, maxAhead)));
+        }
         opened.add(harness);
         return harness;
     }

@@ -33,6 +33,7 @@ import io.furrow.launcher.option.ProvisioningOptions;
 import io.furrow.launcher.option.ReplayFlags;
 import io.furrow.launcher.option.RestTlsOptions;
 import io.furrow.launcher.option.WatchFlags;
+import io.furrow.launcher.process.ClockWatch;
 import io.furrow.launcher.process.LogFile;
 import io.furrow.launcher.suite.ControlService;
 import io.furrow.launcher.suite.FarmSecretFile;
@@ -209,7 +210,7 @@ public final class ControlPlaneCommand implements Callable<Integer> {
             out.println("REST API: " + serve(service, rest, secret) + "/openapi.json");
             out.println("Health: " + service.health() + "/ready");
             out.flush();
-            stop.await();
+            new ClockWatch().await(stop);
             return 0;
         } catch (IOException e) { // says what is unavailable or refused, and what to do
             throw new CommandException(e.getMessage(), e);

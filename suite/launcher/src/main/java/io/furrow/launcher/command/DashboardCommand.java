@@ -28,6 +28,7 @@ import io.furrow.dashboard.feed.TopicRules;
 import io.furrow.dashboard.page.PageSettings;
 import io.furrow.launcher.option.AccessFlags;
 import io.furrow.launcher.option.TrustedProxyFlags;
+import io.furrow.launcher.process.ClockWatch;
 import io.furrow.launcher.process.LogFile;
 import io.furrow.launcher.suite.PortCheck;
 import io.furrow.launcher.suite.ServerCheck;
@@ -149,7 +150,7 @@ public final class DashboardCommand implements Callable<Integer> {
             out.println("Dashboard: " + dashboard.uri() + "; Ctrl-C stops it.");
             out.flush();
             ServerCheck.awaitKafka(settings.client(), spec.commandLine().getErr(), stop);
-            stop.await();
+            new ClockWatch().await(stop);
             return 0;
         } catch (IOException e) { // says what is taken, and what to do
             throw new CommandException(e.getMessage(), e);

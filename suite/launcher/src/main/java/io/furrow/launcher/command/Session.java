@@ -11,6 +11,7 @@ import java.util.concurrent.TimeUnit;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.launcher.process.ClockWatch;
 import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.status.Status;
 import io.furrow.launcher.status.StatusScreen;
@@ -27,6 +28,7 @@ final class Session {
     private static final String STORES_CLASSES = "furrow.stores.classes";
 
     private final PrintWriter out;
+    private final ClockWatch clock = new ClockWatch();
     private final CountDownLatch stopRequested = new CountDownLatch(1);
     private final CountDownLatch stopped = new CountDownLatch(1);
     private volatile boolean started;
@@ -81,6 +83,7 @@ final class Session {
             screen = drawn;
             status.start();
             do {
+                clock.check();
                 status.tick();
             } while (!stopRequested.await(1, TimeUnit.SECONDS));
         }

@@ -13,6 +13,7 @@ import java.util.Set;
 import io.furrow.control.alarm.Alarm;
 import io.furrow.control.alarm.AlarmState;
 import io.furrow.control.alarm.Severity;
+import io.furrow.model.time.Elapsed;
 
 /**
  * Decides which alarm is posted next. Each alarm is posted in its newest state, the most severe first, until it is
@@ -221,7 +222,7 @@ final class DeliveryQueue {
         boolean isRepeatable = alarm.state() == AlarmState.OPEN
                 && existing != null
                 && !existing.refused()
-                && now - existing.time() >= settings.repeatInterval().toMillis();
+                && Elapsed.hasPassed(settings.repeatInterval().toMillis(), existing.time(), now);
         return existing == null || existing.sequence() != alarm.sequence() || isRepeatable;
     }
 

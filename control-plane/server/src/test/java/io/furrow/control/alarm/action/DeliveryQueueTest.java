@@ -186,6 +186,15 @@ class DeliveryQueueTest {
     }
 
     @Test
+    void repeatsAnAlarmThatWasPostedWhenTheClockWasAhead() {
+        Alarm open = take(AlarmKind.COLLISION);
+        complete(due().get(0), ACCEPTED);
+        now -= 7_200_000;
+        queue.passTime(now);
+        assertThat(due()).extracting(Post::id).containsExactly(open.alarm() + ":1:1");
+    }
+
+    @Test
     void delaysAMinorAlarmForAnInhibitingOne() {
         Alarm minor = take(AlarmKind.SILENT_DEVICE);
         assertThat(due()).isEmpty();
