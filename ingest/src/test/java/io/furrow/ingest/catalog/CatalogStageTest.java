@@ -100,8 +100,9 @@ class CatalogStageTest {
             harness.processElement(one.onlyEntities(-1), T + RETENTION.toMillis());
             harness.processWatermark(T + 20_000 + RETENTION.toMillis());
 
-            assertThat(harness.extractOutputValues()).last().satisfies(record -> assertThat(record.value())
-                    .isNull());
+            assertThat(harness.extractOutputValues())
+                    .last()
+                    .satisfies(record -> assertThat(record.value()).isNull());
             assertThat(harness.numKeyedStateEntries()).isZero();
             assertThat(harness.numEventTimeTimers()).isZero();
         }
@@ -201,7 +202,9 @@ class CatalogStageTest {
     private static KeyedOneInputStreamOperatorTestHarness<String, ReportedEvent, CatalogEntry> profiles()
             throws Exception {
         var harness = new KeyedOneInputStreamOperatorTestHarness<String, ReportedEvent, CatalogEntry>(
-                new KeyedProcessOperator<>(new ProfileEntities(INTERVAL, RETENTION)), ReportedEvent::identity, Types.STRING);
+                new KeyedProcessOperator<>(new ProfileEntities(INTERVAL, RETENTION)),
+                ReportedEvent::identity,
+                Types.STRING);
         harness.open();
         return harness;
     }
@@ -209,9 +212,7 @@ class CatalogStageTest {
     private static KeyedOneInputStreamOperatorTestHarness<String, CatalogEntry, TopicRecord> merging()
             throws Exception {
         var harness = new KeyedOneInputStreamOperatorTestHarness<String, CatalogEntry, TopicRecord>(
-                new KeyedProcessOperator<>(new MergeCatalog(INTERVAL, RETENTION)),
-                CatalogEntry::key,
-                Types.STRING);
+                new KeyedProcessOperator<>(new MergeCatalog(INTERVAL, RETENTION)), CatalogEntry::key, Types.STRING);
         harness.open();
         return harness;
     }
