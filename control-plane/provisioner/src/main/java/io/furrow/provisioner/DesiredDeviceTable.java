@@ -6,6 +6,7 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
+import java.util.stream.Collectors;
 
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -18,6 +19,8 @@ import io.furrow.model.ngsi.UnreadableException;
 /** Holds the devices of {@code service.devices} that are to be provisioned, by key, and the scopes in which the agent may have others. */
 final class DesiredDeviceTable {
     private static final Logger LOG = LoggerFactory.getLogger(DesiredDeviceTable.class);
+
+    private static final int MAX_NAMED = 10;
 
     private final Map<String, DesiredDevice> devices = new LinkedHashMap<>();
     private final MissionDeviceLists lists = new MissionDeviceLists();
@@ -58,6 +61,7 @@ final class DesiredDeviceTable {
             fresh.remove(key);
             return;
         }
+        unresolved.remove(key);
         resolve(desired).ifPresentOrElse(complete -> devices.put(key, complete), () -> unresolved.put(key, desired));
         if (live) {
             fresh.add(key);
@@ -85,6 +89,30 @@ final class DesiredDeviceTable {
                     e);
             return Optional.empty();
         }
+    }
+
+    /**
+     * Returns devices that are desired, but not how: their record refers to another version of their mission's device
+     * list than the one that was read. Nothing of them is removed.
+     */
+    Collection<DesiredDevice> undecided() {
+        return unresolved.values();
+    }
+
+    /** Returns which devices are undecided, and what to do. */
+    String undecidedText() {
+        String missions = unresolved.values().stream()
+                .map(device -> device.version().mission())
+                .distinct()
+                .sorted()
+                .collect(Collectors.joining(", "));
+        String named = unresolved.values().stream()
+                .map(DesiredDevice::device)
+                .sorted()
+                .limit(MAX_NAMED)
+                .collect(Collectors.joining(", "));
+        return "the desired state of %d devices cannot be read (%s%s), because the device list of their mission is of another version; they keep their logins and registrations, but no changes; update Furrow here, or start again: %s"
+                .formatted(unresolved.size(), named, unresolved.size() > MAX_NAMED ? ", …" : "", missions);
     }
 
     Map<String, DesiredDevice> all() {

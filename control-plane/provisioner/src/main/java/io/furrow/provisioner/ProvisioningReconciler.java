@@ -11,6 +11,7 @@ import java.util.Set;
 import java.util.TreeMap;
 import java.util.function.LongSupplier;
 import java.util.stream.Collectors;
+import java.util.stream.Stream;
 
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -106,6 +107,7 @@ final class ProvisioningReconciler {
             settlingSince = null;
         }
         removals.desired(desired.all().values());
+        removals.desired(desired.undecided());
     }
 
     /** Whether the farm's secret changed since the last step: by rotation, or because an older key expired. */
@@ -129,7 +131,9 @@ final class ProvisioningReconciler {
         }
         currentSecret = now;
         start();
-        accounts.revoke(desired.all().values(), removals.allowsAll());
+        List<DesiredDevice> spared = new ArrayList<>(desired.undecided());
+        spared.addAll(desired.all().values());
+        accounts.revoke(spared, removals.allowsAll());
         Map<String, String> rejected = new TreeMap<>();
         Map<String, AgentRegistration> present = new LinkedHashMap<>();
         TimeBudget budget = new TimeBudget(STEP, nanos);
@@ -245,13 +249,20 @@ final class ProvisioningReconciler {
     }
 
     private Set<String> desiredDevices(FiwareScope scope) {
-        return in(scope).values().stream().map(DesiredDevice::device).collect(Collectors.toSet());
+        return desiredOrUndecided(scope).map(DesiredDevice::device).collect(Collectors.toSet());
     }
 
     private Set<String> desiredKeys(FiwareScope scope) {
-        return in(scope).values().stream()
+        return desiredOrUndecided(scope)
                 .map(device -> secret.get().apiKey(device.version().mission()))
                 .collect(Collectors.toSet());
+    }
+
+    private Stream<DesiredDevice> desiredOrUndecided(FiwareScope scope) {
+        return Stream.concat(
+                in(scope).values().stream(),
+                desired.undecided().stream()
+                        .filter(device -> DesiredDeviceTable.scope(device).equals(scope)));
     }
 
     private AgentRegistrationCache cacheOf(FiwareScope scope) throws IOException, InterruptedException {

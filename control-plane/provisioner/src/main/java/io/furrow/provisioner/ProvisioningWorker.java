@@ -71,6 +71,7 @@ final class ProvisioningWorker implements AutoCloseable {
     private String failure = "";
     private Retained retained;
     private long retainedReported;
+    private long undecidedReported = System.nanoTime();
     private boolean provisionedRecorded;
 
     ProvisioningWorker(ProvisioningSettings settings) {
@@ -108,6 +109,7 @@ final class ProvisioningWorker implements AutoCloseable {
                 step();
             }
             reportRetained();
+            reportUndecided();
             connections.publish(provisioning.registered());
         }
     }
@@ -217,6 +219,19 @@ final class ProvisioningWorker implements AutoCloseable {
         if (retained != null && System.nanoTime() - retainedReported >= REPORT_INTERVAL.toNanos()) {
             retainedReported = System.nanoTime();
             producer.send(new ProducerRecord<>(Topics.FAULTS, "provisioner", new Fault(retained.text()).toBytes()));
+        }
+    }
+
+    /** The first report waits too: a device's record may come before its list. */
+    private void reportUndecided() {
+        long now = System.nanoTime();
+        if (desired.undecided().isEmpty()) {
+            undecidedReported = now;
+        } else if (now - undecidedReported >= REPORT_INTERVAL.toNanos()) {
+            undecidedReported = now;
+            String text = desired.undecidedText();
+            LOG.warn(text);
+            producer.send(new ProducerRecord<>(Topics.FAULTS, "provisioner devices", new Fault(text).toBytes()));
         }
     }
 

@@ -12,6 +12,7 @@ import org.junit.jupiter.api.Test;
 import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.GroupRef;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.provisioner.ProvisioningReconciler.Outcome;
 
@@ -264,5 +265,32 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         int changes = agent.changes.size();
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(agent.changes).as("the agent already has the desired state").hasSize(changes);
+    }
+
+    /** After a power cut a device list may be older than the records that refer to it. */
+    @Test
+    void removesNothingOfADeviceWhoseListIsOfAnotherVersion() throws Exception {
+        DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
+        addDesired(device);
+        provisioning.step();
+        desired.clear();
+        addDesired(new DesiredDevice(
+                device.version(),
+                device.type(),
+                device.device(),
+                true,
+                null,
+                true,
+                device.settings(),
+                new GroupRef(0, 0, 0, 2),
+                0));
+        provisioning = provisioning();
+
+        provisioning.step();
+
+        assertThat(agent.deviceIds()).containsExactly(device.device());
+        assertThat(agent.apiKeys()).containsExactly(KEY);
+        assertThat(authenticates(SECRET.device("hoeing", device.device()))).isTrue();
+        assertThat(desired.undecidedText()).contains("1 devices", device.device(), "start again: hoeing");
     }
 }

@@ -19,7 +19,7 @@ public final class CatalogStage {
      */
     public static DataStream<TopicRecord> keep(
             KeyedStream<ReportedEvent, String> events, Duration interval, Duration retention) {
-        return events.process(new ProfileEntities(interval))
+        return events.process(new ProfileEntities(interval, retention))
                 .uid("profile-entities")
                 .name("Profile each entity")
                 .keyBy(CatalogEntry::key)

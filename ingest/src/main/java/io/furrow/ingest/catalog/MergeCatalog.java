@@ -20,7 +20,7 @@ import io.furrow.model.topic.Topics;
 /**
  * Merges the entities of a mission and type into an entry of the catalog.
  *
- * <p>State: the entry, whether it is to be written, when its last entity was deleted and when it expires, per tenant, domain,
+ * <p>State: the entry, whether it is to be written and has new events, when its last entity was deleted and when it expires, per tenant, domain,
  * mission and type. Cleared: when no event has arrived for the retention. Late: no difference; a deletion after the entry has
  * expired is ignored. Emits: the entry for {@code data.catalog}, at most once per interval of event time; when it expires a
  * tombstone.
@@ -63,8 +63,9 @@ public final class MergeCatalog extends KeyedProcessFunction<String, CatalogEntr
         } else if (sum.entities() <= 0) {
             deleted.update(context.timestamp() == null ? more.last() : context.timestamp());
         }
-        if (unwritten.value() == null) {
-            unwritten.update(true);
+        boolean isWritten = unwritten.value() == null;
+        unwritten.update(more.events() > 0 || Boolean.TRUE.equals(unwritten.value()));
+        if (isWritten) {
             long from = Math.max(more.last(), context.timerService().currentWatermark());
             context.timerService().registerEventTimeTimer(ProfileEntities.nextInterval(from, intervalMillis));
         }
@@ -73,16 +74,21 @@ public final class MergeCatalog extends KeyedProcessFunction<String, CatalogEntr
     @Override
     public void onTimer(long timestamp, OnTimerContext context, Collector<TopicRecord> out) throws Exception {
         CatalogEntry entry = whole.value();
-        if (unwritten.value() != null) {
-            unwritten.clear();
-            out.collect(record(entry, entry.last(), entry.toBytes(deleted.value())));
-            postpone(timestamp, context);
-        } else if (Long.valueOf(timestamp).equals(expiry.value())
+        boolean hasEvents = Boolean.TRUE.equals(unwritten.value());
+        if (Long.valueOf(timestamp).equals(expiry.value())
+                && !hasEvents
                 && !EndOfEventTime.isAt(context.timerService().currentWatermark())) {
             out.collect(record(entry, timestamp, null));
             whole.clear();
+            unwritten.clear();
             deleted.clear();
             expiry.clear();
+        } else if (unwritten.value() != null) {
+            unwritten.clear();
+            out.collect(record(entry, entry.last(), entry.toBytes(deleted.value())));
+            if (hasEvents || expiry.value() == null) {
+                postpone(timestamp, context);
+            }
         }
     }
 

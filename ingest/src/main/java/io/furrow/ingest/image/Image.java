@@ -11,6 +11,14 @@ record Image(byte[] bytes, ImageFormat format, String sha256) {
      * @throws UnreadableException with {@link Reason#NOT_AN_IMAGE} or {@link Reason#TOO_LARGE}
      */
     static Image of(byte[] text, int limit) throws UnreadableException {
+        try {
+            return decoded(text, limit);
+        } catch (RuntimeException e) { // a defect of a decoder costs an image, not the job
+            throw new UnreadableException(Reason.NOT_AN_IMAGE, "the image cannot be decoded: " + e, e);
+        }
+    }
+
+    private static Image decoded(byte[] text, int limit) throws UnreadableException {
         byte[] bytes = ImageDecoder.decode(text);
         if (bytes.length > limit) {
             throw new UnreadableException(

@@ -21,6 +21,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 class CatalogStageTest {
     private static final long T = Reports.TIME;
     private static final Duration INTERVAL = Duration.ofSeconds(10);
+    private static final Duration RETENTION = Duration.ofDays(30);
 
     @Test
     void addsUpAnEntityAndPassesItOnOncePerInterval() throws Exception {
@@ -37,7 +38,7 @@ class CatalogStageTest {
                 assertThat(entry.entities()).isEqualTo(1);
                 assertThat(entry.attributes().get("Temperature").max()).isEqualTo(4);
             });
-            assertThat(harness.numEventTimeTimers()).isZero();
+            assertThat(harness.numEventTimeTimers()).as("its expiry").isOne();
 
             harness.processElement(Reports.thermometer("t1", "m", T + 11_000, 9), T + 11_000);
             harness.processWatermark(T + 20_000);
@@ -63,6 +64,45 @@ class CatalogStageTest {
             assertThat(sum(entries, "weeding").events()).isEqualTo(1);
             assertThat(sum(entries, "sowing").entities()).isZero();
             assertThat(sum(entries, "sowing").events()).isEqualTo(2);
+            assertThat(harness.numKeyedStateEntries()).isZero();
+            assertThat(harness.numEventTimeTimers()).isZero();
+        }
+    }
+
+    /** Its entry has expired by then: an entity that is not counted again would make one of 0 entities. */
+    @Test
+    void countsAnEntityAgainThatWasSilentForTheRetention() throws Exception {
+        try (var harness = profiles()) {
+            long later = T + Duration.ofDays(40).toMillis();
+            harness.processElement(Reports.thermometer("t1", "m", T, 1), T);
+            harness.processWatermark(T + 10_000);
+            harness.processElement(Reports.thermometer("t1", "other", later, 1), later);
+            harness.processWatermark(later + 10_000);
+            assertThat(sum(harness.extractOutputValues(), "m").entities()).isZero();
+
+            harness.processElement(Reports.thermometer("t1", "m", later + 11_000, 1), later + 11_000);
+            harness.processWatermark(later + 20_000);
+            assertThat(sum(harness.extractOutputValues(), "m").entities()).isOne();
+
+            long end = later + 20_000 + RETENTION.toMillis();
+            harness.processWatermark(end);
+            assertThat(harness.numKeyedStateEntries()).isZero();
+            assertThat(harness.numEventTimeTimers()).isZero();
+        }
+    }
+
+    @Test
+    void keepsTheExpiryOfAnEntryThatOnlyLosesEntities() throws Exception {
+        try (var harness = merging()) {
+            CatalogEntry one = CatalogEntry.of(Reports.thermometer("t", "m", T, 1));
+            harness.processElement(one.andEntities(1), T);
+            harness.processWatermark(T + 10_000);
+            harness.processElement(one.onlyEntities(-1), T + RETENTION.toMillis());
+            harness.processWatermark(T + 20_000 + RETENTION.toMillis());
+
+            assertThat(harness.extractOutputValues())
+                    .last()
+                    .satisfies(record -> assertThat(record.value()).isNull());
             assertThat(harness.numKeyedStateEntries()).isZero();
             assertThat(harness.numEventTimeTimers()).isZero();
         }
@@ -162,7 +202,9 @@ class CatalogStageTest {
     private static KeyedOneInputStreamOperatorTestHarness<String, ReportedEvent, CatalogEntry> profiles()
             throws Exception {
         var harness = new KeyedOneInputStreamOperatorTestHarness<String, ReportedEvent, CatalogEntry>(
-                new KeyedProcessOperator<>(new ProfileEntities(INTERVAL)), ReportedEvent::identity, Types.STRING);
+                new KeyedProcessOperator<>(new ProfileEntities(INTERVAL, RETENTION)),
+                ReportedEvent::identity,
+                Types.STRING);
         harness.open();
         return harness;
     }
@@ -170,9 +212,7 @@ class CatalogStageTest {
     private static KeyedOneInputStreamOperatorTestHarness<String, CatalogEntry, TopicRecord> merging()
             throws Exception {
         var harness = new KeyedOneInputStreamOperatorTestHarness<String, CatalogEntry, TopicRecord>(
-                new KeyedProcessOperator<>(new MergeCatalog(INTERVAL, Duration.ofDays(30))),
-                CatalogEntry::key,
-                Types.STRING);
+                new KeyedProcessOperator<>(new MergeCatalog(INTERVAL, RETENTION)), CatalogEntry::key, Types.STRING);
         harness.open();
         return harness;
     }

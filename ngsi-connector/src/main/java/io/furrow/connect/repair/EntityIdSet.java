@@ -19,6 +19,8 @@ import io.furrow.connect.repair.EntityIdFile.Change.Kind;
 final class EntityIdSet implements AutoCloseable {
     /** Per entity besides its identity: the node of the set and a text. */
     private static final int ENTRY_BYTES = 104;
+    /** To read more entities one by one takes longer than to read all. */
+    static final int MAX_STALE = 10_000;
 
     private final long maxBytes;
     private final Set<String> identities = new HashSet<>();
@@ -101,12 +103,26 @@ final class EntityIdSet implements AutoCloseable {
         }
     }
 
-    /** Marks an entity to be read again; durable across restarts. */
-    synchronized void markStale(String identity) throws IOException {
-        if (stale.add(identity)) {
-            file.append(new Change(Kind.STALE, identity));
-            file.flush();
+    /**
+     * Marks an entity to be read again; durable across restarts.
+     *
+     * @return false if {@link #MAX_STALE} others are marked: then all entities have to be read again
+     */
+    synchronized boolean markStale(String identity) throws IOException {
+        if (stale.contains(identity)) {
+            return true;
         }
+        if (stale.size() >= MAX_STALE) {
+            return false;
+        }
+        stale.add(identity);
+        file.append(new Change(Kind.STALE, identity));
+        file.flush();
+        return true;
+    }
+
+    synchronized boolean isStale(String identity) {
+        return stale.contains(identity);
     }
 
     /** The entities that are marked and not settled. */

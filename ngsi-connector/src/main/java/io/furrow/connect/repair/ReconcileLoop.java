@@ -123,8 +123,9 @@ public final class ReconcileLoop implements AutoCloseable {
             ObjectNode detail = details.addObject()
                     .put("tenant", schedule.reconciler.scope().service())
                     .put("servicePath", schedule.reconciler.scope().servicePath());
-            if (schedule.failing) {
-                detail.put("problem", schedule.problem);
+            String problem = schedule.failing ? schedule.problem : schedule.reconciler.unconfirmed();
+            if (!problem.isEmpty()) {
+                detail.put("problem", problem);
             }
             detail.put("url", schedule.reconciler.url());
             detail.put("failsInARow", schedule.reconciler.delivered().failsInARow());

@@ -111,28 +111,42 @@ final class Repair {
         return entities.covers(state) && !reading.isExcluded(state.entity().type());
     }
 
-    /** Emits the deletions of entities that no longer exist, and registers existing ones. */
-    void deletions() throws BrokerException, InterruptedException, IOException {
-        if (known.isOverfull()) {
-            return;
-        }
-        Set<String> missing = new TreeSet<>(known.copy());
-        new KeysetReader(entities::createdFrom, reading.pageSize())
-                .readFrom(Instant.EPOCH, states -> learn(states, missing));
-        if (known.isOverfull()) {
-            return;
-        }
-        for (String identity : missing) {
-            checkGone(identity);
-        }
+    /** Marks an entity to be read again. */
+    interface Marking {
+        void mark(String identity) throws IOException;
     }
 
-    private void learn(List<EntityState> states, Set<String> missing) throws IOException {
-        for (EntityState state : states) {
-            if (!reading.isExcluded(state.entity().type())) {
-                missing.remove(state.identity());
-                known.add(state.identity());
+    /**
+     * Emits the deletions of entities that no longer exist, and registers existing ones. An entity that was created
+     * before the watermark and is not known was deleted on the topic and is back: its state may be older than any that
+     * is read for a gap.
+     */
+    void deletions(ListingSchedule listings, Optional<Instant> watermark, Marking back)
+            throws BrokerException, InterruptedException, IOException {
+        if (known.isOverfull()) {
+            return;
+        }
+        Set<String> missing = known.copy();
+        int before = missing.size();
+        new KeysetReader(entities::createdFrom, reading.pageSize()).readFrom(Instant.EPOCH, states -> {
+            for (EntityState state : states) {
+                if (!reading.isExcluded(state.entity().type())) {
+                    String identity = state.identity();
+                    missing.remove(identity);
+                    if (!known.contains(identity)
+                            && watermark.filter(state.time()::isBefore).isPresent()) {
+                        back.mark(identity); // known once its state is on the topic
+                    } else {
+                        known.add(identity);
+                    }
+                }
             }
+        });
+        if (known.isOverfull()) {
+            return;
+        }
+        for (String identity : new TreeSet<>(listings.deleted(missing, before))) {
+            checkGone(identity);
         }
     }
 

@@ -11,6 +11,7 @@ import java.util.List;
 import java.util.Optional;
 import java.util.Set;
 import java.util.function.Function;
+import java.util.function.LongSupplier;
 import java.util.stream.Stream;
 
 import org.slf4j.Logger;
@@ -53,11 +54,16 @@ public final class SubscriptionReconciler implements AutoCloseable {
     private Optional<Late> late = Optional.empty();
     private long failedBefore;
     private final ListingSchedule listings;
+    private volatile String unconfirmed = "";
     private volatile Duration gap = Duration.ZERO;
     private volatile DeliveryReport delivered = DeliveryReport.NOTHING_SENT;
 
     /** The services that all subscriptions of a task share. */
-    public record SharedServices(RecordTracker live, RepairOutput output, Ledger ledger) {}
+    public record SharedServices(RecordTracker live, RepairOutput output, Ledger ledger, LongSupplier nanos) {
+        public SharedServices(RecordTracker live, RepairOutput output, Ledger ledger) {
+            this(live, output, ledger, System::nanoTime);
+        }
+    }
 
     /** @throws IOException if the folder for persistent state cannot be used */
     SubscriptionReconciler(
@@ -77,7 +83,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
                 desired.notificationContent(),
                 settings.reading().pageMaxBytes());
         uptime = new BrokerUptime(broker, desired.scope());
-        listings = new ListingSchedule(settings.deletions().interval());
+        listings = new ListingSchedule(settings.deletions().interval(), services.nanos());
         gapDetector = new GapDetector(desired.notificationContent().namesItsSubscription());
         Path folder = Files.createDirectories(settings.folder().resolve(folderName(desired.name())));
         known = EntityIdSet.open(folder.resolve("known"), settings.deletions().knownMaxBytes());
@@ -112,10 +118,17 @@ public final class SubscriptionReconciler implements AutoCloseable {
         }
     }
 
-    /** One of its entities has to be read again; from any thread. */
+    /** One of its entities has to be read again, or all if too many have; from any thread. */
     void markStale(String identity) throws IOException {
-        if (covers(EntityKeys.scope(identity))) {
-            known.markStale(identity);
+        if (covers(EntityKeys.scope(identity)) && !known.markStale(identity)) {
+            lateRecords.add(Instant.EPOCH);
+        }
+    }
+
+    private void markReturned(String identity) throws IOException {
+        markStale(identity);
+        if (known.isStale(identity)) {
+            services.live().restoreStale(List.of(identity));
         }
     }
 
@@ -160,7 +173,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
         }
         late = lateRecords.late();
         if (late.isPresent()) {
-            miss("more notifications were late than repair.recent.max.bytes can track");
+            miss("more entities have to be read again than are tracked");
         }
         failedBefore = failed;
         if (missing.isPresent()) {
@@ -174,7 +187,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
             good = repair(kept, result, now);
         }
         known.flush(); // before the watermark, behind which stale entities are not looked for
-        if (good.isPresent()) {
+        if (good.isPresent() && unconfirmed.isEmpty()) { // else read again what was missed before entities were missing
             watermark.advanceTo(good.get());
         }
     }
@@ -240,8 +253,9 @@ public final class SubscriptionReconciler implements AutoCloseable {
             Set<String> marked = known.stale();
             repair.stale(this::covers);
             if (listings.isNow()) {
-                repair.deletions();
+                repair.deletions(listings, watermark.time(), this::markReturned);
                 listings.done();
+                reportMissing();
             }
             settle(marked);
         } finally {
@@ -307,6 +321,26 @@ public final class SubscriptionReconciler implements AutoCloseable {
                     desired.scope().service(),
                     settings.deletions().knownMaxBytes());
         }
+    }
+
+    private void reportMissing() {
+        unconfirmed = listings.unconfirmed() == 0
+                ? ""
+                : "the context broker lacks %d of %d known entities of tenant '%s' at %s; those that it still lacks in %d s are deleted on the topic; check that its database is mounted, and context.broker.url"
+                        .formatted(
+                                listings.unconfirmed(),
+                                known.size(),
+                                desired.scope().service(),
+                                desired.scope().servicePath(),
+                                ListingSchedule.AGREEMENT.toSeconds());
+        if (!unconfirmed.isEmpty()) {
+            LOG.warn(unconfirmed);
+        }
+    }
+
+    /** What the last listing lacked, unless it is trusted, and what to do; empty for nothing. */
+    String unconfirmed() {
+        return unconfirmed;
     }
 
     FiwareScope scope() {

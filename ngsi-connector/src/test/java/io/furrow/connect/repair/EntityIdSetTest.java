@@ -191,6 +191,21 @@ class EntityIdSetTest {
     }
 
     @Test
+    void marksABoundedNumberOfEntities() throws IOException {
+        try (EntityIdSet known = open()) {
+            for (int i = 0; i < EntityIdSet.MAX_STALE; i++) {
+                assertThat(known.markStale("|/|T|" + i)).isTrue();
+            }
+            assertThat(known.markStale("|/|T|one more")).isFalse();
+            assertThat(known.markStale("|/|T|0")).isTrue();
+        }
+
+        try (EntityIdSet known = open()) {
+            assertThat(known.stale()).hasSize(EntityIdSet.MAX_STALE);
+        }
+    }
+
+    @Test
     void keepsAWatermarkThatNeverMovesBack() throws IOException {
         Instant time = Instant.parse("2026-11-21T12:00:00Z");
         Path file = folder.resolve("watermark");

@@ -11,6 +11,7 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
+import java.util.concurrent.TimeUnit;
 import java.util.function.Function;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -75,6 +76,10 @@ final class ModelBroker implements Function<BrokerRequest, Outcome> {
     private long clock = Instant.parse("2026-01-02T00:00:00Z").toEpochMilli();
     private long started = clock - HOUR;
     private boolean isAway;
+    /** What is on its volume while that is not mounted. */
+    private Volume volume;
+
+    private record Volume(Map<String, Stored> entities, ObjectNode subscription, long flushed) {}
 
     /** @param meanwhile what happens while it answers */
     ModelBroker(boolean tellsDeletions, Runnable meanwhile) {
@@ -127,6 +132,29 @@ final class ModelBroker implements Function<BrokerRequest, Outcome> {
         queue.clear();
         sent = flushed;
         started = clock;
+    }
+
+    /** It starts without the volume of its database, and answers as if it were new. */
+    void unmount() {
+        volume = new Volume(new TreeMap<>(entities), subscription, flushed);
+        entities.clear();
+        subscription = null;
+        restart();
+    }
+
+    /** It starts again with the volume. */
+    void mount() {
+        entities.clear();
+        entities.putAll(volume.entities());
+        subscription = volume.subscription();
+        flushed = volume.flushed();
+        volume = null;
+        restart();
+    }
+
+    /** Its clock, which is also that of the source. */
+    long nanos() {
+        return TimeUnit.MILLISECONDS.toNanos(clock);
     }
 
     void forgetSubscription() {

@@ -10,6 +10,7 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 import java.util.function.Function;
+import java.util.function.LongSupplier;
 
 import io.furrow.connect.broker.BrokerException;
 import io.furrow.connect.broker.BrokerRequest;
@@ -72,7 +73,8 @@ final class ModelSource implements RepairOutput, AutoCloseable {
     private final SubscriptionReconciler reconciler;
     private MissedChange[] last = new MissedChange[0];
 
-    ModelSource(Function<BrokerRequest, Outcome> broker, Path folder, Bounds bounds, Topic topic) throws IOException {
+    ModelSource(Function<BrokerRequest, Outcome> broker, LongSupplier nanos, Path folder, Bounds bounds, Topic topic)
+            throws IOException {
         this.topic = topic;
         live = new RecordTracker(bounds.recent());
         RepairSettings settings = new RepairSettings(
@@ -82,7 +84,7 @@ final class ModelSource implements RepairOutput, AutoCloseable {
                 new Reading(bounds.page(), bounds.pageBytes(), TIMES, List.of()),
                 new Deletions(1 << 20, bounds.deletions()));
         reconciler = new SubscriptionReconciler(
-                broker, WANTED, settings, new SubscriptionReconciler.SharedServices(live, this, ledger));
+                broker, WANTED, settings, new SubscriptionReconciler.SharedServices(live, this, ledger, nanos));
         live.onStale(this::markStale);
         live.onOverflow(this::noteLate);
     }
@@ -94,7 +96,7 @@ final class ModelSource implements RepairOutput, AutoCloseable {
         reconciler.poll();
     }
 
-    private void markStale(String identity) {
+    void markStale(String identity) {
         try {
             reconciler.markStale(identity);
         } catch (IOException e) {
@@ -108,6 +110,10 @@ final class ModelSource implements RepairOutput, AutoCloseable {
         } catch (IOException e) {
             throw new AssertionError(e);
         }
+    }
+
+    String unconfirmed() {
+        return reconciler.unconfirmed();
     }
 
     Ledger ledger() {

@@ -25,8 +25,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /**
  * A context broker that loses, repeats and reorders notifications, is restarted (its queue is lost and its counters go back),
- * goes away, and forgets entities and the subscription, at random, also while it is asked; and a source that is restarted and has
- * no room at times. After quiet the newest state of each entity on the topic is that of the context broker.
+ * goes away, and forgets entities, all of them too, and the subscription, at random, also while it is asked; and a source that is
+ * restarted and has no room at times. After quiet the newest state of each entity on the topic is that of the context broker.
  *
  * <p>{@code -Dfurrow.repair.runs=N} and {@code -Dfurrow.repair.seed=S} run others; run i has the seed S + i. {@code
  * -Dfurrow.repair.report=FILE} writes what was done.
@@ -82,7 +82,7 @@ class RepairModelTest {
                 Duration.ZERO);
         delivered.clear();
         isQuiet = false;
-        source = new ModelSource(broker, folder, bounds, topic);
+        source = new ModelSource(broker, broker::nanos, folder, bounds, topic);
         for (int steps = 20 + random.nextInt(100); steps > 0; steps--) {
             step();
         }
@@ -97,6 +97,12 @@ class RepairModelTest {
             broker.pass(1000);
             source.look();
         }
+        for (int listings = 2; listings > 0; listings--) { // that most are gone has to be confirmed, and what the second lacks
+            broker.pass(ListingSchedule.AGREEMENT.toMillis());
+            source.look();
+        }
+        assertThat(source.unconfirmed()).isEmpty();
+        source.look(); // what a listing found again
         source.close();
         compare();
     }
@@ -127,7 +133,7 @@ class RepairModelTest {
             count("source restarted");
             restartSource();
         } else {
-            broker.pass(random.nextInt(5000));
+            broker.pass(random.nextInt(random.nextInt(4) == 0 ? 100_000 : 5000));
         }
     }
 
@@ -135,6 +141,7 @@ class RepairModelTest {
         broker.away(random.nextInt(12) == 0);
         try {
             source.look();
+            count("most entities missing", !source.unconfirmed().isEmpty());
         } catch (BrokerException e) {
             count("look failed");
         }
@@ -143,7 +150,7 @@ class RepairModelTest {
 
     private void restartSource() throws IOException {
         source.close();
-        source = new ModelSource(broker, folder, bounds, topic);
+        source = new ModelSource(broker, broker::nanos, folder, bounds, topic);
     }
 
     /** While the context broker answers. */
@@ -238,6 +245,10 @@ class RepairModelTest {
     private void restartBroker() {
         count("broker restarted");
         broker.restart();
+        if (random.nextInt(8) == 0) {
+            count("all entities forgotten");
+            broker.entities.clear();
+        }
         if (random.nextInt(3) == 0 && !broker.entities.isEmpty()) {
             count("entity forgotten");
             List<String> keys = new ArrayList<>(broker.entities.keySet());

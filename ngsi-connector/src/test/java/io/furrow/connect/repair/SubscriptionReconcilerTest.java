@@ -35,7 +35,7 @@ class SubscriptionReconcilerTest {
     private final List<String> asked = new ArrayList<>();
 
     private ModelSource source() throws IOException {
-        return new ModelSource(this::answer, folder, BOUNDS, topic);
+        return new ModelSource(this::answer, broker::nanos, folder, BOUNDS, topic);
     }
 
     private Outcome answer(BrokerRequest request) {
@@ -179,7 +179,7 @@ class SubscriptionReconcilerTest {
     @Test
     void countsNoLateChangeOfAnEntityThatARepairFoundDeleted() throws Exception {
         Bounds bounds = new Bounds(10, 5000, 1 << 20, Duration.ZERO);
-        try (ModelSource source = new ModelSource(broker, folder, bounds, topic)) {
+        try (ModelSource source = new ModelSource(broker, broker::nanos, folder, bounds, topic)) {
             source.look();
             broker.put("deleted", "Probe", "v1");
             source.take(broker.queue.remove(0));
@@ -207,7 +207,7 @@ class SubscriptionReconcilerTest {
     void emitsTheNewestStatesAgainAfterMoreThatComeLateThanAreTrackedAlsoAcrossARestart() throws Exception {
         Bounds bounds = new Bounds(10, 5000, 700, Duration.ofHours(1));
         List<ModelBroker.Told> older = new ArrayList<>();
-        try (ModelSource source = new ModelSource(broker, folder, bounds, topic)) {
+        try (ModelSource source = new ModelSource(broker, broker::nanos, folder, bounds, topic)) {
             source.look();
             for (int i = 0; i < 5; i++) {
                 broker.put("e" + i, "Probe", "older");
@@ -225,7 +225,7 @@ class SubscriptionReconcilerTest {
             older.forEach(source::take);
             assertThat(topic.values()).doesNotContainValue("newer");
         }
-        try (ModelSource source = new ModelSource(broker, folder, bounds, topic)) {
+        try (ModelSource source = new ModelSource(broker, broker::nanos, folder, bounds, topic)) {
             source.look();
             assertThat(topic.values()).hasSize(5).doesNotContainValue("older");
 
@@ -235,5 +235,121 @@ class SubscriptionReconcilerTest {
         }
 
         assertThat(topic.values()).hasSize(5).doesNotContainValue("older");
+    }
+
+    /** Without the volume of its database a context broker lists nothing. */
+    @Test
+    void deletesMostEntitiesOnlyOnceASecondListingAgreesAndReadsThemAgainWhenTheyAreBack() throws Exception {
+        put(8);
+        try (ModelSource source = source()) {
+            source.look();
+            broker.pass(3_600_000);
+            broker.unmount();
+
+            source.look();
+            broker.pass(59_000);
+            source.look();
+            assertThat(topic.values()).hasSize(8);
+            assertThat(source.unconfirmed()).contains("8 of 8 known entities", "'agri' at /#", "mounted");
+
+            broker.pass(1000);
+            source.look();
+            assertThat(topic.values()).isEmpty();
+            assertThat(source.unconfirmed()).isEmpty();
+
+            broker.pass(3_600_000);
+            broker.mount();
+            source.look();
+            source.look();
+        }
+
+        assertThat(topic.values()).hasSize(8);
+    }
+
+    @Test
+    void deletesNothingIfTheSecondListingHasTheEntities() throws Exception {
+        put(8);
+        try (ModelSource source = source()) {
+            source.look();
+            broker.pass(3_600_000);
+            broker.unmount();
+            source.look();
+            broker.mount();
+            broker.pass(60_000);
+            broker.delete("e7 Probe");
+            broker.queue.clear();
+            source.look();
+
+            assertThat(topic.gone()).containsEntry("e7 Probe", true);
+            assertThat(source.unconfirmed()).isEmpty();
+        }
+        assertThat(topic.values()).hasSize(7);
+    }
+
+    /** Their times are long before the watermark. */
+    @Test
+    void readsTheEntitiesAgainThatItDeletedAlsoAfterARestart() throws Exception {
+        put(3);
+        try (ModelSource source = source()) {
+            source.look();
+            broker.pass(3_600_000);
+            broker.unmount();
+            source.look();
+            assertThat(topic.values()).isEmpty();
+        }
+        broker.pass(3_600_000);
+        broker.mount();
+
+        try (ModelSource source = source()) {
+            source.look();
+            source.look();
+        }
+
+        assertThat(topic.values()).hasSize(3);
+    }
+
+    @Test
+    void readsEachEntityOnceAtTheFirstListing() throws Exception {
+        put(8);
+        try (ModelSource source = source()) {
+            source.look();
+            source.look();
+        }
+
+        assertThat(topic.values()).hasSize(8);
+        assertThat(asked).noneMatch(path -> path.contains("&id="));
+    }
+
+    @Test
+    void readsAllEntitiesAgainIfMoreAreMarkedThanAreTracked() throws Exception {
+        String everything = "q=dateModified%3E%3D1970-01-01";
+        try (ModelSource source = source()) {
+            source.look();
+            asked.clear();
+            mark(source, EntityIdSet.MAX_STALE);
+            source.look();
+            assertThat(asked).noneMatch(path -> path.contains(everything));
+
+            mark(source, EntityIdSet.MAX_STALE + 1);
+            source.look();
+            assertThat(asked).anyMatch(path -> path.contains(everything));
+
+            asked.clear();
+            source.look();
+            assertThat(asked).noneMatch(path -> path.contains(everything));
+        }
+    }
+
+    private static void mark(ModelSource source, int entities) {
+        for (int i = 0; i < entities; i++) {
+            source.markStale("agri|/|Probe|e" + i);
+        }
+    }
+
+    private void put(int entities) {
+        for (int i = 0; i < entities; i++) {
+            broker.put("e" + i, "Probe", "v" + i);
+        }
+        broker.pass(1000);
     }
 }

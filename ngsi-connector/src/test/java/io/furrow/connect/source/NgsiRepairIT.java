@@ -50,7 +50,6 @@ class NgsiRepairIT {
         rig = ConnectRig.start(directory);
     }
 
-    @Tag("full")
     @Test
     void bringsTheLatestStateOfAllEntitiesThatChangedWhileItWasDown() {
         source("repaired", FreePort.orFree(0));
