@@ -1,6 +1,6 @@
 /** Applies the records of each topic to the store. */
 import { applyPast, applyReport, nameOf, newEntity } from './entity.js';
-import { fullKey, scopeOf } from './identities.js';
+import { fullKey, scope, scopeOf } from './identities.js';
 import { markPercent } from './readings.js';
 
 /** Maximum number of entities; beyond it the one with the oldest report is removed. */
@@ -109,6 +109,14 @@ export const Reducers = (Base) => class extends Base {
     return ids.map((id, i) => this.identities.keyOf(id, scopeOf(headers), types?.[i]));
   }
 
+  /** The keys of the two devices of an encounter. A record names the scope of the second if it differs. */
+  keysOfPair({ value, headers }) {
+    const of = (name) => value[name]?.value;
+    const first = scopeOf(headers);
+    const second = of('Device2_servicePath') ? scope(of('Device2_service'), of('Device2_servicePath')) : first;
+    return [[1, first], [2, second]].map(([number, its]) => this.identities.keyOf(String(of(`Device${number}_ID`)), its, of(`Device${number}_type`)));
+  }
+
   applyEncounter(record) {
     const value = record.value;
     if (!value || value.type !== 'Analytics:Collision') {
@@ -119,7 +127,7 @@ export const Reducers = (Base) => class extends Base {
     if (typeof of('Device1_ID') !== 'string' || typeof of('Device2_ID') !== 'string') {
       return;
     }
-    const [a, b] = this.keysOf(record, [of('Device1_ID'), of('Device2_ID')], [of('Device1_type'), of('Device2_type')]);
+    const [a, b] = this.keysOfPair(record);
     const pair = `${a}|${b}`;
     const existing = this.encounters.get(pair);
     if (existing && existing.time > record.time) {

@@ -186,6 +186,22 @@ class PageRulesIT {
                         "close: pb-14 (pbother)", "pb-14 at 10.002, 0 places");
     }
 
+    @Test
+    void showsAnEncounterOfDevicesOfTwoTenants() {
+        assertThat(run(REPORT + """
+                const { readEncounter } = await import('/timeline/moments.js');
+                report('pb-19', 'Robot', 'pbfarm', {});
+                report('pb-19', 'Robot', 'pbother', {});
+                const record = { time, headers: { 'fiware-service': 'pbfarm' }, value: { type: 'Analytics:Collision', phase: { value: 'started' },
+                  Device1_ID: { value: 'pb-19' }, Device2_ID: { value: 'pb-19' }, Device2_type: { value: 'Robot' },
+                  Device2_service: { value: 'pbother' }, Device2_servicePath: { value: '/' } } };
+                store.applyEncounter(record);
+                const live = [...store.encounters.values()].find(({ a }) => a === 'pb-19');
+                const past = readEncounter(record);
+                return [live.a, live.b, past.a, past.b].map((key) => store.entities.get(key).name);"""))
+                .containsExactly("pb-19 (pbfarm)", "pb-19 (pbother)", "pb-19 (pbfarm)", "pb-19 (pbother)");
+    }
+
     /** Images and results may arrive before their entity, while another entity with the same id is shown. */
     @Test
     void assignsImagesAndResultsToTheirEntity() {
