@@ -231,6 +231,39 @@ class PageRulesIT {
                         "|/|T|x");
     }
 
+    /** Devices of two tenants may be in one field. */
+    @Test
+    void showsTheAverageOfEachTenantInAField() {
+        assertThat(run(REPORT + """
+                const { Findings } = await import('/views/analyses/data.js');
+                const { mapTables } = await import('/map/table.js');
+                const tables = mapTables(() => {});
+                const findings = Object.assign(Object.create(Findings.prototype), { replay: true, averagesByWindow: new Map() });
+                report('pb-20', 'Thermometer', 'pbfarm', {});
+                report('pb-20', 'Thermometer', 'pbother', {});
+                store.applyField({ key: 'pb-f@2020-01-01T00:00:00Z', value: { properties: { name: 'North' }, geometry: { type: 'Polygon', coordinates: [] } } });
+                const average = (tenant, value, suspects) => {
+                  const record = { time, headers: { 'fiware-service': tenant }, value: { type: 'Analytics:FieldTemperature', field: { value: 'pb-f' },
+                    averageTemperature: { value }, devices: { value: 3 }, suspects: { value: suspects }, windowStart: { value: 1 }, windowEnd: { value: 2 } } };
+                  store.applyTemperature(record);
+                  findings.applyAverage(record);
+                };
+                average('pbfarm', 18, ['pb-20']);
+                const alone = findings.averages(0, 9).map(({ name }) => name);
+                average('pbother', 22, []);
+                tables.toggle();
+                const rows = [...tables.element.querySelectorAll('tr')].filter(({ textContent }) => textContent.startsWith('North')).map(({ children }) =>
+                  [...children].slice(0, 4).map(({ textContent }) => textContent).join(', '));
+                tables.close();
+                return [...alone, ...findings.averages(0, 9).map(({ name, value }) => `${name}: ${value}`), ...rows];"""))
+                .containsExactly(
+                        "North",
+                        "North (pbfarm): 18",
+                        "North (pbother): 22",
+                        "North (pbfarm), 18.0 °C, 3, pb-20 (pbfarm)",
+                        "North (pbother), 22.0 °C, 3, –");
+    }
+
     @Test
     void findsForADeviceTheEntityOfItsType() {
         assertThat(run(REPORT + """
