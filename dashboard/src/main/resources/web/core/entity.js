@@ -1,5 +1,6 @@
 /** Interprets NGSI-v2 entities, whatever their attributes are. */
 import { hasUnit, shortId } from './format.js';
+import { withDifference } from './identities.js';
 import { parse } from './json.js';
 import { Line } from './line.js';
 import { finite, isPercent, jsonOf, positionOf, quantityOf } from './readings.js';
@@ -165,7 +166,7 @@ function within(number, max) {
 export function nameOf({ attributes, identity, difference }) {
   const reported = text(attributes.name?.value) || text(attributes.Name?.value);
   const name = reported ? reported.slice(0, 80) : shortId(identity.id);
-  return difference ? `${name} (${difference.slice(0, 80)})` : name;
+  return withDifference(name, difference);
 }
 
 function kindOf(entity) {

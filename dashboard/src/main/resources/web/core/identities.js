@@ -73,8 +73,7 @@ export class Identities {
   difference({ key, id }) {
     const all = this.all(id);
     const own = all.find((each) => each.key === key);
-    const parts = ['type', 'service', 'servicePath'].filter((part) => all.some((each) => each[part] !== own?.[part]));
-    return own ? parts.map((part) => own[part]).filter(Boolean).join(' ') : '';
+    return own ? differenceOf(own, all) : '';
   }
 
   forget({ key, id }) {
@@ -85,6 +84,16 @@ export class Identities {
   all(id) {
     return this.byId.get(id) ?? [];
   }
+}
+
+/** The type and scope of one of all that share an id, as far as they differ. */
+export function differenceOf(own, all) {
+  return ['type', 'service', 'servicePath'].filter((part) => all.some((each) => each[part] !== own[part])).map((part) => own[part]).filter(Boolean).join(' ');
+}
+
+/** A name with the difference, if any, to others with the same id. */
+export function withDifference(name, difference) {
+  return difference ? `${name} (${difference.slice(0, 80)})` : name;
 }
 
 /** The whole identity of an entity as a key. */

@@ -1,6 +1,6 @@
 /** Applies the records of each topic to the store. */
 import { applyPast, applyReport, nameOf, newEntity } from './entity.js';
-import { fullKey, scopeOf } from './identities.js';
+import { differenceOf, fullKey, scope, scopeOf } from './identities.js';
 import { markPercent } from './readings.js';
 
 /** Maximum number of entities; beyond it the one with the oldest report is removed. */
@@ -109,6 +109,14 @@ export const Reducers = (Base) => class extends Base {
     return ids.map((id, i) => this.identities.keyOf(id, scopeOf(headers), types?.[i]));
   }
 
+  /** The keys of the two devices of an encounter. A record names the scope of the second if it differs. */
+  keysOfPair({ value, headers }) {
+    const of = (name) => value[name]?.value;
+    const first = scopeOf(headers);
+    const second = of('Device2_servicePath') ? scope(of('Device2_service'), of('Device2_servicePath')) : first;
+    return [[1, first], [2, second]].map(([number, its]) => this.identities.keyOf(String(of(`Device${number}_ID`)), its, of(`Device${number}_type`)));
+  }
+
   applyEncounter(record) {
     const value = record.value;
     if (!value || value.type !== 'Analytics:Collision') {
@@ -119,7 +127,7 @@ export const Reducers = (Base) => class extends Base {
     if (typeof of('Device1_ID') !== 'string' || typeof of('Device2_ID') !== 'string') {
       return;
     }
-    const [a, b] = this.keysOf(record, [of('Device1_ID'), of('Device2_ID')], [of('Device1_type'), of('Device2_type')]);
+    const [a, b] = this.keysOfPair(record);
     const pair = `${a}|${b}`;
     const existing = this.encounters.get(pair);
     if (existing && existing.time > record.time) {
@@ -140,28 +148,37 @@ export const Reducers = (Base) => class extends Base {
   applyTemperature(record) {
     const value = record.value;
     const of = (name) => value?.[name]?.value;
+    // the field may arrive later, from another topic; devices of several tenants may be in it
     const field = of('field');
-    // the field may arrive later, from another topic
-    if (value?.type !== 'Analytics:FieldTemperature' || this.averages.get(field)?.time > record.time) {
+    const its = scopeOf(record.headers);
+    const key = fullKey(its, '', field);
+    const averages = this.averages.get(field) ?? new Map();
+    if (value?.type !== 'Analytics:FieldTemperature' || averages.get(key)?.time > record.time) {
       return;
     }
     const suspects = this.keysOf(record, Array.isArray(of('suspects')) ? of('suspects') : [], of('suspectTypes'));
-    this.averages.set(field, {
-      value: of('averageTemperature'), count: of('devices'), time: record.time, suspects,
+    this.averages.set(field, averages.set(key, {
+      ...its, value: of('averageTemperature'), count: of('devices'), time: record.time, suspects,
       verified: of('quality') !== 'unverified', quality: of('quality'), window: [of('windowStart'), of('windowEnd')],
-    });
+    }));
+    averages.forEach((each) => { each.difference = differenceOf(each, [...averages.values()]); });
     for (const [device, suspect] of this.suspects) {
-      if (suspect.field === field && !suspects.includes(device)) {
+      if (suspect.average === key && !suspects.includes(device)) {
         this.suspects.delete(device);
         this.updateSuspect(device);
       }
     }
     for (const device of suspects) {
-      this.suspects.set(device, { field, mean: of('averageTemperature'), time: record.time });
+      this.suspects.set(device, { average: key, mean: of('averageTemperature'), time: record.time });
       this.updateSuspect(device);
     }
     this.notify('suspects');
     this.notify('fields');
+  }
+
+  /** The averages of a field, one per tenant and service path of its devices. */
+  averagesOf(field) {
+    return [...this.averages.get(field)?.values() ?? []];
   }
 
   updateSuspect(id) {

@@ -1,5 +1,6 @@
 /** Draws names of fields with their averages inside or beside the outline, without covering symbols, and where they were before if possible. */
 import { age, temperature } from '../core/format.js';
+import { withDifference } from '../core/identities.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { covers, isOver } from './encounters.js';
@@ -101,17 +102,19 @@ function first(texts, find) {
 
 /** Candidates for the second line, the longest first. */
 function linesOf(field, now, narrow) {
-  const average = store.averages.get(field.id);
+  const averages = store.averagesOf(field.id);
   if (field.exclusion) {
     return [t('map.noAlarms'), ''];
   }
-  if (!average) {
+  if (!averages.length) {
     return [''];
   }
-  const value = temperature(average.value);
-  const ago = age(now - average.time);
-  const more = [average.verified ? t('map.devices', { count: average.count }) : t('map.unverified')];
-  average.suspects.length && more.push(t('map.suspects', { count: average.suspects.length }));
+  const sum = (part) => averages.reduce((total, each) => total + part(each), 0);
+  const value = averages.map((each) => withDifference(temperature(each.value), each.difference)).join(' · ');
+  const ago = age(now - Math.min(...averages.map(({ time }) => time)));
+  const more = [averages.every(({ verified }) => verified) ? t('map.devices', { count: sum(({ count }) => count) }) : t('map.unverified')];
+  const suspects = sum((each) => each.suspects.length);
+  suspects && more.push(t('map.suspects', { count: suspects }));
   return [...(narrow ? [] : [[value, ...more, ago].join(' · ')]), `${value} · ${ago}`, value, ''];
 }
 

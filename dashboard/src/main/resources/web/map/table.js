@@ -2,6 +2,7 @@
 import { age, distance, number, shortId, temperature } from '../core/format.js';
 import { h, replace } from '../core/dom.js';
 import { icon } from '../core/icons.js';
+import { withDifference } from '../core/identities.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { isOnMap } from './projection.js';
@@ -41,7 +42,7 @@ export function mapTables(onClose) {
     more.textContent = rows.length > MAX_ROWS ? t('map.moreRows', { count: rows.length - MAX_ROWS }) : '';
     focused && body.querySelector(`[data-id="${CSS.escape(focused)}"]`)?.focus();
     drawTable(encounters, 'encounters', ['pair', 'phase', 'distance', 'closest', 'age'], [...store.encounters.values()].sort((a, b) => b.time - a.time).map((each) => encounterRow(each, now)));
-    drawTable(fields, 'fields', ['field', 'average', 'devices', 'suspects', 'age'], [...store.fields.values()].sort((a, b) => compare(a.name, b.name)).map((each) => fieldRow(each, now)));
+    drawTable(fields, 'fields', ['field', 'average', 'devices', 'suspects', 'age'], [...store.fields.values()].sort((a, b) => compare(a.name, b.name)).flatMap((each) => fieldRows(each, now)));
   }
 
   drawHead();
@@ -80,10 +81,15 @@ function encounterRow(encounter, now) {
     h('td.numbers', null, age(now - encounter.time)));
 }
 
-function fieldRow(field, now) {
-  const average = store.averages.get(field.id);
+/** One row per average, or one without. */
+function fieldRows(field, now) {
+  const averages = store.averagesOf(field.id);
+  return averages.length ? averages.map((each) => fieldRow(field, each, now)) : [fieldRow(field, null, now)];
+}
+
+function fieldRow(field, average, now) {
   return h('tr', null,
-    h('th', { scope: 'row' }, field.name),
+    h('th', { scope: 'row' }, withDifference(field.name, average?.difference)),
     h('td.numbers', null, field.exclusion ? t('map.noAlarms') : average ? temperature(average.value) : '–'),
     h('td.numbers', null, average ? `${average.count}${average.verified ? '' : ` · ${t('map.unverified')}`}` : '–'),
     h('td', null, average?.suspects.length ? average.suspects.map(nameOf).join(', ') : '–'),

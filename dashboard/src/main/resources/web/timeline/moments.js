@@ -29,7 +29,7 @@ export function readEncounter(record) {
   }
   const ahead = Number(record.headers?.['replay-offset'] ?? 0);
   const ids = [String(of('Device1_ID')), String(of('Device2_ID'))];
-  const [a, b] = store.keysOf(record, ids, [of('Device1_type'), of('Device2_type')]);
+  const [a, b] = store.keysOfPair(record);
   const end = Number(of('time') ?? record.time) - ahead;
   const [lon, lat] = [of('Device1_longitude'), of('Device1_latitude')];
   return {

@@ -177,10 +177,9 @@ class Analyses extends HTMLElement {
       this.chart.show(averages, range);
       return;
     }
-    const name = (field) => store.fields.get(field)?.name ?? field;
     const suspect = (id) => store.entities.get(id)?.name ?? id.replace(/^urn:ngsi-ld:/, '');
     this.putTable(part, averages, ['window', 'field', 'mean', 'plain', 'devices', 'suspects', 'quality'], (each) => [
-      `${clock(each.start)} – ${clock(each.end)}`, name(each.field), temperature(each.value), temperature(each.plain), each.devices ?? '–', each.suspects.map(suspect).join(', ') || t('analyses.none'), each.quality,
+      `${clock(each.start)} – ${clock(each.end)}`, each.name, temperature(each.value), temperature(each.plain), each.devices ?? '–', each.suspects.map(suspect).join(', ') || t('analyses.none'), each.quality,
     ]);
   }
 

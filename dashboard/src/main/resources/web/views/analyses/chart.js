@@ -20,7 +20,7 @@ export class AveragesChart {
     this.time = h('div.chart-time.numbers', { hidden: true, 'aria-hidden': 'true' });
     this.element = h('div.chart', null, this.legend, this.place);
     this.hidden = new Set();
-    this.fields = [];
+    this.lines = [];
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.place);
     this.onScheme = () => this.rebuild();
@@ -37,20 +37,20 @@ export class AveragesChart {
 
   /** @param {import('./data.js').Average[]} averages by time @param {[number, number]} range epoch ms */
   show(averages, range) {
-    const byField = new Map();
-    averages.forEach((each) => (byField.get(each.field) ?? byField.set(each.field, []).get(each.field)).push(each));
-    const fields = [...byField.keys()].sort();
+    const byLine = new Map();
+    averages.forEach((each) => (byLine.get(each.line) ?? byLine.set(each.line, []).get(each.line)).push(each));
+    const lines = [...byLine.keys()].sort();
     this.range = range;
-    this.byField = byField;
-    this.suspects = fields.map((field) => new Set(byField.get(field).filter((each) => each.suspects.length).map((each) => each.end / 1000)));
+    this.byLine = byLine;
+    this.suspects = lines.map((line) => new Set(byLine.get(line).filter((each) => each.suspects.length).map((each) => each.end / 1000)));
     this.averages = averages;
-    this.data = aligned(fields.map((field) => byField.get(field)));
+    this.data = aligned(lines.map((line) => byLine.get(line)));
     this.device = deviceAt(this.data[0]);
     this.device && this.data.push(this.device.values);
-    const key = `${fields} ${this.device?.id}`;
+    const key = `${lines} ${this.device?.id}`;
     if (key !== this.key || !this.plot) {
       this.key = key;
-      this.fields = fields;
+      this.lines = lines;
       this.rebuild();
     } else {
       this.plot.setData(this.data, false);
@@ -60,8 +60,8 @@ export class AveragesChart {
     this.showHead();
   }
 
-  nameOf(field) {
-    return store.fields.get(field)?.name ?? field;
+  nameOf(line) {
+    return this.byLine.get(line)[0].name;
   }
 
   rebuild() {
@@ -73,7 +73,7 @@ export class AveragesChart {
     const style = getComputedStyle(this.element);
     const color = (name) => style.getPropertyValue(name).trim();
     const font = `12px ${color('--family')}`;
-    this.colors = this.fields.map((field, index) => color(LINES[index % LINES.length][0]));
+    this.colors = this.lines.map((line, index) => color(LINES[index % LINES.length][0]));
     const axis = { stroke: color('--muted'), font, grid: { stroke: color('--line'), width: 1 }, ticks: { stroke: color('--line'), width: 1, size: 4 } };
     this.plot = new uPlot({
       width: this.place.clientWidth, height: HEIGHT, legend: { show: false }, padding: [12, 28, 0, 0],
@@ -83,8 +83,8 @@ export class AveragesChart {
         { ...axis, space: 72, size: 26, values: (plot, times) => times.map((time) => clock(time * 1000).slice(0, times.length > 1 && times[1] - times[0] < 60 ? 8 : 5)) },
         { ...axis, size: 56, values: (plot, values) => values.map((value) => `${Number(value.toFixed(2))} ${t('units.celsius')}`) },
       ],
-      series: [{}, ...this.fields.map((field, index) => ({
-        label: this.nameOf(field), stroke: this.colors[index], width: 2, dash: LINES[index % LINES.length][1], show: !this.hidden.has(field), points: { show: false },
+      series: [{}, ...this.lines.map((line, index) => ({
+        label: this.nameOf(line), stroke: this.colors[index], width: 2, dash: LINES[index % LINES.length][1], show: !this.hidden.has(line), points: { show: false },
       })), ...(this.device ? [{ label: this.device.name, stroke: color('--text'), width: 3, points: { show: false } }] : [])],
       hooks: { draw: [(plot) => this.drawSuspects(plot, color('--warning'), color('--panel'))], setCursor: [(plot) => this.cursorMoved(plot)] },
     }, this.data, this.place);
@@ -110,8 +110,8 @@ export class AveragesChart {
     g.fillStyle = color;
     g.strokeStyle = border;
     g.lineWidth = ratio;
-    this.fields.forEach((field, index) => {
-      if (this.hidden.has(field)) {
+    this.lines.forEach((line, index) => {
+      if (this.hidden.has(line)) {
         return;
       }
       let last = -Infinity;
@@ -137,22 +137,22 @@ export class AveragesChart {
   }
 
   showLegend() {
-    const key = this.fields.map((field) => `${field} ${this.nameOf(field)} ${this.hidden.has(field)} ${this.suspects.some((each) => each.size)}`).join('|') + this.device?.id;
+    const key = this.lines.map((line) => `${line} ${this.nameOf(line)} ${this.hidden.has(line)} ${this.suspects.some((each) => each.size)}`).join('|') + this.device?.id;
     if (key === this.legendKey) {
       this.showValues(this.shownIndex);
       return;
     }
     this.legendKey = key;
     const focused = this.legend.contains(document.activeElement) ? [...this.legend.children].indexOf(document.activeElement) : -1;
-    this.values = this.fields.map(() => h('span.numbers.muted'));
-    replace(this.legend, this.fields.map((field, index) => {
-      const shown = !this.hidden.has(field);
+    this.values = this.lines.map(() => h('span.numbers.muted'));
+    replace(this.legend, this.lines.map((line, index) => {
+      const shown = !this.hidden.has(line);
       const [name, dash] = LINES[index % LINES.length];
-      const line = h('svg:line', { x1: 0, y1: 6, x2: 26, y2: 6, 'stroke-width': 2.5, 'stroke-dasharray': dash.join(' ') });
-      line.style.stroke = `var(${name})`;
+      const sample = h('svg:line', { x1: 0, y1: 6, x2: 26, y2: 6, 'stroke-width': 2.5, 'stroke-dasharray': dash.join(' ') });
+      sample.style.stroke = `var(${name})`;
       return h('button.button.small.quiet.legend-entry', {
-        type: 'button', 'aria-pressed': String(shown), 'aria-label': t('analyses.hide', { field: this.nameOf(field) }), on: { click: () => this.toggle(field) },
-      }, h('svg:svg', { width: 26, height: 12, 'aria-hidden': 'true' }, line), this.nameOf(field), this.values[index]);
+        type: 'button', 'aria-pressed': String(shown), 'aria-label': t('analyses.hide', { field: this.nameOf(line) }), on: { click: () => this.toggle(line) },
+      }, h('svg:svg', { width: 26, height: 12, 'aria-hidden': 'true' }, sample), this.nameOf(line), this.values[index]);
     }), this.deviceEntry(), this.suspects.some((each) => each.size) && h('span.small.muted.suspect-key', null, h('span', { 'aria-hidden': 'true' }), t('analyses.suspectMark')));
     focused >= 0 && this.legend.children[focused]?.focus();
     this.showValues(this.shownIndex);
@@ -167,9 +167,9 @@ export class AveragesChart {
     return h('span.legend-device', null, h('svg:svg', { width: 26, height: 12, 'aria-hidden': 'true' }, h('svg:line', { x1: 0, y1: 6, x2: 26, y2: 6, 'stroke-width': 3, stroke: 'currentColor' })), this.device.name, value);
   }
 
-  toggle(field) {
-    this.hidden.has(field) ? this.hidden.delete(field) : this.hidden.add(field);
-    this.plot?.setSeries(this.fields.indexOf(field) + 1, { show: !this.hidden.has(field) });
+  toggle(line) {
+    this.hidden.has(line) ? this.hidden.delete(line) : this.hidden.add(line);
+    this.plot?.setSeries(this.lines.indexOf(line) + 1, { show: !this.hidden.has(line) });
     this.showLegend();
   }
 
@@ -246,7 +246,7 @@ function deviceAt(times) {
   return { id: entity.id, name: entity.name, values: times.map((time) => inCelsius(at(time * 1000))) };
 }
 
-/** Aligns lists as uPlot expects them: null is a gap, undefined is a window of another field only. */
+/** Aligns lists as uPlot expects them: null is a gap, undefined is a window of another line only. */
 function aligned(lists) {
   const points = lists.map((list) => {
     const values = new Map();

@@ -1,5 +1,6 @@
 /** Holds the results of analytics in a period, and updates them: averages, encounters and stays. */
 import { shortId } from '../../core/format.js';
+import { differenceOf, scopeOf, withDifference } from '../../core/identities.js';
 import { store } from '../../core/store.js';
 import { streams } from '../../core/stream.js';
 import { historyIfAny, readEncounter, union } from '../../timeline/moments.js';
@@ -12,7 +13,8 @@ const MAX_RESULTS = 5_000;
  * An average of a window.
  *
  * @typedef {Object} Average
- * @property {string} field @property {number} start @property {number} end of the window, epoch ms @property {number} value °C
+ * @property {string} field @property {string} service @property {string} servicePath of the devices
+ * @property {string} line the same for all averages of a field and scope @property {string=} name of the line @property {number} start @property {number} end of the window, epoch ms @property {number} value °C
  * @property {number} plain mean including suspects @property {number} devices @property {string[]} suspects @property {string} quality
  */
 /** @returns {Average|null} */
@@ -21,8 +23,9 @@ function readAverage({ value, headers, time }) {
   if (value?.type !== 'Analytics:FieldTemperature' || typeof of('averageTemperature') !== 'number') {
     return null;
   }
+  const [field, its] = [String(of('field')), scopeOf(headers)];
   return {
-    field: String(of('field')), start: of('windowStart') ?? time, end: of('windowEnd') ?? time, value: of('averageTemperature'), plain: of('plainMean'),
+    field, ...its, line: [field, its.service, its.servicePath].join('\n'), start: of('windowStart') ?? time, end: of('windowEnd') ?? time, value: of('averageTemperature'), plain: of('plainMean'),
     devices: of('devices'), suspects: Array.isArray(of('suspects')) ? store.keysOf({ headers }, of('suspects').map(String), of('suspectTypes')) : [], quality: String(of('quality') ?? ''), epoch: Number(headers?.['replay-epoch'] ?? 0),
   };
 }
@@ -106,7 +109,7 @@ export class Findings {
   applyAverage(record) {
     const average = readAverage(record);
     if (average && (this.replay || average.end >= this.from)) {
-      const key = `${average.field} ${average.start}`;
+      const key = `${average.line}\n${average.start}`;
       const existing = this.averagesByWindow.get(key);
       if (!existing || existing.epoch <= average.epoch) {
         this.averagesByWindow.set(key, average);
@@ -148,9 +151,13 @@ export class Findings {
     return starts.length ? starts.reduce((one, other) => Math.min(one, other)) : null;
   }
 
-  /** The averages of a period in the order of their windows. */
+  /** The averages of a period in the order of their windows, with the names of their lines. */
   averages(from, to) {
-    return [...this.averagesByWindow.values()].filter((each) => each.end >= from && each.start <= to).sort((one, other) => one.end - other.end);
+    const found = [...this.averagesByWindow.values()].filter((each) => each.end >= from && each.start <= to).sort((one, other) => one.end - other.end);
+    const lines = [...new Map(found.map((each) => [each.line, each])).values()];
+    const names = new Map(lines.map((each) => [each.line,
+      withDifference(store.fields.get(each.field)?.name ?? each.field, differenceOf(each, lines.filter(({ field }) => field === each.field)))]));
+    return found.map((each) => ({ ...each, name: names.get(each.line) }));
   }
 
   encountersIn(from, to) {

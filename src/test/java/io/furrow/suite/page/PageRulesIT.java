@@ -186,6 +186,22 @@ class PageRulesIT {
                         "close: pb-14 (pbother)", "pb-14 at 10.002, 0 places");
     }
 
+    @Test
+    void showsAnEncounterOfDevicesOfTwoTenants() {
+        assertThat(run(REPORT + """
+                const { readEncounter } = await import('/timeline/moments.js');
+                report('pb-19', 'Robot', 'pbfarm', {});
+                report('pb-19', 'Robot', 'pbother', {});
+                const record = { time, headers: { 'fiware-service': 'pbfarm' }, value: { type: 'Analytics:Collision', phase: { value: 'started' },
+                  Device1_ID: { value: 'pb-19' }, Device2_ID: { value: 'pb-19' }, Device2_type: { value: 'Robot' },
+                  Device2_service: { value: 'pbother' }, Device2_servicePath: { value: '/' } } };
+                store.applyEncounter(record);
+                const live = [...store.encounters.values()].find(({ a }) => a === 'pb-19');
+                const past = readEncounter(record);
+                return [live.a, live.b, past.a, past.b].map((key) => store.entities.get(key).name);"""))
+                .containsExactly("pb-19 (pbfarm)", "pb-19 (pbother)", "pb-19 (pbfarm)", "pb-19 (pbother)");
+    }
+
     /** Images and results may arrive before their entity, while another entity with the same id is shown. */
     @Test
     void assignsImagesAndResultsToTheirEntity() {
@@ -213,6 +229,39 @@ class PageRulesIT {
                         "pb-15 (Camera other): b",
                         "pb-15 (Station one): c, suspect",
                         "|/|T|x");
+    }
+
+    /** Devices of two tenants may be in one field. */
+    @Test
+    void showsTheAverageOfEachTenantInAField() {
+        assertThat(run(REPORT + """
+                const { Findings } = await import('/views/analyses/data.js');
+                const { mapTables } = await import('/map/table.js');
+                const tables = mapTables(() => {});
+                const findings = Object.assign(Object.create(Findings.prototype), { replay: true, averagesByWindow: new Map() });
+                report('pb-20', 'Thermometer', 'pbfarm', {});
+                report('pb-20', 'Thermometer', 'pbother', {});
+                store.applyField({ key: 'pb-f@2020-01-01T00:00:00Z', value: { properties: { name: 'North' }, geometry: { type: 'Polygon', coordinates: [] } } });
+                const average = (tenant, value, suspects) => {
+                  const record = { time, headers: { 'fiware-service': tenant }, value: { type: 'Analytics:FieldTemperature', field: { value: 'pb-f' },
+                    averageTemperature: { value }, devices: { value: 3 }, suspects: { value: suspects }, windowStart: { value: 1 }, windowEnd: { value: 2 } } };
+                  store.applyTemperature(record);
+                  findings.applyAverage(record);
+                };
+                average('pbfarm', 18, ['pb-20']);
+                const alone = findings.averages(0, 9).map(({ name }) => name);
+                average('pbother', 22, []);
+                tables.toggle();
+                const rows = [...tables.element.querySelectorAll('tr')].filter(({ textContent }) => textContent.startsWith('North')).map(({ children }) =>
+                  [...children].slice(0, 4).map(({ textContent }) => textContent).join(', '));
+                tables.close();
+                return [...alone, ...findings.averages(0, 9).map(({ name, value }) => `${name}: ${value}`), ...rows];"""))
+                .containsExactly(
+                        "North",
+                        "North (pbfarm): 18",
+                        "North (pbother): 22",
+                        "North (pbfarm), 18.0 °C, 3, pb-20 (pbfarm)",
+                        "North (pbother), 22.0 °C, 3, –");
     }
 
     @Test

@@ -4,6 +4,7 @@ import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.motion.Approach;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.record.Epochs;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.result.CollisionResult;
@@ -20,8 +21,7 @@ public final class CollisionEntity {
         EntityBuilder entity = Entity.builder(CollisionResult.TYPE + ":" + pair, CollisionResult.TYPE)
                 .number(CollisionResult.DISTANCE, encounter.distance())
                 .integer(CollisionResult.TIME, Epochs.original(encounter.time()));
-        device(entity, CollisionResult.FIRST, encounter.first());
-        device(entity, CollisionResult.SECOND, encounter.second());
+        devices(entity, encounter.first(), encounter.second());
         return entity.text(CollisionResult.ENCOUNTER, encounter.id(pair))
                 .text(CollisionResult.PHASE, encounter.phase().code())
                 .number(CollisionResult.MIN_DISTANCE, encounter.minDistance())
@@ -35,8 +35,7 @@ public final class CollisionEntity {
                         CollisionResult.TYPE + ":" + approach.pairId() + ":" + phase, CollisionResult.TYPE)
                 .number(CollisionResult.DISTANCE, approach.distance())
                 .integer(CollisionResult.TIME, Epochs.original(approach.time()));
-        device(entity, CollisionResult.FIRST, approach.first());
-        device(entity, CollisionResult.SECOND, approach.second());
+        devices(entity, approach.first(), approach.second());
         return entity.text(CollisionResult.ENCOUNTER, approach.id())
                 .text(CollisionResult.PHASE, phase)
                 .number(CollisionResult.TCPA, approach.tcpa())
@@ -51,6 +50,17 @@ public final class CollisionEntity {
 
     static String key(PositionFix first, PositionFix second) {
         return first.id() + "-" + second.id();
+    }
+
+    /** The record has the scope of the first device; that of the second is added if it differs. */
+    private static void devices(EntityBuilder entity, PositionFix first, PositionFix second) {
+        device(entity, CollisionResult.FIRST, first);
+        device(entity, CollisionResult.SECOND, second);
+        FiwareScope scope = second.scope();
+        if (!scope.equals(first.scope())) {
+            entity.text(CollisionResult.SECOND.service(), scope.service())
+                    .text(CollisionResult.SECOND.servicePath(), scope.servicePath());
+        }
     }
 
     private static void device(EntityBuilder entity, CollisionResult.Member names, PositionFix fix) {

@@ -24,7 +24,7 @@ final class CollisionRecord {
 
     private CollisionRecord() {}
 
-    /** In the scope of the device with the lesser id; both devices nearly always share one. */
+    /** In the scope of the device with the lesser id; the entity names that of the other if it differs. */
     static TopicRecord of(Encounter encounter, String topic) {
         return ResultRecord.of(
                 Topics.resultOf(encounter.first().topic(), topic),

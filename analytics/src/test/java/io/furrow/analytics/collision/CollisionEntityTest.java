@@ -1,9 +1,12 @@
 package io.furrow.analytics.collision;
 
+import java.util.List;
+
 import org.junit.jupiter.api.Test;
 
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Phase;
+import io.furrow.analytics.collision.motion.Approach;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.model.ngsi.Entity;
 
@@ -53,6 +56,22 @@ class CollisionEntityTest {
         assertThat(later.id()).isEqualTo(entity.id());
         assertThat(later.text("encounter")).isNotEqualTo(entity.text("encounter"));
         assertThat(other.id()).isNotEqualTo(entity.id());
+    }
+
+    /** The record has the scope of the first device only. */
+    @Test
+    void namesTheScopeOfTheSecondDeviceIfItDiffers() {
+        PositionFix elsewhere = Fixes.of("|/north|ROBOT|r2", "r2", "", 40.5, -3.5, 2000);
+        Entity started = CollisionEntity.of(new Encounter(Phase.STARTED, FIRST, elsewhere, 1, 1, 9000, 9000))
+                .build();
+        Entity predicted = CollisionEntity.of(new Approach(Phase.PREDICTED, FIRST, elsewhere, 4, 1, 3, 1000, 2000))
+                .build();
+        for (Entity entity : List.of(started, predicted)) {
+            assertThat(entity.value("Device2_service").orElseThrow().textValue())
+                    .isEmpty();
+            assertThat(entity.text("Device2_servicePath")).contains("/north");
+            assertThat(entity.value("Device1_servicePath")).isEmpty();
+        }
     }
 
     @Test

@@ -51,6 +51,22 @@ class ContextEntitiesTest {
         assertThat(entity.number("fieldCount")).hasValue(2.0);
     }
 
+    /** Devices of two tenants may be in one field. */
+    @Test
+    void countsTheAveragesOfAllTenants() throws Exception {
+        farm.pipe(Topics.DOMAINS, "north", DOMAIN);
+        byte[] window = farm.temperature("f1", 18, List.of("t-1"), List.of("Thermometer"));
+        String other = new String(window, UTF_8).replace("18.0", "22.0");
+        farm.pipe(Topics.TEMPERATURE, "other", "f1", other.getBytes(UTF_8));
+        farm.pass(SECOND);
+        JsonNode entity = farm.newest(Topics.CONTEXT);
+        assertThat(value(entity, "averageTemperature").asDouble()).isEqualTo(20);
+        assertThat(value(entity, "suspectCount").asInt()).isEqualTo(2);
+        farm.pass(Duration.ofMinutes(62));
+        assertThat(value(farm.newest(Topics.CONTEXT), "averageTemperature").isNull())
+                .isTrue();
+    }
+
     @Test
     void discardsAveragesAfterAnHour() throws Exception {
         farm.pipe(Topics.DOMAINS, "north", DOMAIN);

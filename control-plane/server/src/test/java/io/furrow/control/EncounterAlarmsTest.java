@@ -104,6 +104,29 @@ class EncounterAlarmsTest {
         });
     }
 
+    /** The same ids and types may also meet within the first tenant. */
+    @Test
+    void raisesAnAlarmForDevicesOfTwoTenants() throws Exception {
+        EntityBuilder within = Entity.builder("Analytics:Collision:1", "Analytics:Collision")
+                .text("encounter", "e-1")
+                .text("phase", "started")
+                .text("Device1_ID", "r1")
+                .text("Device1_type", "ROBOT")
+                .text("Device2_ID", "r2")
+                .text("Device2_type", "Camera");
+        farm.pipe(Topics.COLLISION, "farm", "r1-r2", within.toBytes());
+        farm.all(Topics.ALARMS);
+        EntityBuilder across =
+                within.text("encounter", "e-2").text("Device2_service", "other").text("Device2_servicePath", "/");
+        farm.pipe(Topics.COLLISION, "farm", "r1-r2", across.toBytes());
+        JsonNode alarm = farm.newest(Topics.ALARMS);
+        assertThat(alarm.path("count").asInt()).isEqualTo(1);
+        assertThat(alarm.path("identity").asText()).isEqualTo("farm|/|ROBOT other%7C/%7CCamera|r1-r2");
+        assertThat(alarm.path("devices"))
+                .extracting(device -> device.path("service").asText())
+                .containsExactly("farm", "other");
+    }
+
     @Test
     void endsACollisionWhoseEndWasLost() throws Exception {
         farm.encounter("started", 3.2);

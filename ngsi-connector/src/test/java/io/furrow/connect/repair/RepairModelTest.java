@@ -97,7 +97,9 @@ class RepairModelTest {
             broker.pass(1000);
             source.look();
         }
-        for (int listings = 2; listings > 0; listings--) { // that most are gone has to be confirmed, and what the second lacks
+        for (int listings = 2;
+                listings > 0;
+                listings--) { // that most are gone has to be confirmed, and what the second lacks
             broker.pass(ListingSchedule.AGREEMENT.toMillis());
             source.look();
         }

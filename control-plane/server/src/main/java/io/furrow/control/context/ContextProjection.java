@@ -11,6 +11,7 @@ import io.furrow.control.alarm.watch.FieldWindow;
 import io.furrow.control.domain.Domain;
 import io.furrow.control.mission.Mission;
 import io.furrow.control.mission.MissionStatus;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.time.Elapsed;
 
@@ -83,12 +84,15 @@ final class ContextProjection {
         }
     }
 
-    /** @param now epoch ms */
-    void window(FieldWindow window, long now) {
-        FieldState before = tables.fields().get(window.field());
+    /**
+     * @param scope of the averaged devices
+     * @param now epoch ms
+     */
+    void window(FieldWindow window, FiwareScope scope, long now) {
+        FieldState state = FieldState.of(window, scope, now);
+        FieldState before = tables.fields().get(state.key());
         if (before == null || before.windowEnd() <= window.windowEnd()) {
-            FieldState state = FieldState.of(window, now);
-            tables.fields().put(window.field(), state);
+            tables.fields().put(state.key(), state);
             markDomainsOutdated(state);
         }
     }
@@ -123,7 +127,7 @@ final class ContextProjection {
     private void forgetOldFields(long now) {
         for (FieldState field :
                 tables.fields().where(each -> Elapsed.hasPassed(MAX_FIELD_AGE.toMillis(), each.known(), now))) {
-            tables.fields().put(field.field(), null);
+            tables.fields().put(field.key(), null);
             markDomainsOutdated(field);
         }
     }

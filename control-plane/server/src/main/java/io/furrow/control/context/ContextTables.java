@@ -12,7 +12,7 @@ import io.furrow.control.mission.MissionStatus;
  * @param missions by name
  * @param statuses by name of the mission
  * @param tallies by name of the mission
- * @param fields by id
+ * @param fields by tenant, service path and id
  * @param outdated ids of entities that may have changed since they were published
  * @param publishedEntities the entities as last published, by id
  */

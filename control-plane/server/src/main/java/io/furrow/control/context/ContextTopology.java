@@ -92,7 +92,7 @@ public final class ContextTopology {
         watch.observe("fields", shared.temperatures(), false, projection -> (record, now) -> {
             FieldWindow window = record.value() == null ? null : FieldWindow.of(Entity.parse(record.value()));
             if (window != null) {
-                projection.window(window, now);
+                projection.window(window, KafkaClients.scope(record.headers()), now);
             }
         });
     }

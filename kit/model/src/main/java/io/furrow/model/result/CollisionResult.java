@@ -44,6 +44,8 @@ public final class CollisionResult {
         private final String longitude;
         private final String timestamp;
         private final String mission;
+        private final String service;
+        private final String servicePath;
 
         private Member(String prefix) {
             id = prefix + "_ID";
@@ -52,6 +54,8 @@ public final class CollisionResult {
             longitude = prefix + "_longitude";
             timestamp = prefix + "_timestamp";
             mission = prefix + "_Mission";
+            service = prefix + "_service";
+            servicePath = prefix + "_servicePath";
         }
 
         public String id() {
@@ -81,6 +85,16 @@ public final class CollisionResult {
         /** Returns the attribute with the mission; its value is empty if the device is on none. */
         public String mission() {
             return mission;
+        }
+
+        /** Returns the attribute with the tenant, of {@link #SECOND} only, and only if its scope is not the record's. */
+        public String service() {
+            return service;
+        }
+
+        /** Returns the attribute with the service path, which is present if {@link #service()} is. */
+        public String servicePath() {
+            return servicePath;
         }
     }
 }

@@ -83,7 +83,10 @@ final class ResultCollector {
         if (start.isPresent() && time.isPresent() && closest.isPresent()) {
             String pair = entity.text(CollisionResult.FIRST.id()).orElse("?") + " – "
                     + entity.text(CollisionResult.SECOND.id()).orElse("?");
-            String types = entity.text(CollisionResult.FIRST.type()).orElse("") + " "
+            String scopeOfSecond = entity.text(CollisionResult.SECOND.servicePath())
+                    .map(path -> entity.text(CollisionResult.SECOND.service()).orElse("") + "|" + path + "|")
+                    .orElse("");
+            String types = entity.text(CollisionResult.FIRST.type()).orElse("") + " " + scopeOfSecond
                     + entity.text(CollisionResult.SECOND.type()).orElse("");
             encounters.merge(
                     entity.text(CollisionResult.ENCOUNTER).orElse(entity.id()),

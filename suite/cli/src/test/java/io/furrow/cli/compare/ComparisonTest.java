@@ -1,6 +1,7 @@
 package io.furrow.cli.compare;
 
 import java.util.List;
+import java.util.Map;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -199,8 +200,36 @@ class ComparisonTest {
                         new Encounter(new ResultSubject("farm|/", "Robot Robot", "x – y"), T0, T0 + 5000, false, 1.25));
     }
 
+    @Test
+    void distinguishesAnEncounterWithADeviceOfAnotherTenant() {
+        ResultCollector within = new ResultCollector(null);
+        ResultCollector across = new ResultCollector(null);
+        PositionFix first = fix("farm|/|", "x", T0);
+        for (var each : Map.of(within, "farm|/|", across, "other|/|").entrySet()) {
+            PositionFix second = fix(each.getValue(), "y", T0);
+            var found = new io.furrow.analytics.collision.encounter.Encounter(
+                    Phase.ENDED, first, second, 4, 1.25, T0, T0 + 5000);
+            each.getKey()
+                    .add(
+                            ResultKind.ENCOUNTERS,
+                            0,
+                            "farm|/",
+                            CollisionEntity.of(found).build());
+        }
+        assertThat(Comparison.of(side("a", within), side("b", within), TimeRange.ALL)
+                        .isSame())
+                .isTrue();
+        assertThat(Comparison.of(side("a", within), side("b", across), TimeRange.ALL)
+                        .isSame())
+                .isFalse();
+    }
+
     private static PositionFix fix(String id, long time) {
+        return fix("farm|/|", id, time);
+    }
+
+    private static PositionFix fix(String scope, String id, long time) {
         return new PositionFix(
-                "data.weeding.replay.0a1b2c3d", "farm|/|" + id, id, "Robot", "weeding", "", 40, -3, 0, 0, time);
+                "data.weeding.replay.0a1b2c3d", scope + id, id, "Robot", "weeding", "", 40, -3, 0, 0, time);
     }
 }

@@ -9,6 +9,8 @@ import java.util.concurrent.Executor;
 import java.util.concurrent.RejectedExecutionException;
 import java.util.function.Consumer;
 import java.util.function.Function;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -18,6 +20,7 @@ import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.CommandSender;
 import io.furrow.kafka.BoundedMap;
 import io.furrow.model.device.DesiredDevice;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
@@ -37,6 +40,8 @@ public final class StopRobots {
     static final String STOP = "Stop";
     static final String DEVICE = "device";
     static final String ENCOUNTER = "encounter";
+    private static final String SERVICE = "service";
+    private static final String SERVICE_PATH = "servicePath";
 
     private static final String PREDICTED = "predicted";
     private static final Duration PAUSE = Duration.ofMillis(500);
@@ -80,8 +85,7 @@ public final class StopRobots {
         if (STOP.equals(entry.path("command").textValue())
                 && USER.equals(entry.path("user").textValue())
                 && SENT.equals(entry.path("result").textValue())) {
-            JsonNode about = entry.path("about");
-            put(key(about.path(ENCOUNTER).asText(), about.path(DEVICE).asText()), SENT);
+            put(key(entry.path("about")), SENT);
         }
     }
 
@@ -91,7 +95,7 @@ public final class StopRobots {
             return;
         }
         for (EncounterReport.Member member : encounter.members()) {
-            String type = encounter.typeOf(member, types);
+            String type = member.type(types);
             if (type == null) {
                 skip(encounter, member, "the type of its entity is unknown; add it to a mission");
             } else if (settings.types().contains(type)) {
@@ -103,7 +107,7 @@ public final class StopRobots {
     private void decide(EncounterReport encounter, EncounterReport.Member robot, String type, long time) {
         if (!isFresh(time)) {
             skip(encounter, robot, stale());
-        } else if (!SENT.equals(put(key(encounter.id(), robot.id()), SENT))) {
+        } else if (!SENT.equals(put(key(about(encounter, robot)), SENT))) {
             try {
                 executor.execute(() -> stop(encounter, robot, type, time));
             } catch (RejectedExecutionException e) {
@@ -116,7 +120,7 @@ public final class StopRobots {
     private void stop(EncounterReport encounter, EncounterReport.Member robot, String type, long time) {
         String failure = "no attempt was made";
         try {
-            failure = tryToStop(settings.sender().in(encounter.scope()), robot, type, time);
+            failure = tryToStop(settings.sender().in(robot.scope()), robot, type, time);
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
             failure = "the control plane was stopped meanwhile";
@@ -160,7 +164,7 @@ public final class StopRobots {
 
     /** Writes an audit entry, once per reason, that no command was sent. */
     private void skip(EncounterReport encounter, EncounterReport.Member member, String reason) {
-        String key = key(encounter.id(), member.id());
+        String key = key(about(encounter, member));
         synchronized (handled) {
             String before = handled.get(key);
             if (SENT.equals(before) || reason.equals(before)) {
@@ -172,14 +176,22 @@ public final class StopRobots {
     }
 
     private void note(EncounterReport encounter, EncounterReport.Member member, String failure) {
+        audit.accept(AuditEntry.ofDevice(clock.millis(), USER, STOP, about(encounter, member), failure));
+    }
+
+    /** Names the scope of a device that is not in that of the encounter. */
+    private static ObjectNode about(EncounterReport encounter, EncounterReport.Member member) {
         ObjectNode about = NgsiJson.object();
         about.put(DEVICE, member.id()).put(ENCOUNTER, encounter.id());
-        audit.accept(AuditEntry.ofDevice(clock.millis(), USER, STOP, about, failure));
+        FiwareScope scope = member.scope();
+        return scope.equals(encounter.first().scope())
+                ? about
+                : about.put(SERVICE, scope.service()).put(SERVICE_PATH, scope.servicePath());
     }
 
     private void forget(EncounterReport encounter, EncounterReport.Member robot) {
         synchronized (handled) {
-            handled.remove(key(encounter.id(), robot.id()));
+            handled.remove(key(about(encounter, robot)));
         }
     }
 
@@ -189,7 +201,9 @@ public final class StopRobots {
         }
     }
 
-    private static String key(String encounter, String device) {
-        return encounter + "|" + device;
+    private static String key(JsonNode about) {
+        return Stream.of(ENCOUNTER, SERVICE, SERVICE_PATH, DEVICE)
+                .map(name -> about.path(name).asText())
+                .collect(Collectors.joining("|"));
     }
 }

@@ -63,7 +63,7 @@ public record EncounterAlarmProcessor(
     private Cause cause(AlarmKind kind, EncounterReport encounter, Duration validity) {
         String text = kind == AlarmKind.COLLISION ? "%s and %s are %s apart" : "%s and %s will come within %s";
         List<Cause.AffectedDevice> devices = encounter.members().stream()
-                .map(member -> Cause.AffectedDevice.of(member.id(), encounter.typeOf(member, types), encounter.scope()))
+                .map(member -> Cause.AffectedDevice.of(member.id(), member.type(types), member.scope()))
                 .toList();
         return new Cause(
                         kind,

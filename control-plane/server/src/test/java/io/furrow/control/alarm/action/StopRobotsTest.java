@@ -18,12 +18,14 @@ import io.furrow.control.alarm.watch.EncounterReport;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.CommandSender;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 class StopRobotsTest {
     private static final long NOW = 1_700_000_000_000L;
+    private static final FiwareScope FARM = new FiwareScope("farm", "/");
 
     private final List<String> sent = new ArrayList<>();
     private final List<AuditEntry> audited = new ArrayList<>();
@@ -50,16 +52,14 @@ class StopRobotsTest {
 
     @Test
     void usesTheTypeOfTheRecordForAnAmbiguousId() {
-        FiwareScope scope = new FiwareScope("farm", "/");
         robots.take(
                 new EncounterReport(
                         "e-1",
                         "predicted",
-                        new EncounterReport.Member("cam", "m", "ROBOT"),
-                        new EncounterReport.Member("r1", "", "Camera"),
+                        new EncounterReport.Member("cam", "m", "ROBOT", FARM),
+                        new EncounterReport.Member("r1", "", "Camera", FARM),
                         12,
-                        0.5,
-                        scope),
+                        0.5),
                 NOW);
         assertThat(sent).containsExactly("cam ROBOT Stop");
     }
@@ -153,33 +153,56 @@ class StopRobotsTest {
     /** Another tenant may have a robot of this id. */
     @Test
     void sendsTheStopToTheTenantOfTheEncounter() {
-        List<FiwareScope> tenants = new ArrayList<>();
-        CommandSender sender = new CommandSender() {
-            @Override
-            public void send(String device, String type, String command, String value) {
-                sent.add(device);
-            }
-
-            @Override
-            public CommandSender in(FiwareScope scope) {
-                tenants.add(scope);
-                return this;
-            }
-        };
-        robots = new StopRobots(
-                StopRobots.Settings.of(sender),
-                types::get,
-                audited::add,
-                executor,
-                Clock.fixed(Instant.ofEpochMilli(NOW), ZoneOffset.UTC));
+        robots = robots(StopRobots.Settings.of(new SenderOfTenants()));
         robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
-        assertThat(sent).containsExactly("r1");
-        assertThat(tenants).containsExactly(new FiwareScope("farm", "/"));
+        assertThat(sent).containsExactly("farm|/|r1");
+    }
+
+    /** Both may have the same id. */
+    @Test
+    void stopsEachRobotInItsTenantOnce() throws Exception {
+        byte[] record = Entity.builder("Analytics:Collision:1", "Analytics:Collision")
+                .text("encounter", "e-1")
+                .text("phase", "predicted")
+                .text("Device1_ID", "r1")
+                .text("Device1_type", "ROBOT")
+                .text("Device2_ID", "r1")
+                .text("Device2_service", "")
+                .text("Device2_servicePath", "/north")
+                .toBytes();
+        types.put("|/north|r1", "Robot");
+        robots = robots(StopRobots.Settings.of(new SenderOfTenants()));
+        robots.take(EncounterReport.read(record, FARM), NOW);
+        assertThat(sent).containsExactly("farm|/|r1", "|/north|r1");
+        StopRobots other = robots(StopRobots.Settings.of(new SenderOfTenants()));
+        other.restore(NgsiJson.read(audited.get(1).toBytes()));
+        other.take(EncounterReport.read(record, FARM), NOW);
+        assertThat(sent).containsExactly("farm|/|r1", "|/north|r1", "farm|/|r1");
+    }
+
+    /** Records the identities of the stopped devices. */
+    private final class SenderOfTenants implements CommandSender {
+        private FiwareScope tenant;
+
+        @Override
+        public void send(String device, String type, String command, String value) {
+            sent.add(tenant.identity(device));
+        }
+
+        @Override
+        public CommandSender in(FiwareScope scope) {
+            tenant = scope;
+            return this;
+        }
     }
 
     private StopRobots robots() {
+        return robots(settings());
+    }
+
+    private StopRobots robots(StopRobots.Settings settings) {
         return new StopRobots(
-                settings(), types::get, audited::add, executor, Clock.fixed(Instant.ofEpochMilli(NOW), ZoneOffset.UTC));
+                settings, types::get, audited::add, executor, Clock.fixed(Instant.ofEpochMilli(NOW), ZoneOffset.UTC));
     }
 
     private StopRobots.Settings settings() {
@@ -195,10 +218,9 @@ class StopRobotsTest {
         return new EncounterReport(
                 id,
                 phase,
-                new EncounterReport.Member(first, "m", ""),
-                new EncounterReport.Member(second, "", ""),
+                new EncounterReport.Member(first, "m", "", FARM),
+                new EncounterReport.Member(second, "", "", FARM),
                 12,
-                0.5,
-                new FiwareScope("farm", "/"));
+                0.5);
     }
 }
