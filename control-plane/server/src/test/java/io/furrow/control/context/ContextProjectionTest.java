@@ -10,6 +10,7 @@ import io.furrow.control.domain.Domain;
 import io.furrow.control.manager.MapTable;
 import io.furrow.control.mission.Mission;
 import io.furrow.control.mission.MissionStatus;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.EntityBuilder;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -38,10 +39,10 @@ class ContextProjectionTest {
 
     @Test
     void acceptsAveragesAgainWhenTheClockIsSetBack() {
-        projection.window(window(AHEAD, 1.0), AHEAD);
+        projection.window(window(AHEAD, 1.0), FiwareScope.DEFAULT, AHEAD);
         projection.passTime(AHEAD);
         projection.passTime(NOW);
-        projection.window(window(NOW, 2.0), NOW);
+        projection.window(window(NOW, 2.0), FiwareScope.DEFAULT, NOW);
         assertThat(fields.all()).extracting(FieldState::average).containsExactly(2.0);
     }
 
