@@ -88,8 +88,10 @@ final class ConnectionPublisher {
             LoginReport login = mergePublished(published.get(key), own == null ? loginOf(gateway) : own);
             put(key, connection(device, login, published.get(key), isRegistered(registered, key)));
         });
-        new HashSet<>(published.keySet())
-                .stream().filter(key -> !desired.all().containsKey(key)).forEach(key -> put(key, null));
+        Set<String> removed = new HashSet<>(published.keySet());
+        removed.removeAll(desired.all().keySet());
+        removed.removeAll(desired.undecidedKeys());
+        removed.forEach(key -> put(key, null));
     }
 
     /** Reduces the report of a gateway to its login: another device may have caused its other events. */

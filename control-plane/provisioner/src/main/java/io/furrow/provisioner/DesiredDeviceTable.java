@@ -6,6 +6,7 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
+import java.util.TreeSet;
 import java.util.stream.Collectors;
 
 import org.slf4j.Logger;
@@ -15,6 +16,7 @@ import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.MissionDeviceLists;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
 
 /** Holds the devices of {@code service.devices} that are to be provisioned, by key, and the scopes in which the agent may have others. */
 final class DesiredDeviceTable {
@@ -26,6 +28,9 @@ final class DesiredDeviceTable {
     private final MissionDeviceLists lists = new MissionDeviceLists();
     /** Devices whose device list was not read yet; until then their previous version applies. */
     private final Map<String, DesiredDevice> unresolved = new LinkedHashMap<>();
+
+    /** Keys of the records that cannot be read; until they are replaced their previous version applies. */
+    private final Set<String> unreadable = new TreeSet<>();
 
     private final Set<String> fresh = new HashSet<>();
     private final Set<FiwareScope> scopes = new HashSet<>();
@@ -42,6 +47,7 @@ final class DesiredDeviceTable {
         devices.clear();
         lists.clear();
         unresolved.clear();
+        unreadable.clear();
         fresh.clear();
         scopes.clear();
         scopes.add(defaultScope);
@@ -55,6 +61,7 @@ final class DesiredDeviceTable {
 
     /** @param desired null for a deletion */
     void take(String key, DesiredDevice desired) {
+        unreadable.remove(key);
         if (desired == null || !AgentRegistrationFactory.isProvisioned(desired)) {
             devices.remove(key);
             unresolved.remove(key);
@@ -67,6 +74,10 @@ final class DesiredDeviceTable {
             fresh.add(key);
         }
         scopes.add(scope(desired));
+    }
+
+    void takeUnreadable(String key) {
+        unreadable.add(key);
     }
 
     /** Updates a part of a mission's device list. @param value null for a deletion */
@@ -99,20 +110,26 @@ final class DesiredDeviceTable {
         return unresolved.values();
     }
 
-    /** Returns which devices are undecided, and what to do. */
+    boolean hasUnreadable() {
+        return !unreadable.isEmpty();
+    }
+
+    /** Returns the keys of the undecided devices, and of those whose record cannot be read. */
+    Set<String> undecidedKeys() {
+        Set<String> keys = new TreeSet<>(unreadable);
+        keys.addAll(unresolved.keySet());
+        return keys;
+    }
+
+    /** Returns which devices are undecided or cannot be read, and what to do. */
     String undecidedText() {
-        String missions = unresolved.values().stream()
-                .map(device -> device.version().mission())
-                .distinct()
-                .sorted()
-                .collect(Collectors.joining(", "));
-        String named = unresolved.values().stream()
-                .map(DesiredDevice::device)
-                .sorted()
-                .limit(MAX_NAMED)
-                .collect(Collectors.joining(", "));
-        return "the desired state of %d devices cannot be read (%s%s), because the device list of their mission is of another version; they keep their logins and registrations, but no changes; update Furrow here, or start again: %s"
-                .formatted(unresolved.size(), named, unresolved.size() > MAX_NAMED ? ", …" : "", missions);
+        Set<String> keys = undecidedKeys();
+        return "the desired state of %d devices cannot be read (%s%s): their records on %s, or the device lists of their missions, are of another version; they keep their logins and registrations, but no changes; update Furrow here, or start their missions again"
+                .formatted(
+                        keys.size(),
+                        keys.stream().limit(MAX_NAMED).collect(Collectors.joining(", ")),
+                        keys.size() > MAX_NAMED ? ", …" : "",
+                        Topics.DEVICES);
     }
 
     Map<String, DesiredDevice> all() {

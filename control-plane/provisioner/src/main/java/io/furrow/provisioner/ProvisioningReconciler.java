@@ -108,6 +108,7 @@ final class ProvisioningReconciler {
         }
         removals.desired(desired.all().values());
         removals.desired(desired.undecided());
+        removals.unreadable(desired.hasUnreadable());
     }
 
     /** Whether the farm's secret changed since the last step: by rotation, or because an older key expired. */

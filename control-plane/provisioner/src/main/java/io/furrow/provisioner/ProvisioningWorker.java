@@ -131,7 +131,8 @@ final class ProvisioningWorker implements AutoCloseable {
             try {
                 desired.take(record.key(), record.value() == null ? null : DesiredDevice.read(record.value()));
             } catch (UnreadableException e) {
-                LOG.warn("{} is not a desired device and is skipped", KafkaClients.position(record), e);
+                LOG.warn("{} is not a desired device: nothing is removed", KafkaClients.position(record), e);
+                desired.takeUnreadable(record.key());
             }
         }
         if (!records.isEmpty()) {
@@ -225,7 +226,7 @@ final class ProvisioningWorker implements AutoCloseable {
     /** The first report waits too: a device's record may come before its list. */
     private void reportUndecided() {
         long now = System.nanoTime();
-        if (desired.undecided().isEmpty()) {
+        if (desired.undecidedKeys().isEmpty()) {
             undecidedReported = now;
         } else if (now - undecidedReported >= REPORT_INTERVAL.toNanos()) {
             undecidedReported = now;

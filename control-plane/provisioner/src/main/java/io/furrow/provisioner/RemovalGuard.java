@@ -11,14 +11,15 @@ import io.furrow.provisioner.AgentClient.Group;
 
 /**
  * Decides which devices and groups may be removed. An empty Kafka, or another than the one for which devices were
- * provisioned, desires none of them, and removing them would take the farm out of service. With such a Kafka only
- * devices that it has desired since the start are removed.
+ * provisioned, desires none of them, and removing them would take the farm out of service. With such a Kafka, and while
+ * a record of a device cannot be read, only devices that were desired since the start are removed.
  */
 final class RemovalGuard {
     /** Missions, and pairs of mission and device id. */
     private final Set<List<String>> own = new HashSet<>();
 
     private boolean all;
+    private boolean unreadable;
 
     /**
      * Identifies the Kafka cluster of the desired devices.
@@ -80,7 +81,12 @@ final class RemovalGuard {
     }
 
     boolean allowsAll() {
-        return all;
+        return all && !unreadable;
+    }
+
+    /** @param exist whether there are records of devices that cannot be read: any device may be one of them */
+    void unreadable(boolean exist) {
+        unreadable = exist;
     }
 
     void desired(Collection<DesiredDevice> devices) {
@@ -91,10 +97,10 @@ final class RemovalGuard {
     }
 
     boolean allows(AgentRegistration device) {
-        return all || own.contains(List.of(device.mission(), device.device()));
+        return allowsAll() || own.contains(List.of(device.mission(), device.device()));
     }
 
     boolean allows(Group group) {
-        return all || own.contains(List.of(group.mission()));
+        return allowsAll() || own.contains(List.of(group.mission()));
     }
 }

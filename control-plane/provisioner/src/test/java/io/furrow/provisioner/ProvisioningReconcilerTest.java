@@ -291,6 +291,27 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         assertThat(agent.deviceIds()).containsExactly(device.device());
         assertThat(agent.apiKeys()).containsExactly(KEY);
         assertThat(authenticates(SECRET.device("hoeing", device.device()))).isTrue();
-        assertThat(desired.undecidedText()).contains("1 devices", device.device(), "start again: hoeing");
+        assertThat(desired.undecidedText()).contains("1 devices", device.device());
+    }
+
+    @Test
+    void removesNothingWhileARecordOfADeviceCannotBeRead() throws Exception {
+        DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
+        addDesired(device);
+        provisioning.step();
+        desired.clear();
+        desired.takeUnreadable("farm|/|" + device.device());
+        provisioning = provisioning();
+
+        provisioning.step();
+
+        assertThat(agent.deviceIds()).containsExactly(device.device());
+        assertThat(authenticates(SECRET.device("hoeing", device.device()))).isTrue();
+        assertThat(desired.undecidedText()).contains("1 devices", device.device());
+
+        desired.take("farm|/|" + device.device(), null);
+        provisioning.step();
+        assertThat(agent.deviceIds()).isEmpty();
+        assertThat(authenticates(SECRET.device("hoeing", device.device()))).isFalse();
     }
 }

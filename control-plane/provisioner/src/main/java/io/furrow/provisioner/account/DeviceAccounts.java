@@ -89,7 +89,8 @@ public final class DeviceAccounts {
     public void revoke(Collection<DesiredDevice> desired, boolean all) throws IOException {
         Set<String> users = new HashSet<>(byUser(desired).keySet());
         users.forEach(user -> own.add(UserName.of(user).owner()));
-        if (allowed == null || !users.containsAll(allowed)) {
+        boolean shrinks = allowed == null || !users.containsAll(allowed);
+        if (shrinks || all && !retained.isEmpty()) {
             allowed = null;
             granted = granted == null
                     ? null
