@@ -23,14 +23,14 @@ const MAX_STATE_DELAY = 60_000;
 class Feeds {
   start() {
     store.feeds = this;
+    this.live(); // first: browsers open few connections at a time
     this.shared = [
-      this.feed('service.fields', 'all', (record) => store.applyField(record)),
       this.feed('service.alarms', 'all', (record) => store.applyAlarm(record), { loaded: () => store.alarmsRead(), whileHidden: mayNotify }),
+      this.feed('service.fields', 'all', (record) => store.applyField(record)),
       this.feed('service.replays', 'all', (record) => this.applyReplay(record)),
       this.feed('service.replays.status', 'latest', (record) => this.applyStatus(record)),
     ];
     Object.entries(LISTS).forEach(([name, list]) => this.syncList(name, list));
-    this.live();
     setInterval(() => document.hidden || store.tick(), 1000);
     setInterval(() => document.hidden || this.readImages(), IMAGES_MILLIS);
   }

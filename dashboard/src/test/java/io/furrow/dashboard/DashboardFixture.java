@@ -9,6 +9,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.util.List;
+import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.CompletionException;
 
@@ -77,7 +78,12 @@ abstract class DashboardFixture {
     private static AutoCloseable startServers() {
         try {
             Path directory = Files.createTempDirectory("dashboard");
-            kafka = EmbeddedKafka.start(directory.resolve("kafka"));
+            kafka = EmbeddedKafka.start(
+                    directory.resolve("kafka"),
+                    0,
+                    Map.of(
+                            "authorizer.class.name", "org.apache.kafka.metadata.authorizer.StandardAuthorizer",
+                            "allow.everyone.if.no.acl.found", "true"));
             Path tokens = directory.resolve("tokens");
             Files.writeString(tokens, "vera %s viewer%nolga %s operator%nanna %s admin%n".formatted(VERA, OLGA, ANNA));
             api = RestApi.start(

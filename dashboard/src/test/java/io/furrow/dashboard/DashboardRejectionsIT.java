@@ -9,6 +9,14 @@ import java.util.List;
 import java.util.Properties;
 import java.util.stream.IntStream;
 
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.common.acl.AccessControlEntry;
+import org.apache.kafka.common.acl.AclBinding;
+import org.apache.kafka.common.acl.AclOperation;
+import org.apache.kafka.common.acl.AclPermissionType;
+import org.apache.kafka.common.resource.PatternType;
+import org.apache.kafka.common.resource.ResourcePattern;
+import org.apache.kafka.common.resource.ResourceType;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
@@ -44,6 +52,22 @@ class DashboardRejectionsIT extends DashboardFixture {
                 .contains(TOPIC)
                 .doesNotContain("service.")
                 .doesNotContain(".dead");
+    }
+
+    @Test
+    void doesNotKnowATopicThatAclsHide() throws Exception {
+        kafka.createTopics(topics("data.hidden"));
+        AclBinding denied = new AclBinding(
+                new ResourcePattern(ResourceType.TOPIC, "data.hidden", PatternType.LITERAL),
+                new AccessControlEntry("User:ANONYMOUS", "*", AclOperation.DESCRIBE, AclPermissionType.DENY));
+        try (Admin admin = Admin.create(kafka.client())) {
+            admin.createAcls(List.of(denied)).all().get();
+        }
+
+        await().untilAsserted(() ->
+                assertThat(get("/api/topics", VERA).body()).contains(TOPIC).doesNotContain("data.hidden"));
+        assertThat(error("/api/register/data.hidden", OLGA)).isEqualTo("404 unknown-topic");
+        assertThat(error("/api/stream/data.hidden", OLGA)).isEqualTo("404 unknown-topic");
     }
 
     @Test

@@ -33,6 +33,7 @@ import org.apache.flink.streaming.api.functions.sink.v2.DiscardingSink;
 import org.apache.flink.test.junit5.InjectMiniCluster;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.awaitility.Awaitility;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
@@ -69,6 +70,7 @@ class RescaledDetectionTest {
     private static final Gate GATE = new Gate();
     private static List<PositionFix> arrivals;
 
+    @Tag("full")
     @Test
     void tellsTheSameAsAnUndisturbedRun(@InjectMiniCluster MiniCluster cluster, @TempDir Path savepoints)
             throws Exception {

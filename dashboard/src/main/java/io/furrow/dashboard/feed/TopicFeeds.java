@@ -19,6 +19,7 @@ import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.config.ConfigResource;
 import org.apache.kafka.common.config.TopicConfig;
 import org.apache.kafka.common.errors.InvalidTopicException;
+import org.apache.kafka.common.errors.TopicAuthorizationException;
 import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -135,11 +136,10 @@ public final class TopicFeeds implements AutoCloseable {
     }
 
     private static Problem unavailable() {
-        return new Problem(
-                503, "kafka-away", "Kafka does not return the list of its topics; check --kafka and that it runs");
+        return new Problem(503, "kafka-away", "Kafka does not return its topics; check --kafka and that it runs");
     }
 
-    /** @throws Problem 404 if the topic does not exist, 503 if Kafka does not respond */
+    /** @throws Problem 404 if the topic does not exist or Kafka's ACLs hide it, 503 if Kafka does not respond */
     public void check(String topic) {
         if (isKafkaUnavailable()) {
             throw unavailable();
@@ -150,7 +150,8 @@ public final class TopicFeeds implements AutoCloseable {
             lastAnswer = System.nanoTime();
         } catch (ExecutionException e) {
             if (e.getCause() instanceof UnknownTopicOrPartitionException
-                    || e.getCause() instanceof InvalidTopicException) {
+                    || e.getCause() instanceof InvalidTopicException
+                    || e.getCause() instanceof TopicAuthorizationException) {
                 throw new Problem(404, "unknown-topic", "there is no topic '%s'".formatted(topic));
             }
             throw unavailable();

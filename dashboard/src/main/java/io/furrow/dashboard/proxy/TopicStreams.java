@@ -40,7 +40,7 @@ public final class TopicStreams implements AutoCloseable {
      */
     private static final Duration MAX_AGE_BEHIND_PROXY = Duration.ofHours(1);
 
-    private static final int START_THREADS = 4;
+    private static final int START_THREADS = 16;
     private static final String STOPPING = "the dashboard is stopping";
     private static final int UNAUTHORIZED = 401;
 

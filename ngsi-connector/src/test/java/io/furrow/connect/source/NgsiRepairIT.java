@@ -50,6 +50,7 @@ class NgsiRepairIT {
         rig = ConnectRig.start(directory);
     }
 
+    @Tag("full")
     @Test
     void bringsTheLatestStateOfAllEntitiesThatChangedWhileItWasDown() {
         source("repaired", FreePort.orFree(0));

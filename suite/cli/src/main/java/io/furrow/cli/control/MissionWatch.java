@@ -7,6 +7,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.table.ControlTable;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** Follows a mission: prints a line for every change of its state, its progress or its missing devices. */
@@ -67,16 +68,16 @@ final class MissionWatch implements ControlOptions.Work {
                         confirmed,
                         devices));
         if (status.hasNonNull("reason")) {
-            line.append("  ").append(status.path("reason").asText());
+            line.append("  ")
+                    .append(ControlTable.printable(status.path("reason").asText()));
         }
         for (JsonNode missing : status.path("missing")) {
             line.append(System.lineSeparator())
                     .append("    missing: ")
-                    .append(missing.path("id").asText())
-                    .append(
-                            missing.hasNonNull("reason")
+                    .append(ControlTable.printable(missing.path("id").asText()
+                            + (missing.hasNonNull("reason")
                                     ? ", " + missing.path("reason").asText()
-                                    : "");
+                                    : "")));
         }
         return line.toString();
     }

@@ -9,6 +9,7 @@ import java.util.Locale;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.TextNode;
 
+import io.furrow.cli.control.table.ControlTable;
 import io.furrow.model.text.Counts;
 
 /** Formats a replay as lines of text, none wider than the terminal. */
@@ -41,13 +42,13 @@ final class ReplayScreen {
     static String line(JsonNode replay) {
         JsonNode progress = replay.at("/status/progress");
         String reason = reason(replay);
-        return "%s  %s  %s  %s%s"
+        return ControlTable.printable("%s  %s  %s  %s%s"
                 .formatted(
                         replay.path("replay").asText(),
                         state(replay),
                         times(replay),
                         counts(progress),
-                        reason.isEmpty() ? "" : "  " + reason);
+                        reason.isEmpty() ? "" : "  " + reason));
     }
 
     /** The actual state, and the desired one if it differs. */

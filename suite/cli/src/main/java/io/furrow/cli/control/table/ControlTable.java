@@ -124,7 +124,7 @@ public final class ControlTable {
             case TIME ->
                 (value.isIntegralNumber()
                                 ? Instant.ofEpochMilli(value.longValue()).toString()
-                                : value.asText())
+                                : printable(value.asText()))
                         .replaceFirst("\\.\\d+Z$", "Z");
             case AGE -> age(Duration.ofMillis(clock.millis() - value.asLong()));
             case TEXT -> printable(textOf(value));
@@ -137,7 +137,7 @@ public final class ControlTable {
     }
 
     /** One line, without control characters. */
-    static String printable(String text) {
-        return text.replaceAll("\\p{Cntrl}", " ");
+    public static String printable(String text) {
+        return text.replaceAll("\\p{Cc}", " "); // some terminals obey those from U+0080 to U+009F too
     }
 }

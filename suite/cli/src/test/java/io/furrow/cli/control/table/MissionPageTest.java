@@ -19,7 +19,7 @@ class MissionPageTest {
                           {"type": "Thermometer", "count": 3, "period": "PT10S", "simulated": true}],
                          "status": {"mission": "m", "domain": "d", "state": "starting", "since": 1795687200000, "sequence": 3, "devices": 5,
                           "confirmed": 3, "reason": "2 devices are not up", "ends": 1795701600000,
-                          "missing": [{"id": "urn:r:1", "reason": "it never logged in"}, {"id": "urn:t:2\\u001b"}]}}"""), NOW))
+                          "missing": [{"id": "urn:r:1", "reason": "it never logged in"}, {"id": "urn:t:2\\u009b"}]}}"""), NOW))
                 .containsExactly(
                         "Mission:        m of domain d",
                         "Template:       t@2",
