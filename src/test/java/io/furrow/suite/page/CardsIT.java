@@ -202,6 +202,9 @@ class CardsIT {
         farm.until(() -> {
             // A chart holds a number of points, not a period: at the right edge all charts have one.
             BoundingBox box = chart.boundingBox();
+            if (box == null) { // the filter is just hiding or showing its card
+                return false;
+            }
             chart.hover(new Locator.HoverOptions().setPosition(box.width - 2 - moves[0]++ % 2, box.height / 2));
             return hasCursor(farm, DEFECTIVE)
                     && hasCursor(farm, "urn:ngsi-ld:Robot:1")
