@@ -41,7 +41,6 @@ final class EntityIdFile implements AutoCloseable {
 
     /** A line. */
     record Change(Kind kind, String identity) {
-        static final Change TOO_MANY = new Change(Kind.TOO_MANY, "|||");
         static final Change SETTLED = new Change(Kind.SETTLED, "|||");
 
         enum Kind {
@@ -55,6 +54,16 @@ final class EntityIdFile implements AutoCloseable {
             TOO_MANY;
 
             private static final String SIGNS = "+-?.!";
+        }
+
+        /** @param maxBytes that do not hold the entities */
+        static Change tooMany(long maxBytes) {
+            return new Change(Kind.TOO_MANY, "|||" + maxBytes);
+        }
+
+        /** Whether the entities did not even fit into as many bytes. */
+        boolean isTooManyFor(long maxBytes) {
+            return !identity.equals("|||") && Long.parseLong(identity.substring(3)) >= maxBytes;
         }
 
         private String line() throws IOException {

@@ -28,6 +28,8 @@ final class EntityIdSet implements AutoCloseable {
     private EntityIdFile file;
     private long bytes;
     private boolean tooMany;
+    /** Whether the entities did not fit and now may: nothing is known until the next listing. */
+    private boolean isIncomplete;
 
     private EntityIdSet(long maxBytes) {
         this.maxBytes = maxBytes;
@@ -47,7 +49,11 @@ final class EntityIdSet implements AutoCloseable {
             case REMOVED -> drop(change.identity());
             case STALE -> stale.add(change.identity());
             case SETTLED -> stale.clear();
-            case TOO_MANY -> giveUp();
+            case TOO_MANY -> {
+                giveUp();
+                tooMany = change.isTooManyFor(maxBytes);
+                isIncomplete = !tooMany;
+            }
         }
     }
 
@@ -57,7 +63,7 @@ final class EntityIdSet implements AutoCloseable {
         List<Change> others = new ArrayList<>();
         stale.forEach(identity -> others.add(new Change(Kind.STALE, identity)));
         if (tooMany) {
-            others.add(Change.TOO_MANY);
+            others.add(Change.tooMany(maxBytes));
         }
         return () -> Stream.concat(now.stream().map(identity -> new Change(Kind.ADDED, identity)), others.stream())
                 .iterator();
@@ -93,7 +99,7 @@ final class EntityIdSet implements AutoCloseable {
 
     synchronized void add(String identity) throws IOException {
         if (keep(identity)) {
-            file.append(tooMany ? Change.TOO_MANY : new Change(Kind.ADDED, identity));
+            file.append(tooMany ? Change.tooMany(maxBytes) : new Change(Kind.ADDED, identity));
         }
     }
 
@@ -167,6 +173,16 @@ final class EntityIdSet implements AutoCloseable {
     /** Whether there are more entities than fit. */
     synchronized boolean isOverfull() {
         return tooMany;
+    }
+
+    /** Whether entities that it lacks may be on the topic, because the bound was raised since they did not fit. */
+    synchronized boolean isIncomplete() {
+        return isIncomplete;
+    }
+
+    /** All entities of the context broker were added. */
+    synchronized void completed() {
+        isIncomplete = false;
     }
 
     synchronized int size() {

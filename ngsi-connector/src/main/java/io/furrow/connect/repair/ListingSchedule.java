@@ -5,16 +5,24 @@ import java.util.HashSet;
 import java.util.Set;
 import java.util.function.LongSupplier;
 
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.model.event.FiwareScope;
+
 /**
  * Schedules the listing of all ids: immediately if urgent, else when an interval has passed since the last one. A listing
  * that lacks most known entities may come from a context broker whose database is not mounted: the next one follows
  * after {@link #AGREEMENT}, and only entities that both lack count as deleted.
  */
 final class ListingSchedule {
+    private static final Logger LOG = LoggerFactory.getLogger(ListingSchedule.class);
+
     static final Duration AGREEMENT = Duration.ofSeconds(60);
     /** A listing that lacks no more is trusted. */
     static final int MAX_TRUSTED = 5;
 
+    private final FiwareScope scope;
     private final long intervalNanos;
     private final LongSupplier nanos;
     private boolean urgent;
@@ -25,7 +33,11 @@ final class ListingSchedule {
     /** Becomes {@link #unconfirmed} once the confirmed deletions are done. */
     private Set<String> next = Set.of();
 
-    ListingSchedule(Duration interval, LongSupplier nanos) {
+    private int known;
+    private volatile String problem = "";
+
+    ListingSchedule(FiwareScope scope, Duration interval, LongSupplier nanos) {
+        this.scope = scope;
         intervalNanos = interval.toNanos();
         this.nanos = nanos;
     }
@@ -48,6 +60,7 @@ final class ListingSchedule {
      * @param known number of entities that a complete listing has
      */
     Set<String> deleted(Set<String> missing, int known) {
+        this.known = known;
         next = new HashSet<>();
         if (missing.size() > MAX_TRUSTED && 2L * missing.size() > known) {
             next.addAll(missing);
@@ -66,10 +79,18 @@ final class ListingSchedule {
         due = false;
         listed = true;
         listedAt = nanos.getAsLong();
+        problem = unconfirmed.isEmpty()
+                ? ""
+                : "the context broker lacks %d of %d known entities of tenant '%s' at %s; those that it still lacks in %d s are deleted on the topic; check that its database is mounted, and context.broker.url"
+                        .formatted(
+                                unconfirmed.size(), known, scope.service(), scope.servicePath(), AGREEMENT.toSeconds());
+        if (!problem.isEmpty()) {
+            LOG.warn(problem);
+        }
     }
 
-    /** The number of entities that the last listing lacked and that the next one may confirm as deleted. */
-    int unconfirmed() {
-        return unconfirmed.size();
+    /** What the last listing lacked, unless it is trusted, and what to do; empty for nothing. */
+    String problem() {
+        return problem;
     }
 }

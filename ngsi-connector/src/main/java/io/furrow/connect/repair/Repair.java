@@ -134,6 +134,7 @@ final class Repair {
                     String identity = state.identity();
                     missing.remove(identity);
                     if (!known.contains(identity)
+                            && !known.isIncomplete()
                             && watermark.filter(state.time()::isBefore).isPresent()) {
                         back.mark(identity); // known once its state is on the topic
                     } else {
@@ -145,6 +146,7 @@ final class Repair {
         if (known.isOverfull()) {
             return;
         }
+        known.completed();
         for (String identity : new TreeSet<>(listings.deleted(missing, before))) {
             checkGone(identity);
         }

@@ -54,7 +54,6 @@ public final class SubscriptionReconciler implements AutoCloseable {
     private Optional<Late> late = Optional.empty();
     private long failedBefore;
     private final ListingSchedule listings;
-    private volatile String unconfirmed = "";
     private volatile Duration gap = Duration.ZERO;
     private volatile DeliveryReport delivered = DeliveryReport.NOTHING_SENT;
 
@@ -83,7 +82,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
                 desired.notificationContent(),
                 settings.reading().pageMaxBytes());
         uptime = new BrokerUptime(broker, desired.scope());
-        listings = new ListingSchedule(settings.deletions().interval(), services.nanos());
+        listings = new ListingSchedule(desired.scope(), settings.deletions().interval(), services.nanos());
         gapDetector = new GapDetector(desired.notificationContent().namesItsSubscription());
         Path folder = Files.createDirectories(settings.folder().resolve(folderName(desired.name())));
         known = EntityIdSet.open(folder.resolve("known"), settings.deletions().knownMaxBytes());
@@ -187,8 +186,10 @@ public final class SubscriptionReconciler implements AutoCloseable {
             good = repair(kept, result, now);
         }
         known.flush(); // before the watermark, behind which stale entities are not looked for
-        if (good.isPresent() && unconfirmed.isEmpty()) { // else read again what was missed before entities were missing
-            watermark.advanceTo(good.get());
+        // While entities are missing, what was missed before is read again.
+        Optional<Instant> reached = unconfirmed().isEmpty() ? good : good.flatMap(time -> watermark.time());
+        if (reached.isPresent()) {
+            watermark.advanceTo(reached.get(), kept.id());
         }
     }
 
@@ -255,7 +256,6 @@ public final class SubscriptionReconciler implements AutoCloseable {
             if (listings.isNow()) {
                 repair.deletions(listings, watermark.time(), this::markReturned);
                 listings.done();
-                reportMissing();
             }
             settle(marked);
         } finally {
@@ -290,9 +290,10 @@ public final class SubscriptionReconciler implements AutoCloseable {
             throws BrokerException, IOException, InterruptedException {
         Optional<Instant> good = watermark.time().or(() -> LastNotification.of(kept));
         gap = good.map(time -> Duration.between(time, now)).orElse(Duration.ZERO);
-        Optional<Instant> missed = good.map(time -> time.minus(settings.overlap()))
-                .or(() ->
-                        settings.mode() == RepairSettings.Mode.INITIAL ? Optional.of(Instant.EPOCH) : Optional.empty());
+        boolean isInitial = settings.mode() == RepairSettings.Mode.INITIAL;
+        Optional<Instant> missed = good.filter(time -> !isInitial || !watermark.isOfOther(kept.id()))
+                .map(time -> time.minus(settings.overlap()))
+                .or(() -> isInitial ? Optional.of(Instant.EPOCH) : Optional.empty());
         Optional<Instant> since = Stream.of(missed, late.map(Late::from))
                 .flatMap(Optional::stream)
                 .min(Comparator.naturalOrder());
@@ -323,24 +324,9 @@ public final class SubscriptionReconciler implements AutoCloseable {
         }
     }
 
-    private void reportMissing() {
-        unconfirmed = listings.unconfirmed() == 0
-                ? ""
-                : "the context broker lacks %d of %d known entities of tenant '%s' at %s; those that it still lacks in %d s are deleted on the topic; check that its database is mounted, and context.broker.url"
-                        .formatted(
-                                listings.unconfirmed(),
-                                known.size(),
-                                desired.scope().service(),
-                                desired.scope().servicePath(),
-                                ListingSchedule.AGREEMENT.toSeconds());
-        if (!unconfirmed.isEmpty()) {
-            LOG.warn(unconfirmed);
-        }
-    }
-
     /** What the last listing lacked, unless it is trusted, and what to do; empty for nothing. */
     String unconfirmed() {
-        return unconfirmed;
+        return listings.problem();
     }
 
     FiwareScope scope() {

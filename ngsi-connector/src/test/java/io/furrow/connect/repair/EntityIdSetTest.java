@@ -101,6 +101,12 @@ class EntityIdSetTest {
             assertThat(known.isOverfull()).isTrue();
             assertThat(known.size()).isZero();
         }
+        try (EntityIdSet known = EntityIdSet.open(folder.resolve("known"), 1 << 20)) {
+            assertThat(known.isOverfull()).as("with a higher bound").isFalse();
+            assertThat(known.isIncomplete()).isTrue();
+            known.add("|/|T|0");
+            assertThat(known.size()).isEqualTo(1);
+        }
     }
 
     @Test
@@ -212,10 +218,14 @@ class EntityIdSetTest {
         assertThat(Watermark.open(file).time()).isEmpty();
 
         Watermark watermark = Watermark.open(file);
-        watermark.advanceTo(time);
-        watermark.advanceTo(time.minusSeconds(1));
+        watermark.advanceTo(time, "a");
+        watermark.advanceTo(time.minusSeconds(1), "a");
 
         assertThat(Watermark.open(file).time()).contains(time);
+        assertThat(Watermark.open(file).isOfOther("a")).isFalse();
+        assertThat(Watermark.open(file).isOfOther("b")).isTrue();
+        watermark.advanceTo(time.minusSeconds(1), "b");
+        assertThat(Watermark.open(file).time()).contains(time.minusSeconds(1));
         Files.write(file, "no time".getBytes(UTF_8));
         assertThat(Watermark.open(file).time()).isEmpty();
     }

@@ -108,7 +108,8 @@ public final class FuzzPages {
                 repair.changesFrom(START);
                 requireAllTold(broker.exchanges(), output);
                 repair.stale(scope -> true);
-                repair.deletions(new ListingSchedule(Duration.ZERO, () -> 0), Optional.of(START), known::markStale);
+                repair.deletions(
+                        new ListingSchedule(ROOT, Duration.ZERO, () -> 0), Optional.of(START), known::markStale);
             } catch (BrokerException declared) {
                 // it tries again later
             }

@@ -142,6 +142,14 @@ final class ModelBroker implements Function<BrokerRequest, Outcome> {
         restart();
     }
 
+    boolean isMounted() {
+        return volume == null;
+    }
+
+    boolean isSubscribed() {
+        return subscription != null;
+    }
+
     /** It starts again with the volume. */
     void mount() {
         entities.clear();

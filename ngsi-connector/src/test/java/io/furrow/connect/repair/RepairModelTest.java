@@ -50,6 +50,9 @@ class RepairModelTest {
     private Path folder;
     private Bounds bounds;
     private final List<Told> delivered = new ArrayList<>();
+    /** How many were delivered when the volume was unmounted. */
+    private int deliveredBefore;
+
     private boolean isQuiet;
     private final Map<String, Integer> done = new TreeMap<>();
 
@@ -87,6 +90,10 @@ class RepairModelTest {
             step();
         }
         isQuiet = true;
+        if (!broker.isMounted()) {
+            source.look();
+            moveVolume();
+        }
         while (!broker.queue.isEmpty()) {
             deliver();
         }
@@ -177,7 +184,11 @@ class RepairModelTest {
             count("counters flushed");
             broker.flush();
         } else if (dice < 54) {
-            restartBroker();
+            if (random.nextInt(4) == 0) {
+                moveVolume();
+            } else {
+                restartBroker();
+            }
         } else if (dice < 55 && random.nextInt(3) == 0) {
             count("subscription forgotten");
             broker.forgetSubscription();
@@ -188,6 +199,20 @@ class RepairModelTest {
             turnAway();
         } else {
             broker.pass(random.nextInt(3));
+        }
+    }
+
+    private void moveVolume() {
+        if (broker.isMounted()) {
+            count("unmounted");
+            deliveredBefore = delivered.size();
+            broker.unmount();
+        } else if (broker.isSubscribed()) { // the source polled it meanwhile
+            count("mounted");
+            delivered
+                    .subList(deliveredBefore, delivered.size())
+                    .clear(); // its times may be later than those that count
+            broker.mount();
         }
     }
 

@@ -286,6 +286,30 @@ class SubscriptionReconcilerTest {
         assertThat(topic.values()).hasSize(7);
     }
 
+    /** While the volume is not mounted, a device makes its entity again. */
+    @Test
+    void readsAllEntitiesAgainOnceTheDatabaseIsAnother() throws Exception {
+        put(8);
+        try (ModelSource source = source()) {
+            source.look();
+            broker.pass(3_600_000);
+            source.look();
+            broker.unmount();
+            source.look();
+            broker.put("e1", "Probe", "made again");
+            broker.pass(1000);
+            broker.queue.forEach(source::take);
+            assertThat(topic.values()).containsEntry("e1 Probe", "made again");
+        }
+        broker.mount();
+
+        try (ModelSource source = source()) {
+            source.look();
+        }
+
+        assertThat(topic.values()).hasSize(8).containsEntry("e1 Probe", "v1");
+    }
+
     /** Their times are long before the watermark. */
     @Test
     void readsTheEntitiesAgainThatItDeletedAlsoAfterARestart() throws Exception {
