@@ -203,7 +203,7 @@ class Feeds {
     this.shown = members.flatMap((each, index) => [
       this.feed(each.topic, 'latest', (record) => this.applyReplayed(record), { main: index === 0, forget: (key) => store.forgetEntity(key) }),
       this.feed(`${each.topic}.collision`, 'all', (record) => this.applyResult(record, each.topic, () => store.applyEncounter(record))),
-      this.feed(`${each.topic}.temperature`, 'all', (record) => this.applyResult(record, each.topic, () => store.applyTemperature(record))),
+      this.feed(`${each.topic}.temperature`, 'all', (record) => this.applyResult(record, each.topic, () => store.applyTemperature(record, each.mission))),
     ]);
     this.follow(replay.replay);
     this.readImages();
