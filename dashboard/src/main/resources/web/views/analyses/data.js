@@ -1,6 +1,6 @@
 /** Holds the results of analytics in a period, and updates them: averages, encounters and stays. */
 import { shortId } from '../../core/format.js';
-import { differenceOf, scopeOf, withDifference } from '../../core/identities.js';
+import { differenceOf, fullKey, scopeOf, withDifference } from '../../core/identities.js';
 import { store } from '../../core/store.js';
 import { streams } from '../../core/stream.js';
 import { historyIfAny, readEncounter, union } from '../../timeline/moments.js';
@@ -31,7 +31,7 @@ function readAverage({ value, headers, time }) {
 }
 
 /**
- * @returns {{id: string, device: string, name: string, field: string, fieldName: string, from: number, to: number|null}|null} `to` is null for a stay
+ * @returns {{id: string, identity: Object, device: string, field: string, fieldName: string, from: number, to: number|null}|null} `to` is null for a stay
  *     that continues
  */
 function readStay({ value, headers }) {
@@ -39,10 +39,15 @@ function readStay({ value, headers }) {
   if (value?.type !== 'Analytics:Presence' || typeof of('startTime') !== 'number') {
     return null;
   }
+  const identity = { ...scopeOf(headers), type: String(of('deviceType') ?? ''), id: String(of('device')) };
   return {
-    id: String(of('stay')), device: store.keysOf({ headers }, [String(of('device'))], [of('deviceType')])[0], name: shortId(of('device')), field: String(of('field')), fieldName: String(of('fieldName') ?? of('field')),
+    id: String(of('stay')), identity, device: store.identities.keyOf(identity.id, identity, identity.type), field: String(of('field')), fieldName: String(of('fieldName') ?? of('field')),
     mission: of('Mission') ?? null, from: of('startTime'), to: of('phase') === 'left' ? of('time') : null, epoch: Number(headers?.['replay-epoch'] ?? 0),
   };
+}
+
+function keyOf({ identity }) {
+  return fullKey(identity, identity.type, identity.id);
 }
 
 export class Findings {
@@ -137,7 +142,7 @@ export class Findings {
     const stay = readStay(record);
     if (stay) {
       // after a seek a stay has another id
-      const id = this.replay ? `${stay.device} ${stay.field} ${stay.from}` : stay.id;
+      const id = this.replay ? `${keyOf(stay)} ${stay.field} ${stay.from}` : stay.id;
       const existing = this.staysById.get(id);
       if (!existing || existing.to === null || stay.to !== null) {
         this.staysById.set(id, stay);
@@ -164,8 +169,12 @@ export class Findings {
     return this.encounters.filter((each) => each.end >= from && each.start <= to);
   }
 
+  /** The stays of a period, with the names of their devices. */
   stays(from, to) {
-    return [...this.staysById.values()].filter((each) => each.from <= to && (each.to ?? Infinity) >= from).sort((one, other) => one.from - other.from);
+    const found = [...this.staysById.values()].filter((each) => each.from <= to && (each.to ?? Infinity) >= from).sort((one, other) => one.from - other.from);
+    const devices = [...new Map(found.map((each) => [keyOf(each), each.identity])).values()];
+    const difference = (own) => differenceOf(own, devices.filter(({ id }) => id === own.id));
+    return found.map((each) => ({ ...each, name: withDifference(shortId(each.identity.id), difference(each.identity)) }));
   }
 
   close() {
