@@ -196,7 +196,7 @@ class Feeds {
     const span = store.recordings.get(mission);
     store.setMode({
       kind: 'replay', replay: replay.replay, group, mission, topic, missions: members.map((each) => each.mission),
-      results: Object.fromEntries(store.config.analytics.map((job) => [job, `${topic}.${job}`])),
+      results: Object.fromEntries(store.config.analytics.map((job) => [job, members.map((each) => ({ topic: `${each.topic}.${job}`, mission: each.mission }))])),
       state: 'starting', speed: existing?.speed ?? 1, position: span?.first, from: span?.first, to: span?.last, at: Date.now(), epoch: -1,
     });
     this.epochs = new Map();

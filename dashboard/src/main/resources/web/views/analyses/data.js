@@ -14,18 +14,18 @@ const MAX_RESULTS = 5_000;
  *
  * @typedef {Object} Average
  * @property {string} field @property {string} service @property {string} servicePath of the devices
- * @property {string} line the same for all averages of a field and scope @property {string=} name of the line @property {number} start @property {number} end of the window, epoch ms @property {number} value °C
+ * @property {string} mission of a replay, else empty @property {string} line the same for all averages of a field, scope and mission @property {string=} name of the line @property {number} start @property {number} end of the window, epoch ms @property {number} value °C
  * @property {number} plain mean including suspects @property {number} devices @property {string[]} suspects @property {string} quality
  */
 /** @returns {Average|null} */
-function readAverage({ value, headers, time }) {
+function readAverage({ value, headers, time }, mission) {
   const of = (name) => value?.[name]?.value;
   if (value?.type !== 'Analytics:FieldTemperature' || typeof of('averageTemperature') !== 'number') {
     return null;
   }
   const [field, its] = [String(of('field')), scopeOf(headers)];
   return {
-    field, ...its, line: [field, its.service, its.servicePath].join('\n'), start: of('windowStart') ?? time, end: of('windowEnd') ?? time, value: of('averageTemperature'), plain: of('plainMean'),
+    field, ...its, mission, line: [field, its.service, its.servicePath, mission].join('\n'), start: of('windowStart') ?? time, end: of('windowEnd') ?? time, value: of('averageTemperature'), plain: of('plainMean'),
     devices: of('devices'), suspects: Array.isArray(of('suspects')) ? store.keysOf({ headers }, of('suspects').map(String), of('suspectTypes')) : [], quality: String(of('quality') ?? ''), epoch: Number(headers?.['replay-epoch'] ?? 0),
   };
 }
@@ -52,7 +52,7 @@ function keyOf({ identity }) {
 
 export class Findings {
   /**
-   * @param {{averages: string, encounters: string, stays: string}} topics
+   * @param {{averages: Object[], encounters: Object[], stays: Object[]}} topics `topic` of each, and `mission` of each of a group of replays
    * @param {[number, number]} range epoch ms; later results are included
    * @param {{replay: boolean, changed: function()}} options
    */
@@ -73,10 +73,11 @@ export class Findings {
 
   async load(topics, from) {
     const within = this.replay ? { from: 0 } : { from: Math.floor(from) };
+    const followAll = async (all, range, apply) => Math.max(...await Promise.all(all.map(({ topic, mission }) => this.follow(topic, range, (record) => apply(record, mission)))));
     const [averages, encounters, stays] = await Promise.all([
-      this.follow(topics.averages, within, (record) => this.applyAverage(record)),
-      this.follow(topics.encounters, { ...within, newest: 'encounter' }, (record) => this.applyEncounter(record)),
-      this.follow(topics.stays, { from: Math.max(0, within.from - MAX_STAY), newest: 'stay' }, (record) => this.applyStay(record)),
+      followAll(topics.averages, within, (record, mission) => this.applyAverage(record, mission)),
+      followAll(topics.encounters, { ...within, newest: 'encounter' }, (record) => this.applyEncounter(record)),
+      followAll(topics.stays, { from: Math.max(0, within.from - MAX_STAY), newest: 'stay' }, (record) => this.applyStay(record)),
     ]);
     this.since = { averages, encounters, stays: Math.max(from, stays) };
     this.loading = false;
@@ -111,8 +112,8 @@ export class Findings {
     this.abort.signal.aborted || this.changed();
   }
 
-  applyAverage(record) {
-    const average = readAverage(record);
+  applyAverage(record, mission = '') {
+    const average = readAverage(record, mission);
     if (average && (this.replay || average.end >= this.from)) {
       const key = `${average.line}\n${average.start}`;
       const existing = this.averagesByWindow.get(key);

@@ -274,27 +274,39 @@ class PageRulesIT {
     void showsTheAverageOfEachMissionOfAGroupOfReplays() {
         assertThat(run(REPORT + """
                 const { feeds } = await import('/core/feeds.js');
+                const { Findings } = await import('/views/analyses/data.js');
                 const opened = new Map();
                 const feed = (topic, mode, apply) => opened.set(topic, apply) && { close: () => {} };
                 const shown = Object.assign(Object.create(Object.getPrototypeOf(feeds)), { feed, follow: () => {}, readImages: () => {} });
                 const members = ['hoeing', 'mowing'].map((mission) => ({ replay: `${mission}.1`, mission, topic: `data.${mission}.replay.1`, group: '2' }));
                 const { config, mode } = store;
-                store.config = { ...config, analytics: [] };
+                store.config = { ...config, analytics: ['temperature'] };
                 members.forEach((each) => store.replays.set(each.replay, each));
                 shown.enterReplay(members[0]);
-                const average = (member, value, suspects) => opened.get(`${member.topic}.temperature`)({ time, headers: { 'fiware-service': 'pbfarm' },
+                const record = (value, suspects) => ({ time, headers: { 'fiware-service': 'pbfarm' },
                   value: { type: 'Analytics:FieldTemperature', field: { value: 'pb-g' }, averageTemperature: { value }, suspects: { value: suspects } } });
+                const average = (member, ...values) => opened.get(`${member.topic}.temperature`)(record(...values));
                 report('pb-23', 'Thermometer', 'pbfarm', {});
                 average(members[0], 18, ['pb-23']);
                 const alone = store.averagesOf('pb-g').map(({ difference }) => `alone: ${difference}`);
                 average(members[1], 22, []);
                 const found = store.averagesOf('pb-g').map(({ value, difference }) => `${difference}: ${value}`);
                 const suspect = store.entities.get('pb-23').suspect;
+                const follow = (topic, range, apply) => apply(record(20, [])) ?? 5;
+                const analyses = Object.assign(Object.create(Findings.prototype), { follow, notify: () => {}, replay: true, averagesByWindow: new Map() });
+                await analyses.load({ averages: store.mode.results.temperature, encounters: [], stays: [] }, 5);
                 members.forEach((each) => store.replays.delete(each.replay));
                 store.config = config;
                 store.setMode(mode);
-                return [...alone, ...found, `suspect: ${suspect}`];"""))
-                .containsExactly("alone: ", "hoeing: 18", "mowing: 22", "suspect: true");
+                return [...alone, ...found, `suspect: ${suspect}`, ...analyses.averages(0, 2e12).map(({ name }) => name), `since ${analyses.since.averages}`];"""))
+                .containsExactly(
+                        "alone: ",
+                        "hoeing: 18",
+                        "mowing: 22",
+                        "suspect: true",
+                        "pb-g (hoeing)",
+                        "pb-g (mowing)",
+                        "since 5");
     }
 
     @Test
@@ -309,8 +321,7 @@ class PageRulesIT {
                 stay('pb-24', 'pbother', 'Camera');
                 stay('pb-25', 'pbother', 'Camera');
                 return findings.stays(0, 9).map(({ name }) => name);"""))
-                .containsExactly(
-                        "pb-24 (Robot pbfarm)", "pb-24 (Robot pbother)", "pb-24 (Camera pbother)", "pb-25");
+                .containsExactly("pb-24 (Robot pbfarm)", "pb-24 (Robot pbother)", "pb-24 (Camera pbother)", "pb-25");
     }
 
     /** Before a mission starts: of entities with the id of a device, the one of its type, tenant and service path. */
@@ -326,8 +337,7 @@ class PageRulesIT {
                 store.devices.set('pb-28', { id: 'pb-28', type: 'Robot', service: 'pbfarm', servicePath: '/', wanted: 'stopped' });
                 const checked = checkPlan([{ id: 'pb-26', type: 'Camera' }, { id: 'pb-26', type: 'Pump' }, { id: 'pb-27', type: 'Robot' }, 'pb-27'], 'd', farmNow('m'));
                 store.devices.delete('pb-28');
-                return checked.map(({ name, findings }) => `${name}: ${findings.map(({ values, text }) => values.percent ?? text).find((each) => !['seen', 'silent'].includes(each))}`);"""))
-                .containsExactly("pb-26: 90", "pb-26: made", "pb-27: 90", "pb-27: 90");
+                return checked.map(({ name, findings }) => `${name}: ${findings.map(({ values, text }) => values.percent ?? text).find((each) => !['seen', 'silent'].includes(each))}`);""")).containsExactly("pb-26: 90", "pb-26: made", "pb-27: 90", "pb-27: 90");
     }
 
     @Test
