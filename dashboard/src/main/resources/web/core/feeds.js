@@ -196,14 +196,14 @@ class Feeds {
     const span = store.recordings.get(mission);
     store.setMode({
       kind: 'replay', replay: replay.replay, group, mission, topic, missions: members.map((each) => each.mission),
-      results: Object.fromEntries(store.config.analytics.map((job) => [job, `${topic}.${job}`])),
+      results: Object.fromEntries(store.config.analytics.map((job) => [job, members.map((each) => ({ topic: `${each.topic}.${job}`, mission: each.mission }))])),
       state: 'starting', speed: existing?.speed ?? 1, position: span?.first, from: span?.first, to: span?.last, at: Date.now(), epoch: -1,
     });
     this.epochs = new Map();
     this.shown = members.flatMap((each, index) => [
       this.feed(each.topic, 'latest', (record) => this.applyReplayed(record), { main: index === 0, forget: (key) => store.forgetEntity(key) }),
       this.feed(`${each.topic}.collision`, 'all', (record) => this.applyResult(record, each.topic, () => store.applyEncounter(record))),
-      this.feed(`${each.topic}.temperature`, 'all', (record) => this.applyResult(record, each.topic, () => store.applyTemperature(record))),
+      this.feed(`${each.topic}.temperature`, 'all', (record) => this.applyResult(record, each.topic, () => store.applyTemperature(record, each.mission))),
     ]);
     this.follow(replay.replay);
     this.readImages();

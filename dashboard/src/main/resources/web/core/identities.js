@@ -86,9 +86,9 @@ export class Identities {
   }
 }
 
-/** The type and scope of one of all that share an id, as far as they differ. */
+/** The type, scope and mission of one of all that share an id, as far as they differ. */
 export function differenceOf(own, all) {
-  return ['type', 'service', 'servicePath'].filter((part) => all.some((each) => each[part] !== own[part])).map((part) => own[part]).filter(Boolean).join(' ');
+  return ['type', 'service', 'servicePath', 'mission'].filter((part) => all.some((each) => each[part] !== own[part])).map((part) => own[part]).filter(Boolean).join(' ');
 }
 
 /** A name with the difference, if any, to others with the same id. */

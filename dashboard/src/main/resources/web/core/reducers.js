@@ -145,20 +145,21 @@ export const Reducers = (Base) => class extends Base {
     this.notify('encounters');
   }
 
-  applyTemperature(record) {
+  /** @param {string=} mission of a replay: each mission of a group has its averages */
+  applyTemperature(record, mission = '') {
     const value = record.value;
     const of = (name) => value?.[name]?.value;
     // the field may arrive later, from another topic; devices of several tenants may be in it
     const field = of('field');
     const its = scopeOf(record.headers);
-    const key = fullKey(its, '', field);
+    const key = fullKey(its, mission, field);
     const averages = this.averages.get(field) ?? new Map();
     if (value?.type !== 'Analytics:FieldTemperature' || averages.get(key)?.time > record.time) {
       return;
     }
     const suspects = this.keysOf(record, Array.isArray(of('suspects')) ? of('suspects') : [], of('suspectTypes'));
     this.averages.set(field, averages.set(key, {
-      ...its, value: of('averageTemperature'), count: of('devices'), time: record.time, suspects,
+      ...its, mission, value: of('averageTemperature'), count: of('devices'), time: record.time, suspects,
       verified: of('quality') !== 'unverified', quality: of('quality'), window: [of('windowStart'), of('windowEnd')],
     }));
     averages.forEach((each) => { each.difference = differenceOf(each, [...averages.values()]); });
@@ -176,7 +177,7 @@ export const Reducers = (Base) => class extends Base {
     this.notify('fields');
   }
 
-  /** The averages of a field, one per tenant and service path of its devices. */
+  /** The averages of a field, one per tenant, service path and replayed mission of its devices. */
   averagesOf(field) {
     return [...this.averages.get(field)?.values() ?? []];
   }

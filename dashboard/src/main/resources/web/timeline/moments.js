@@ -1,6 +1,7 @@
 /** Reads encounters and markers of missions. */
 import { api } from '../core/api.js';
 import { shortId } from '../core/format.js';
+import { withDifference } from '../core/identities.js';
 import { store } from '../core/store.js';
 
 /** Encounters of a pair whose starts differ by at most this are the same one, found twice, ms. */
@@ -33,7 +34,7 @@ export function readEncounter(record) {
   const end = Number(of('time') ?? record.time) - ahead;
   const [lon, lat] = [of('Device1_longitude'), of('Device1_latitude')];
   return {
-    id: String(of('encounter') ?? `${a}-${b}-${record.time}`), a, b, phase, pair: ids.map(shortId).join(' – '),
+    id: String(of('encounter') ?? `${a}-${b}-${record.time}`), a, b, phase, pair: [a, b].map((key, i) => withDifference(shortId(ids[i]), store.entities.get(key)?.difference)).join(' – '),
     start: Math.min(end, Number(of('startTime') ?? end) - ahead), end,
     closest: Number(of('minDistance') ?? of('dcpa') ?? of('distance')),
     missions: [of('Device1_Mission'), of('Device2_Mission')].filter((each) => typeof each === 'string'),

@@ -93,7 +93,7 @@ class Analyses extends HTMLElement {
     const replayed = store.isReplay && (store.replays.get(mode.replay)?.analytics?.length ?? 0) > 0;
     const topics = replayed
       ? { averages: mode.results.temperature, encounters: mode.results.collision, stays: mode.results.presence }
-      : { averages: 'data.temperature', encounters: 'data.collision', stays: 'data.presence' };
+      : { averages: [{ topic: 'data.temperature' }], encounters: [{ topic: 'data.collision' }], stays: [{ topic: 'data.presence' }] };
     this.replayed = replayed;
     this.findings = new Findings(topics, this.range, { replay: replayed, changed: () => this.schedule() });
     this.periods.hidden = store.isReplay;

@@ -1,6 +1,6 @@
 /** Holds the results of analytics in a period, and updates them: averages, encounters and stays. */
 import { shortId } from '../../core/format.js';
-import { differenceOf, scopeOf, withDifference } from '../../core/identities.js';
+import { differenceOf, fullKey, scopeOf, withDifference } from '../../core/identities.js';
 import { store } from '../../core/store.js';
 import { streams } from '../../core/stream.js';
 import { historyIfAny, readEncounter, union } from '../../timeline/moments.js';
@@ -14,24 +14,24 @@ const MAX_RESULTS = 5_000;
  *
  * @typedef {Object} Average
  * @property {string} field @property {string} service @property {string} servicePath of the devices
- * @property {string} line the same for all averages of a field and scope @property {string=} name of the line @property {number} start @property {number} end of the window, epoch ms @property {number} value °C
+ * @property {string} mission of a replay, else empty @property {string} line the same for all averages of a field, scope and mission @property {string=} name of the line @property {number} start @property {number} end of the window, epoch ms @property {number} value °C
  * @property {number} plain mean including suspects @property {number} devices @property {string[]} suspects @property {string} quality
  */
 /** @returns {Average|null} */
-function readAverage({ value, headers, time }) {
+function readAverage({ value, headers, time }, mission) {
   const of = (name) => value?.[name]?.value;
   if (value?.type !== 'Analytics:FieldTemperature' || typeof of('averageTemperature') !== 'number') {
     return null;
   }
   const [field, its] = [String(of('field')), scopeOf(headers)];
   return {
-    field, ...its, line: [field, its.service, its.servicePath].join('\n'), start: of('windowStart') ?? time, end: of('windowEnd') ?? time, value: of('averageTemperature'), plain: of('plainMean'),
+    field, ...its, mission, line: [field, its.service, its.servicePath, mission].join('\n'), start: of('windowStart') ?? time, end: of('windowEnd') ?? time, value: of('averageTemperature'), plain: of('plainMean'),
     devices: of('devices'), suspects: Array.isArray(of('suspects')) ? store.keysOf({ headers }, of('suspects').map(String), of('suspectTypes')) : [], quality: String(of('quality') ?? ''), epoch: Number(headers?.['replay-epoch'] ?? 0),
   };
 }
 
 /**
- * @returns {{id: string, device: string, name: string, field: string, fieldName: string, from: number, to: number|null}|null} `to` is null for a stay
+ * @returns {{id: string, identity: Object, device: string, field: string, fieldName: string, from: number, to: number|null}|null} `to` is null for a stay
  *     that continues
  */
 function readStay({ value, headers }) {
@@ -39,15 +39,20 @@ function readStay({ value, headers }) {
   if (value?.type !== 'Analytics:Presence' || typeof of('startTime') !== 'number') {
     return null;
   }
+  const identity = { ...scopeOf(headers), type: String(of('deviceType') ?? ''), id: String(of('device')) };
   return {
-    id: String(of('stay')), device: store.keysOf({ headers }, [String(of('device'))], [of('deviceType')])[0], name: shortId(of('device')), field: String(of('field')), fieldName: String(of('fieldName') ?? of('field')),
+    id: String(of('stay')), identity, device: store.identities.keyOf(identity.id, identity, identity.type), field: String(of('field')), fieldName: String(of('fieldName') ?? of('field')),
     mission: of('Mission') ?? null, from: of('startTime'), to: of('phase') === 'left' ? of('time') : null, epoch: Number(headers?.['replay-epoch'] ?? 0),
   };
 }
 
+function keyOf({ identity }) {
+  return fullKey(identity, identity.type, identity.id);
+}
+
 export class Findings {
   /**
-   * @param {{averages: string, encounters: string, stays: string}} topics
+   * @param {{averages: Object[], encounters: Object[], stays: Object[]}} topics `topic` of each, and `mission` of each of a group of replays
    * @param {[number, number]} range epoch ms; later results are included
    * @param {{replay: boolean, changed: function()}} options
    */
@@ -68,10 +73,11 @@ export class Findings {
 
   async load(topics, from) {
     const within = this.replay ? { from: 0 } : { from: Math.floor(from) };
+    const followAll = async (all, range, apply) => Math.max(...await Promise.all(all.map(({ topic, mission }) => this.follow(topic, range, (record) => apply(record, mission)))));
     const [averages, encounters, stays] = await Promise.all([
-      this.follow(topics.averages, within, (record) => this.applyAverage(record)),
-      this.follow(topics.encounters, { ...within, newest: 'encounter' }, (record) => this.applyEncounter(record)),
-      this.follow(topics.stays, { from: Math.max(0, within.from - MAX_STAY), newest: 'stay' }, (record) => this.applyStay(record)),
+      followAll(topics.averages, within, (record, mission) => this.applyAverage(record, mission)),
+      followAll(topics.encounters, { ...within, newest: 'encounter' }, (record) => this.applyEncounter(record)),
+      followAll(topics.stays, { from: Math.max(0, within.from - MAX_STAY), newest: 'stay' }, (record) => this.applyStay(record)),
     ]);
     this.since = { averages, encounters, stays: Math.max(from, stays) };
     this.loading = false;
@@ -106,8 +112,8 @@ export class Findings {
     this.abort.signal.aborted || this.changed();
   }
 
-  applyAverage(record) {
-    const average = readAverage(record);
+  applyAverage(record, mission = '') {
+    const average = readAverage(record, mission);
     if (average && (this.replay || average.end >= this.from)) {
       const key = `${average.line}\n${average.start}`;
       const existing = this.averagesByWindow.get(key);
@@ -137,7 +143,7 @@ export class Findings {
     const stay = readStay(record);
     if (stay) {
       // after a seek a stay has another id
-      const id = this.replay ? `${stay.device} ${stay.field} ${stay.from}` : stay.id;
+      const id = this.replay ? `${keyOf(stay)} ${stay.field} ${stay.from}` : stay.id;
       const existing = this.staysById.get(id);
       if (!existing || existing.to === null || stay.to !== null) {
         this.staysById.set(id, stay);
@@ -164,8 +170,12 @@ export class Findings {
     return this.encounters.filter((each) => each.end >= from && each.start <= to);
   }
 
+  /** The stays of a period, with the names of their devices. */
   stays(from, to) {
-    return [...this.staysById.values()].filter((each) => each.from <= to && (each.to ?? Infinity) >= from).sort((one, other) => one.from - other.from);
+    const found = [...this.staysById.values()].filter((each) => each.from <= to && (each.to ?? Infinity) >= from).sort((one, other) => one.from - other.from);
+    const devices = [...new Map(found.map((each) => [keyOf(each), each.identity])).values()];
+    const difference = (own) => differenceOf(own, devices.filter(({ id }) => id === own.id));
+    return found.map((each) => ({ ...each, name: withDifference(shortId(each.identity.id), difference(each.identity)) }));
   }
 
   close() {

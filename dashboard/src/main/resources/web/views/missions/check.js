@@ -17,9 +17,10 @@ const ORDER = ['ok', 'unknown', 'warning', 'problem'];
 
 /** The current state of the farm; entities of a replay are not used. */
 export function farmNow(mission) {
-  const entities = new Map(store.isReplay ? [] : store.entities);
-  store.isReplay || store.devices.forEach((each, id) => { const entity = store.entityOf(each); entity && entities.set(id, entity); });
-  return { mission, now: Date.now(), devices: store.devices, missions: store.missions, fields: store.fields, entities };
+  // the devices of all missions have the same tenant and service path
+  const [{ service, servicePath } = {}] = store.devices.values();
+  const entityOf = (device) => (store.isReplay ? undefined : store.entityOf({ service, servicePath, ...device }));
+  return { mission, now: Date.now(), devices: store.devices, missions: store.missions, fields: store.fields, entityOf };
 }
 
 /**
@@ -27,7 +28,7 @@ export function farmNow(mission) {
  *
  * @param {(string|Object)[]} groups of a plan or template
  * @param {string} domain
- * @param {{mission: string|null, now: number, devices: Map, entities: Map, missions: Map, fields: Map}} farm `now` in epoch ms
+ * @param {{mission: string|null, now: number, devices: Map, entityOf: function(Object), missions: Map, fields: Map}} farm `now` in epoch ms
  * @returns {{name: string, findings: Finding[], worst: string}[]} one per device, and one for all devices of a group that do not exist yet
  */
 export function checkPlan(groups, domain, farm) {
@@ -54,7 +55,7 @@ function atStart(group, count) {
 
 function checkDevice(id, group, domain, farm) {
   const listed = farm.devices.get(id);
-  const entity = farm.entities.get(id);
+  const entity = farm.entityOf({ type: group.type, ...listed, id });
   if (!listed && !entity && !group.outside) {
     return withWorst(id, [atStart(group, 1), place(group, null, domain, farm)]);
   }

@@ -24,8 +24,8 @@ class DeviceCheckIT {
                 ['used', { wanted: 'running', mission: 'other', health: { lastSeen: 999999000, battery: 0.9 } }],
                 ['free', { wanted: 'running', mission: 'over', health: { lastSeen: 999999000, battery: 0.9 } }],
                 ['off', { wanted: 'stopped', health: { lastSeen: 1, battery: 0.9 } }]]),
-              entities: new Map(Object.entries({ fit: [1.5, 1.5], silent: [1.5, 1.5], low: [1.5, 1.5], used: [1.5, 1.5], free: [1.5, 1.5], off: [1.5, 1.5], hole: [0.7, 0.7], far: [9, 9] })
-                .map(([id, position]) => [id, { position, heard: ['silent', 'off'].includes(id) ? 1 : 999999000, attributes: { battery: { value: 90 } } }])) }""";
+              entityOf: ({ id }) => new Map(Object.entries({ fit: [1.5, 1.5], silent: [1.5, 1.5], low: [1.5, 1.5], used: [1.5, 1.5], free: [1.5, 1.5], off: [1.5, 1.5], hole: [0.7, 0.7], far: [9, 9] })
+                .map(([id, position]) => [id, { position, heard: ['silent', 'off'].includes(id) ? 1 : 999999000, attributes: { battery: { value: 90 } } }])).get(id) }""";
 
     @Test
     void findsWhatIsWrongWithEachDevice(FarmPage farm) {

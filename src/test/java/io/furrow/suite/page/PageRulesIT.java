@@ -198,8 +198,13 @@ class PageRulesIT {
                 store.applyEncounter(record);
                 const live = [...store.encounters.values()].find(({ a }) => a === 'pb-19');
                 const past = readEncounter(record);
-                return [live.a, live.b, past.a, past.b].map((key) => store.entities.get(key).name);"""))
-                .containsExactly("pb-19 (pbfarm)", "pb-19 (pbother)", "pb-19 (pbfarm)", "pb-19 (pbother)");
+                return [...[live.a, live.b, past.a, past.b].map((key) => store.entities.get(key).name), past.pair];"""))
+                .containsExactly(
+                        "pb-19 (pbfarm)",
+                        "pb-19 (pbother)",
+                        "pb-19 (pbfarm)",
+                        "pb-19 (pbother)",
+                        "pb-19 (pbfarm) – pb-19 (pbother)");
     }
 
     /** Images and results may arrive before their entity, while another entity with the same id is shown. */
@@ -262,6 +267,77 @@ class PageRulesIT {
                         "North (pbother): 22",
                         "North (pbfarm), 18.0 °C, 3, pb-20 (pbfarm)",
                         "North (pbother), 22.0 °C, 3, –");
+    }
+
+    /** The missions of a group are replayed at the same time, and the average of each is that of its own devices. */
+    @Test
+    void showsTheAverageOfEachMissionOfAGroupOfReplays() {
+        assertThat(run(REPORT + """
+                const { feeds } = await import('/core/feeds.js');
+                const { Findings } = await import('/views/analyses/data.js');
+                const opened = new Map();
+                const feed = (topic, mode, apply) => opened.set(topic, apply) && { close: () => {} };
+                const shown = Object.assign(Object.create(Object.getPrototypeOf(feeds)), { feed, follow: () => {}, readImages: () => {} });
+                const members = ['hoeing', 'mowing'].map((mission) => ({ replay: `${mission}.1`, mission, topic: `data.${mission}.replay.1`, group: '2' }));
+                const { config, mode } = store;
+                store.config = { ...config, analytics: ['temperature'] };
+                members.forEach((each) => store.replays.set(each.replay, each));
+                shown.enterReplay(members[0]);
+                const record = (value, suspects) => ({ time, headers: { 'fiware-service': 'pbfarm' },
+                  value: { type: 'Analytics:FieldTemperature', field: { value: 'pb-g' }, averageTemperature: { value }, suspects: { value: suspects } } });
+                const average = (member, ...values) => opened.get(`${member.topic}.temperature`)(record(...values));
+                report('pb-23', 'Thermometer', 'pbfarm', {});
+                average(members[0], 18, ['pb-23']);
+                const alone = store.averagesOf('pb-g').map(({ difference }) => `alone: ${difference}`);
+                average(members[1], 22, []);
+                const found = store.averagesOf('pb-g').map(({ value, difference }) => `${difference}: ${value}`);
+                const suspect = store.entities.get('pb-23').suspect;
+                const follow = (topic, range, apply) => apply(record(20, [])) ?? 5;
+                const analyses = Object.assign(Object.create(Findings.prototype), { follow, notify: () => {}, replay: true, averagesByWindow: new Map() });
+                await analyses.load({ averages: store.mode.results.temperature, encounters: [], stays: [] }, 5);
+                members.forEach((each) => store.replays.delete(each.replay));
+                store.config = config;
+                store.setMode(mode);
+                return [...alone, ...found, `suspect: ${suspect}`, ...analyses.averages(0, 2e12).map(({ name }) => name), `since ${analyses.since.averages}`];"""))
+                .containsExactly(
+                        "alone: ",
+                        "hoeing: 18",
+                        "mowing: 22",
+                        "suspect: true",
+                        "pb-g (hoeing)",
+                        "pb-g (mowing)",
+                        "since 5");
+    }
+
+    @Test
+    void namesTheStaysOfDevicesWithTheSameId() {
+        assertThat(run(REPORT + """
+                const { Findings } = await import('/views/analyses/data.js');
+                const findings = Object.assign(Object.create(Findings.prototype), { replay: true, staysById: new Map() });
+                const stay = (device, tenant, type) => findings.applyStay({ time, headers: { 'fiware-service': tenant }, value: { type: 'Analytics:Presence',
+                  stay: { value: `${tenant}-${type}` }, device: { value: device }, deviceType: { value: type }, field: { value: 'f' }, startTime: { value: 1 } } });
+                stay('pb-24', 'pbfarm', 'Robot');
+                stay('pb-24', 'pbother', 'Robot');
+                stay('pb-24', 'pbother', 'Camera');
+                stay('pb-25', 'pbother', 'Camera');
+                return findings.stays(0, 9).map(({ name }) => name);"""))
+                .containsExactly("pb-24 (Robot pbfarm)", "pb-24 (Robot pbother)", "pb-24 (Camera pbother)", "pb-25");
+    }
+
+    /** Before a mission starts: of entities with the id of a device, the one of its type, tenant and service path. */
+    @Test
+    void checksTheEntityOfAPlannedDevice() {
+        assertThat(run(REPORT + """
+                const { checkPlan, farmNow } = await import('/views/missions/check.js');
+                const battery = (value) => ({ battery: { value } });
+                report('pb-26', 'Robot', 'pbfarm', battery(10));
+                report('pb-26', 'Camera', 'pbfarm', battery(90));
+                report('pb-27', 'Robot', 'pbother', battery(10));
+                report('pb-27', 'Robot', 'pbfarm', battery(90));
+                store.devices.set('pb-28', { id: 'pb-28', type: 'Robot', service: 'pbfarm', servicePath: '/', wanted: 'stopped' });
+                const checked = checkPlan([{ id: 'pb-26', type: 'Camera' }, { id: 'pb-26', type: 'Pump' }, { id: 'pb-27', type: 'Robot' }, 'pb-27'], 'd', farmNow('m'));
+                store.devices.delete('pb-28');
+                return checked.map(({ name, findings }) => `${name}: ${findings.map(({ values, text }) => values.percent ?? text).find((each) => !['seen', 'silent'].includes(each))}`);""")).containsExactly("pb-26: 90", "pb-26: made", "pb-27: 90", "pb-27: 90");
     }
 
     @Test

@@ -24,7 +24,7 @@ final class WatchTopology {
 
     /**
      * @param requestRetention how long ids of requests are stored for deduplication
-     * @param scope of the entities of domains and missions
+     * @param scope of the entities of domains and missions, and of the devices of missions
      */
     static Topology of(Duration requestRetention, WatchOptions options, FiwareScope scope) {
         ManagerTopology topology = new ManagerTopology(requestRetention);
@@ -49,7 +49,7 @@ final class WatchTopology {
 
         KStream<String, byte[]> statuses =
                 topology.observed(Topics.MISSIONS_STATUS, "context-mission-statuses", AutoOffsetReset.earliest());
-        AnalyticsAlarms.addStarts(statuses, types);
+        AnalyticsAlarms.addStarts(statuses, types, scope);
 
         ContextTopology.add(topology, new ContextTopology.Shared(collisions, temperatures, statuses), scope);
 

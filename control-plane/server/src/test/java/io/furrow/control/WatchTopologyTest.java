@@ -14,6 +14,7 @@ import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
@@ -148,6 +149,7 @@ class WatchTopologyTest {
 
     @Test
     void namesMissingDevicesOfAMission() throws Exception {
+        farm.addDesired("t", "Thermometer", true);
         farm.pipe(Topics.MISSIONS_STATUS, "m", status("starting", "[]", "null"));
         assertThat(farm.read(Topics.ALARMS)).isEmpty();
         farm.pipe(
@@ -159,6 +161,11 @@ class WatchTopologyTest {
         assertThat(alarm.path("subject").asText()).isEqualTo("urn:ngsi-ld:Mission:m");
         assertThat(alarm.path("text").asText()).isEqualTo("mission m: 1 of 2 devices is not up: t (why)");
         assertThat(alarm.path("affected").asInt()).isEqualTo(1);
+        assertThat(alarm.path("devices"))
+                .containsExactly(NgsiJson.object()
+                        .put("id", "t")
+                        .put("type", "Thermometer")
+                        .put("service", "farm"));
         farm.pipe(Topics.MISSIONS_STATUS, "m", status("running", "[]", "null"));
         assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("closed");
     }

@@ -15,6 +15,7 @@ import org.apache.kafka.common.header.Header;
 import io.furrow.kafka.KafkaClients;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.result.ResultTypes;
 
 /** A record for the streams of a topic. Encodes key, text and envelope once for all streams. */
 public final class FeedRecord {
@@ -31,6 +32,7 @@ public final class FeedRecord {
     private String text;
     private String envelope;
     private String type;
+    private String id;
 
     /**
      * @param sequence number within the topic; {@link #NO_SEQUENCE} for the initial state
@@ -42,9 +44,14 @@ public final class FeedRecord {
         this.maxValueBytes = maxValueBytes;
     }
 
-    /** A newer record replaces older ones with the same key: {@link #keyWithoutType} and the entity type. */
+    /**
+     * A newer record replaces older ones with the same key: {@link #keyWithoutType}, the entity type, and the entity id
+     * of a result, because the records of two results may have the same key, for instance those of an encounter, of its
+     * prediction and of the encounter with another tenant's device of the same id.
+     */
     public String key() {
-        return type().isEmpty() ? keyWithoutType() : keyWithoutType() + SEPARATOR + type();
+        String typed = type().isEmpty() ? keyWithoutType() : keyWithoutType() + SEPARATOR + type();
+        return ResultTypes.isResult(type()) ? typed + SEPARATOR + id : typed;
     }
 
     /** Tenant, service path and key; partition and offset for a record without a key. */
@@ -78,27 +85,27 @@ public final class FeedRecord {
         if (type == null) {
             type = record.value() == null
                     ? Objects.requireNonNullElse(header(ENTITY_TYPE), "")
-                    : typeOf(record.value());
+                    : readType(record.value());
         }
         return type;
     }
 
-    private static String typeOf(byte[] value) {
-        String type = "";
-        boolean hasId = false;
+    /** Also reads the id. */
+    private String readType(byte[] value) {
+        String read = "";
         try (JsonParser parser = NgsiJson.mapper().createParser(value)) {
             boolean isObject = parser.nextToken() == JsonToken.START_OBJECT;
-            while (isObject && (!hasId || type.isEmpty()) && parser.nextToken() == JsonToken.FIELD_NAME) {
+            while (isObject && (id == null || read.isEmpty()) && parser.nextToken() == JsonToken.FIELD_NAME) {
                 String name = parser.currentName();
                 boolean isText = parser.nextToken() == JsonToken.VALUE_STRING;
-                hasId |= isText && (name.equals("id") || name.equals("entity"));
-                type = isText && name.equals("type") ? parser.getText() : type;
+                id = isText && (name.equals("id") || name.equals("entity")) ? parser.getText() : id;
+                read = isText && name.equals("type") ? parser.getText() : read;
                 parser.skipChildren();
             }
         } catch (IOException e) {
             return ""; // sent as text
         }
-        return hasId ? type : "";
+        return id == null ? "" : read;
     }
 
     private String header(String name) {

@@ -16,6 +16,19 @@ class FeedRecordTest {
         assertThat(key("{'type':'request'}")).isEqualTo(key("{'type':'response'}"));
     }
 
+    @Test
+    void hasAKeyOfItsIdIfTheRecordHasThatOfOtherEntities() {
+        String pair = "'Device1_ID':{'value':'a'},'Device2_ID':{'value':'b'}";
+        String encounter = key("{'id':'Analytics:Collision:1','type':'Analytics:Collision'}");
+
+        assertThat(encounter)
+                .isEqualTo(key("{'type':'Analytics:Collision','id':'Analytics:Collision:1'," + pair + "}"))
+                .as("encounter of another tenant's device")
+                .isNotEqualTo(key("{'id':'Analytics:Collision:2','type':'Analytics:Collision'}"))
+                .as("prediction of the same pair")
+                .isNotEqualTo(key("{'id':'Analytics:Collision:1:predicted','type':'Analytics:Collision'}"));
+    }
+
     private static String key(String json) {
         byte[] value = json.replace('\'', '"').getBytes(UTF_8);
         ConsumerRecord<byte[], byte[]> record = new ConsumerRecord<>("t", 0, 0, "c".getBytes(UTF_8), value);

@@ -3,7 +3,7 @@ package io.furrow.launcher.status;
 import java.time.Duration;
 import java.util.List;
 import java.util.Properties;
-import java.util.function.Consumer;
+import java.util.function.BiConsumer;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
@@ -13,6 +13,8 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.kafka.KafkaClients;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
@@ -22,11 +24,11 @@ final class Results implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(Results.class);
 
     private final KafkaConsumer<byte[], byte[]> consumer;
-    private final Consumer<Entity> listener;
+    private final BiConsumer<Entity, FiwareScope> listener;
     private final Thread thread = new Thread(this::read, "status-results");
 
-    /** @param listener receives each result entity, always on the same thread */
-    Results(Properties client, Consumer<Entity> listener) {
+    /** @param listener receives each result entity and its scope, always on the same thread */
+    Results(Properties client, BiConsumer<Entity, FiwareScope> listener) {
         Properties properties = new Properties();
         properties.putAll(client);
         properties.setProperty("isolation.level", "read_committed");
@@ -58,7 +60,7 @@ final class Results implements AutoCloseable {
 
     private void report(ConsumerRecord<byte[], byte[]> record) {
         try {
-            listener.accept(Entity.parse(record.value()));
+            listener.accept(Entity.parse(record.value()), KafkaClients.scope(record.headers()));
         } catch (UnreadableException e) {
             LOG.warn("{}-{}@{} is not an entity", record.topic(), record.partition(), record.offset(), e);
         }

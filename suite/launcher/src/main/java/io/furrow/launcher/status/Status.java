@@ -19,13 +19,14 @@ import java.util.function.Supplier;
 import org.apache.kafka.clients.admin.Admin;
 
 import io.furrow.launcher.status.JobLag.Lag;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.result.CollisionResult;
 import io.furrow.model.result.FieldResult;
 import io.furrow.model.text.FailureText;
 
 /**
- * The live status: the newest average of each field, collisions as they happen, each job's lag, rate and total of each active topic. On a
+ * The live status: the newest average of each field and scope, collisions as they happen, each job's lag, rate and total of each active topic. On a
  * terminal it is redrawn in place, elsewhere results are printed as lines and the rest every ten seconds.
  */
 public final class Status implements AutoCloseable {
@@ -56,7 +57,7 @@ public final class Status implements AutoCloseable {
     private final JobLag lag;
     private final Results results;
     private final Supplier<Collection<String>> notices;
-    private final Map<String, String> averages = new TreeMap<>();
+    private final Averages averages = new Averages();
     private final Deque<String> collisions = new ArrayDeque<>();
     private long ticks;
 
@@ -98,19 +99,18 @@ public final class Status implements AutoCloseable {
         results.close();
     }
 
-    private synchronized void report(Entity entity) {
+    private synchronized void report(Entity entity, FiwareScope scope) {
         boolean average = entity.type().equals(FieldResult.TEMPERATURE_TYPE);
-        String line = average ? ResultLines.average(entity) : ResultLines.collision(entity);
-        if (average) {
-            averages.put(entity.id(), line);
-        } else if (!CollisionResult.ONGOING.equals(
-                entity.text(CollisionResult.PHASE).orElse(""))) {
+        String line = average ? averages.put(entity, scope) : ResultLines.collision(entity);
+        if (!average) {
+            if (CollisionResult.ONGOING.equals(
+                    entity.text(CollisionResult.PHASE).orElse(""))) {
+                return;
+            }
             collisions.addFirst(line);
             while (collisions.size() > COLLISIONS_SHOWN) {
                 collisions.removeLast();
             }
-        } else {
-            return;
         }
         if (screen == null) {
             out.println((average ? "average   " : "collision ") + line);
@@ -135,7 +135,7 @@ public final class Status implements AutoCloseable {
         }
         boolean inPlace = screen != null;
         return new StatusBlock(
-                inPlace ? List.copyOf(averages.values()) : List.of(),
+                inPlace ? averages.lines() : List.of(),
                 inPlace ? List.copyOf(collisions) : List.of(),
                 waiting,
                 jobs,

@@ -16,6 +16,7 @@ import io.furrow.control.manager.Observer;
 import io.furrow.control.manager.UnitOfWork;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.Fault;
+import io.furrow.model.event.FiwareScope;
 
 /** Adds the processors that raise alarms from results of analytics, statuses of missions and faults of Furrow itself. */
 public final class AnalyticsAlarms {
@@ -67,9 +68,12 @@ public final class AnalyticsAlarms {
                 new Cause(AlarmKind.FAULT, key, Fault.read(value).text(), List.of(), FAULT_VALIDITY), now));
     }
 
-    /** @param statuses the records of {@code service.missions.status}, in a single partition */
-    public static void addStarts(KStream<String, byte[]> statuses, Types types) {
-        add(statuses, "starts", types, (alarms, unit) -> new StartAlarmProcessor(alarms));
+    /**
+     * @param statuses the records of {@code service.missions.status}, in a single partition
+     * @param scope of the devices of missions
+     */
+    public static void addStarts(KStream<String, byte[]> statuses, Types types, FiwareScope scope) {
+        add(statuses, "starts", types, (alarms, unit) -> new StartAlarmProcessor(alarms, types.of(unit), scope));
     }
 
     private static void add(

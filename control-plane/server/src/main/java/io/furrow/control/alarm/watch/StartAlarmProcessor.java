@@ -3,6 +3,7 @@ package io.furrow.control.alarm.watch;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.function.Function;
 
 import org.apache.kafka.streams.processor.api.Record;
 
@@ -13,17 +14,23 @@ import io.furrow.control.manager.Observer;
 import io.furrow.control.mission.MissionState;
 import io.furrow.control.mission.MissionStatus;
 import io.furrow.model.control.AlarmKind;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /** Raises an alarm while devices of a starting or running mission are missing according to its status. */
 final class StartAlarmProcessor implements Observer {
     private final AlarmCommandHandler alarms;
+    private final Function<String, String> types;
+    private final FiwareScope scope;
     /** Reported periodically, because an alarm may ignore a change that follows another one closely. */
     private final Map<String, Cause> causes = new HashMap<>();
 
-    StartAlarmProcessor(AlarmCommandHandler alarms) {
+    /** @param scope of the devices of missions */
+    StartAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types, FiwareScope scope) {
         this.alarms = alarms;
+        this.types = types;
+        this.scope = scope;
     }
 
     @Override
@@ -49,9 +56,10 @@ final class StartAlarmProcessor implements Observer {
         causes.values().forEach(cause -> alarms.report(cause, null, now));
     }
 
-    private static Cause cause(String mission, MissionStatus status) {
+    private Cause cause(String mission, MissionStatus status) {
         List<Cause.AffectedDevice> some = status.missing().stream()
-                .map(device -> new Cause.AffectedDevice(device.id(), null, null, null))
+                .map(MissionStatus.Missing::id)
+                .map(id -> Cause.AffectedDevice.of(id, types.apply(scope.identity(id)), scope))
                 .toList();
         return Cause.ofMany(
                 AlarmKind.MISSING_DEVICES,
