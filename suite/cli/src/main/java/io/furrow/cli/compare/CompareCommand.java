@@ -117,6 +117,11 @@ public final class CompareCommand implements Callable<Integer> {
         Properties client = KafkaClient.settings(kafka, kafkaProperties);
         try (ResultReader reader = new ResultReader(client)) {
             Comparison comparison = compare(reader, range);
+            if (comparison.isEmpty()) {
+                throw new CommandException(
+                        "Nothing was compared: neither %s nor %s has a result there. Check --from and --to, or wait for analytics."
+                                .formatted(comparison.a().name(), comparison.b().name()));
+            }
             if (html != null) {
                 Files.writeString(html, ComparisonHtml.of(comparison));
             }
