@@ -72,7 +72,7 @@ public final class MissionsResource {
     public CompletionStage<Response> create(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
         return manager.request(request, "create", JsonBodyReader.read(body))
-                .thenApply(answer -> JsonResponses.created(answer, "missions", MISSION));
+                .thenApply(answer -> JsonResponses.created(request, answer, "missions", MISSION));
     }
 
     /**

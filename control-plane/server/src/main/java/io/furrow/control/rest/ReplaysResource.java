@@ -56,8 +56,8 @@ public final class ReplaysResource {
             throws IOException {
         return manager.request(request, "start", JsonBodyReader.read(body))
                 .thenApply(answer -> answer.json().has(GROUP)
-                        ? JsonResponses.created(answer, "replays/groups", GROUP)
-                        : JsonResponses.created(answer, "replays", REPLAY));
+                        ? JsonResponses.created(request, answer, "replays/groups", GROUP)
+                        : JsonResponses.created(request, answer, "replays", REPLAY));
     }
 
     /**
