@@ -29,7 +29,7 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
     private static final String DEVICES =
-            "[{\"type\":\"Thermometer\",\"count\":2,\"simulated\":true},{\"type\":\"Robot\",\"id\":\"robot-2\"},\"urn:own:3\"]";
+            "[{\"type\":\"Thermometer\",\"count\":2,\"simulated\":true,\"period\":\"PT0.5S\"},{\"type\":\"Robot\",\"id\":\"robot-2\"},\"urn:own:3\"]";
 
     private RunningApi running;
     private ApiClient client;
