@@ -110,7 +110,7 @@ public final class ReplaysResource {
     }
 
     private CompletionStage<Response> stop(ContainerRequestContext request, ObjectNode members) {
-        return manager.request(request, "stop", members).thenApply(answer -> JsonResponses.of(answer.as("stopped")));
+        return manager.request(request, "stop", members).thenApply(answer -> JsonResponses.of(answer.after("stop")));
     }
 
     /** @param command as for a single replay, except {@code step} */

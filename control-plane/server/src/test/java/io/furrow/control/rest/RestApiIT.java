@@ -168,6 +168,9 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
     @Test
     void handlesTheLifeCycleOfAMission() throws Exception {
         client.send("POST", "/api/domains", "{\"domain\":\"west\"}");
+        JsonNode later = client.ask(
+                "POST", "/api/missions/later/start", "{\"domain\":\"west\",\"start\":\"2999-01-01T00:00:00Z\"}");
+        assertThat(later.path("status").asText()).isEqualTo("scheduled");
         String mission = "{\"mission\":\"tilling\",\"domain\":\"west\",\"devices\":%s}".formatted(DEVICES);
         assertThat(client.status("POST", "/api/missions", mission)).isEqualTo(201);
         assertThat(running.get("/api/missions/tilling").at("/status/state").asText())
@@ -291,9 +294,6 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
         assertThat(running.get("/api/audit?device=urn:nobody")).isEmpty();
     }
 
-    @Test
-    void describesItself() throws Exception {
-        client.send("POST", "/api/domains", "{\"domain\":\"counted\"}");
     /** The tag of a compressed answer has a suffix, which no client knows to remove. */
     @Test
     void compressesAnswersButNoEvents() throws Exception {
@@ -315,6 +315,10 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
         assertThat(new String(events.body(), UTF_8)).startsWith(":");
     }
 
+    @Test
+    void describesItself() throws Exception {
+        client.send("POST", "/api/domains", "{\"domain\":\"counted\"}");
+        client.send("POST", "/api/domains?dryRun=true", "{\"domain\":\"not-counted\"}");
         assertThat(running.get("/openapi.json"))
                 .isEqualTo(NgsiJson.read(NgsiJson.write(OpenApiDocument.read().json())));
         assertThat(running.get("/api/alarms?state=open")).isEmpty();
@@ -323,7 +327,8 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
                 .contains(
                         "furrow_control_view_complete 1",
                         "path=\"/api/alarms\"",
-                        "furrow_control_answers_total{manager=\"service.domainmanager\",status=\"created\"}");
+                        "furrow_control_answers_total{manager=\"service.domainmanager\",status=\"created\"}",
+                        "furrow_control_answers_total{manager=\"service.domainmanager\",status=\"dry-run\"}");
     }
 
     /** The manager of alarms is not running here. */
