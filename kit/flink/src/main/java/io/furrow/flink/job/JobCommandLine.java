@@ -81,7 +81,7 @@ public final class JobCommandLine {
         CommandLine line = new CommandLine(command);
         // Set on the root, inherited by every subcommand.
         return line.setCaseInsensitiveEnumValuesAllowed(true)
-                .setUsageHelpWidth(100)
+                .setUsageHelpWidth(columns(System.getenv("COLUMNS")))
                 .setUsageHelpLongOptionsMaxWidth(36)
                 .registerConverter(Duration.class, new DurationConverter())
                 .registerConverter(Delivery.class, JobCommandLine::delivery)
@@ -94,6 +94,13 @@ public final class JobCommandLine {
                     }
                     throw failure;
                 });
+    }
+
+    /** @param terminal its number of columns; null where the output is none */
+    static int columns(String terminal) {
+        return terminal == null || !terminal.matches("[1-9][0-9]{0,4}")
+                ? COLUMNS
+                : Math.max(MIN_COLUMNS, Math.min(Integer.parseInt(terminal), MAX_COLUMNS));
     }
 
     public static Delivery delivery(String text) {
@@ -117,7 +124,7 @@ public final class JobCommandLine {
         };
     }
 
-    /** Prints one sentence and a hint at the help, rather than the whole usage. */
+    /** Prints one sentence and a hint at the help, rather than the whole usage, except where a command is missing. */
     private static int explain(ParameterException refused, String[] args) {
         CommandLine line = refused.getCommandLine();
         if (refused.getMessage().equals(NO_COMMAND)) {
