@@ -44,7 +44,13 @@ public final class AlarmCommandGroup extends CommandGroup {
         ALL;
 
         String query() {
-            return this == ALL ? "" : "&state=" + name().toLowerCase(Locale.ROOT);
+            return this == ALL ? "" : "&state=" + this;
+        }
+
+        /** As it is written on the command line, and in REST. */
+        @Override
+        public String toString() {
+            return name().toLowerCase(Locale.ROOT);
         }
     }
 
