@@ -32,11 +32,11 @@ class MissionControlTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
-            created  | –
+            created  | -
             starting | 2
             running  | 2
-            stopping | –
-            stopped  | –
+            stopping | -
+            stopped  | -
             """)
     void listsHowManyDevicesAreUpWhileAMissionRuns(String state, String up) {
         answer = "{\"missions\":[{\"mission\":\"m\",\"domain\":\"d\",\"deviceCount\":5,\"status\":"
@@ -44,11 +44,28 @@ class MissionControlTest {
 
         assertThat(run("mission", "list")).isZero();
 
-        assertThat(output.toString()).containsPattern("m +d +– +%s +%s +5 +–".formatted(state, up));
+        assertThat(output.toString()).containsPattern("m +d +- +%s +%s +5 +-".formatted(state, up));
         assertThat(requested).containsExactly("GET /api/missions");
     }
 
     private int run(String... arguments) {
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+            a new mission needs a member 'domain'       | a new mission needs --domain (code)
+            'duration' must be such as PT1H             | --duration must be such as PT1H (code)
+            'template' must be 'a' or 'b'               | --template must be 'a' or 'b' (code)
+            the request needs a member 'count'          | the request needs a member 'count' (code)
+            there is no domain 'domain'                 | there is no domain 'domain' (code)
+            """)
+    void namesOptionsWhereTheControlPlaneNamesMembers(String reason, String sentence) {
+        status = 400;
+        answer = "{\"error\":\"code\",\"reason\":\"%s\"}".formatted(reason);
+
+        assertThat(run("mission", "start", "m")).isEqualTo(1);
+
+        assertThat(output.toString()).isEqualToIgnoringNewLines(sentence);
+    }
+
         CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"), Commands.ALL);
         line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
         List<String> all = new ArrayList<>(List.of(arguments));
