@@ -21,13 +21,14 @@ import static org.assertj.core.api.Assertions.assertThat;
 class MissionControlTest {
     private final StringWriter output = new StringWriter();
     private final List<String> requested = new ArrayList<>();
+    private int status = 200;
     private String answer = "{}";
 
     @AutoClose
     private final StubServer control = new StubServer(exchange -> {
         String body = new String(exchange.getRequestBody().readAllBytes(), UTF_8);
         requested.add((exchange.getRequestMethod() + " " + exchange.getRequestURI() + " " + body).trim());
-        StubServer.answer(exchange, 200, answer);
+        StubServer.answer(exchange, status, answer);
     });
 
     @ParameterizedTest
@@ -48,7 +49,6 @@ class MissionControlTest {
         assertThat(requested).containsExactly("GET /api/missions");
     }
 
-    private int run(String... arguments) {
     @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
             a new mission needs a member 'domain'       | a new mission needs --domain (code)
@@ -66,6 +66,7 @@ class MissionControlTest {
         assertThat(output.toString()).isEqualToIgnoringNewLines(sentence);
     }
 
+    private int run(String... arguments) {
         CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"), Commands.ALL);
         line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
         List<String> all = new ArrayList<>(List.of(arguments));
