@@ -34,6 +34,24 @@ class AuditTopicTest {
                         + "'reason':'there is no mission \\'m\\''}".replace("\\'", "\u0001")));
     }
 
+    /** The answers on the topics are created and deleted. */
+    @Test
+    void recordsStartsAndStopsByTheirEffect() throws Exception {
+        long later = ManagerFixture.START.toEpochMilli() + 60_000;
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
+        farm.request(Topics.MISSION_MANAGER, "'command':'start','mission':'m','domain':'north'");
+        farm.request(Topics.MISSION_MANAGER, "'command':'stop','mission':'m'");
+        farm.request(Topics.MISSION_MANAGER, "'command':'start','mission':'m','start':" + later);
+        farm.request(Topics.MISSION_MANAGER, "'command':'stop','mission':'m','dryRun':true");
+        farm.request(Topics.MISSION_MANAGER, "'command':'delete','mission':'m'");
+
+        List<JsonNode> entries = entries();
+        assertThat(entries)
+                .extracting(entry -> entry.path("result").asText())
+                .containsExactly("created", "started", "stopped", "scheduled", "dry-run", "deleted");
+        assertThat(entries.get(3).at("/about/start").asLong()).isEqualTo(later);
+    }
+
     @Test
     void recordsARepeatedCommandOnce() throws Exception {
         for (int i = 0; i < 3; i++) {

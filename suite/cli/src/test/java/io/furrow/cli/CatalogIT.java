@@ -105,7 +105,7 @@ class CatalogIT {
                     .isEqualTo(
                             "[{\"domain\":\"north\",\"mission\":\"weeding\",\"entities\":1,\"images\":2,\"bytes\":2000}]");
             assertThat(output(command).lines())
-                    .anyMatch(line -> line.matches("weeding +2 +.*2023-11-14T22:13:20Z +2023-11-14T22:14:20Z +– .*"))
+                    .anyMatch(line -> line.matches("weeding +2 +.*2023-11-14T22:13:20Z +2023-11-14T22:14:20Z +- .*"))
                     .anyMatch(line -> line.matches("north / weeding +1 +2 +2.0 kB"));
 
             client.getDatabase("persistence").getCollection("mission_weeding").drop();

@@ -7,6 +7,7 @@ import java.util.stream.Stream;
 import picocli.AutoComplete.GenerateCompletion;
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
+import picocli.CommandLine.HelpCommand;
 import picocli.CommandLine.IExecutionStrategy;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
@@ -81,6 +82,7 @@ public final class Furrow {
         if (replay != null && (args.length < 2 || !replay.getSubcommands().containsKey(args[1]))) {
             replay.addSubcommand(new AnalyticsCommand());
         }
+        furrow.addSubcommand(new HelpCommand());
         furrow.addSubcommand(new GenerateCompletion());
         furrow.getCommandSpec().version(Version.TEXT);
         IExecutionStrategy strategy = furrow.getExecutionStrategy();

@@ -40,6 +40,7 @@ class ArchiveScriptTest {
         Files.writeString(jdk.resolve("release"), "IMPLEMENTOR=\"x\"\nJAVA_VERSION=\"17.0.15\"\n");
         program(jdk.resolve("bin/java"), """
                 echo "$*" >>"$(dirname "$0")/calls"
+                echo "${COLUMNS-none}" >"$(dirname "$0")/columns"
                 for word; do case $word in
                     -XX:ArchiveClassesAtExit=*) echo x >"${word#*=}" ;;
                     -XX:SharedArchiveFile=*) case $* in *-Xshare:dump*) echo x >"${word#*=}" ;; esac ;;
@@ -115,11 +116,38 @@ class ArchiveScriptTest {
         assertThat(jdk.resolve("bin/calls")).doesNotExist();
     }
 
+    /** In a pipe, too, a shell may have a number of columns that is that of its terminal. */
+    @Test
+    void tellsJavaTheColumnsOfItsTerminalOnly() throws Exception {
+        run("bin/furrow", "mission", "list");
+        assertThat(jdk.resolve("bin/columns")).hasContent("none");
+
+        program(
+                directory.resolve("at-a-terminal"),
+                "stty cols 77\nexec '%s' mission list\n".formatted(home.resolve("furrow")));
+        run(new ProcessBuilder(
+                "script", "-qec", directory.resolve("at-a-terminal").toString(), "/dev/null"));
+        assertThat(jdk.resolve("bin/columns")).hasContent("77");
+    }
+
+    @Test
+    void namesTheVariableThatLeadsToNoJava() throws Exception {
+        jdk = directory.resolve("nowhere");
+
+        assertThat(run("furrow", "mission", "list"))
+                .startsWith("JAVA_HOME is %s, where no Java is.".formatted(jdk))
+                .hasLineCount(1);
+    }
+
     /** What it wrote to the terminal. */
     private String run(String script, String... arguments) throws Exception {
         List<String> command = new ArrayList<>(List.of(home.resolve(script).toString()));
         command.addAll(List.of(arguments));
-        ProcessBuilder builder = new ProcessBuilder(command);
+        return run(new ProcessBuilder(command));
+    }
+
+    private String run(ProcessBuilder builder) throws Exception {
+        builder.environment().put("COLUMNS", "50");
         builder.environment().put("JAVA_HOME", jdk.toString());
         builder.environment().remove("FURROW_OPTS");
         builder.environment().remove("HADOOP_CLASSPATH");

@@ -21,7 +21,7 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param command name of the command; null if unreadable
  * @param about members of the command that are strings, numbers or booleans, for instance mission and device, and the
  *     counts and names of the answer
- * @param result status of the answer, {@code error} if it was rejected or failed; {@code dry-run} if nothing was changed
+ * @param result what the command did, {@code error} if it was rejected or failed; {@code dry-run} if nothing was changed
  * @param error code of the error; null if none
  * @param reason of the error, a sentence; null if none
  * @param requestId null if it has none
@@ -57,7 +57,8 @@ public record AuditEntry(
             }
         }
         JsonNode user = about.remove(USER);
-        JsonNode command = about.remove("command");
+        JsonNode named = about.remove("command");
+        String command = named == null ? null : named.asText();
         about.remove("requestId");
         about.remove("type");
         addEffects(about, answer.json());
@@ -65,9 +66,9 @@ public record AuditEntry(
                 now,
                 user == null || user.asText().isBlank() ? KAFKA : user.asText(),
                 topic,
-                command == null ? null : command.asText(),
+                command,
                 about,
-                answer.isDryRun() && answer.error().isEmpty() ? "dry-run" : answer.status(),
+                answer.after(command).outcome(),
                 answer.error().orElse(null),
                 answer.json().path("reason").textValue(),
                 answer.requestId().orElse(null));

@@ -76,7 +76,7 @@ public final class DomainCommandHandler implements CommandHandler<DomainCommand>
         if (domains.contains(create.domain())) {
             throw new RejectedException(
                     ErrorCode.DOMAIN_EXISTS,
-                    "domain '%s' exists already; use 'change' to change it".formatted(create.domain()));
+                    "domain '%s' exists already; change it instead".formatted(create.domain()));
         }
         store(null, Domain.of(create.domain(), create.details(), now, sequence.next()));
         return about(create.domain(), "created");

@@ -110,7 +110,7 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
         int desired = begin > now ? 0 : devices.assign(mission, now);
         MissionStatus before = status == null ? MissionStatus.created(mission, now) : status;
         store(mission, begin > now ? before.scheduled(mission, now) : before.started(mission, desired, timeout, now));
-        return created(mission);
+        return begin > now ? created(mission).with("start", begin) : created(mission);
     }
 
     private CommandResult addDevices(MissionCommand.AddDevices add) throws RejectedException {

@@ -52,7 +52,7 @@ public final class DomainsResource {
     public CompletionStage<Response> create(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
         return manager.request(request, "create", JsonBodyReader.read(body))
-                .thenApply(answer -> JsonResponses.created(answer, "domains", DOMAIN));
+                .thenApply(answer -> JsonResponses.created(request, answer, "domains", DOMAIN));
     }
 
     @GET

@@ -6,6 +6,7 @@ import java.util.stream.Stream;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.ws.rs.container.ContainerRequestContext;
 import jakarta.ws.rs.core.EntityTag;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
@@ -53,7 +54,7 @@ final class JsonResponses {
      * @param path of the collection, relative to the request because of proxies
      * @param member with the name
      */
-    static Response created(CommandResult answer, String path, String member) {
+    static Response created(ContainerRequestContext request, CommandResult answer, String path, String member) {
         if (answer.error().isPresent()) {
             return of(answer);
         }
@@ -61,9 +62,14 @@ final class JsonResponses {
         if (answer.isDryRun()) {
             return created.build();
         }
-        URI location = UriBuilder.fromPath(path)
-                .segment(answer.json().path(member).asText())
+        return created.location(
+                        location(request, path, answer.json().path(member).asText()))
                 .build();
-        return created.location(location).build();
+    }
+
+    /** Returns the location of a resource of a collection, which a request may have written with a slash at its end. */
+    static URI location(ContainerRequestContext request, String path, String name) {
+        boolean inside = request.getUriInfo().getRequestUri().getRawPath().endsWith("/");
+        return UriBuilder.fromPath(inside ? "../" + path : path).segment(name).build();
     }
 }

@@ -2,7 +2,6 @@ package io.furrow.control.rest;
 
 import java.io.IOException;
 import java.io.InputStream;
-import java.net.URI;
 import java.nio.charset.StandardCharsets;
 import java.time.DateTimeException;
 import java.time.Instant;
@@ -79,7 +78,7 @@ public final class MarkersResource {
         return store.request(markers -> added(markers, marker)).handle((added, failure) -> {
             audit(change, "created", failure);
             return JsonResponses.json(201, added.toJson())
-                    .location(URI.create("markers/" + id))
+                    .location(JsonResponses.location(request, "markers", id))
                     .build();
         });
     }

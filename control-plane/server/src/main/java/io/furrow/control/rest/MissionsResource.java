@@ -72,7 +72,7 @@ public final class MissionsResource {
     public CompletionStage<Response> create(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
         return manager.request(request, "create", JsonBodyReader.read(body))
-                .thenApply(answer -> JsonResponses.created(answer, "missions", MISSION));
+                .thenApply(answer -> JsonResponses.created(request, answer, "missions", MISSION));
     }
 
     /**
@@ -148,7 +148,7 @@ public final class MissionsResource {
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission, InputStream body)
             throws IOException {
         return manager.request(request, "start", JsonBodyReader.read(body).put(MISSION, mission))
-                .thenApply(answer -> JsonResponses.of(answer.as("started")));
+                .thenApply(answer -> JsonResponses.of(answer.after("start")));
     }
 
     @POST
@@ -156,7 +156,7 @@ public final class MissionsResource {
     public CompletionStage<Response> stop(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission) {
         return manager.request(request, "stop", named(mission))
-                .thenApply(answer -> JsonResponses.of(answer.as("stopped")));
+                .thenApply(answer -> JsonResponses.of(answer.after("stop")));
     }
 
     private ObjectNode withStatus(ObjectNode desired) {

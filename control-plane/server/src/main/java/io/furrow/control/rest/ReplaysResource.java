@@ -56,8 +56,8 @@ public final class ReplaysResource {
             throws IOException {
         return manager.request(request, "start", JsonBodyReader.read(body))
                 .thenApply(answer -> answer.json().has(GROUP)
-                        ? JsonResponses.created(answer, "replays/groups", GROUP)
-                        : JsonResponses.created(answer, "replays", REPLAY));
+                        ? JsonResponses.created(request, answer, "replays/groups", GROUP)
+                        : JsonResponses.created(request, answer, "replays", REPLAY));
     }
 
     /**
@@ -110,7 +110,7 @@ public final class ReplaysResource {
     }
 
     private CompletionStage<Response> stop(ContainerRequestContext request, ObjectNode members) {
-        return manager.request(request, "stop", members).thenApply(answer -> JsonResponses.of(answer.as("stopped")));
+        return manager.request(request, "stop", members).thenApply(answer -> JsonResponses.of(answer.after("stop")));
     }
 
     /** @param command as for a single replay, except {@code step} */

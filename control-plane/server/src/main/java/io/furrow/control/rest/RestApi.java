@@ -18,6 +18,7 @@ import org.eclipse.jetty.server.Response;
 import org.eclipse.jetty.server.Server;
 import org.eclipse.jetty.server.ServerConnector;
 import org.eclipse.jetty.server.SslConnectionFactory;
+import org.eclipse.jetty.server.handler.gzip.GzipHandler;
 import org.eclipse.jetty.util.Callback;
 import org.eclipse.jetty.util.thread.QueuedThreadPool;
 import org.glassfish.jersey.internal.inject.AbstractBinder;
@@ -61,6 +62,7 @@ public final class RestApi implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(RestApi.class);
     private static final int THREADS = 32;
     private static final long STOP_TIMEOUT_MS = 2000;
+    private static final int MIN_COMPRESSED_BYTES = 1024;
 
     private final QueuedThreadPool threads = new QueuedThreadPool(THREADS, 2);
     private final StateView view = new StateView();
@@ -214,13 +216,16 @@ public final class RestApi implements AutoCloseable {
         AccessRule rule = AccessRule.allowing(rest.allowed(), OptionNames.FLAGS)
                 .servedAs(rest.host())
                 .withProbes("/health", "/ready");
+        GzipHandler compressed = new GzipHandler(context);
+        compressed.setMinGzipSize(MIN_COMPRESSED_BYTES);
+        compressed.setIncludedMethods("GET", "POST", "PATCH", "DELETE"); // of these it restores the tag in If-Match
         // Applies to requests with tokens too, because a page may have one that its user entered.
         server.setHandler(new AccessHandler(
                 rule,
                 ProblemDetails.TYPE,
                 rejection -> ProblemDetails.of(
                         HttpStatus.FORBIDDEN_403, CommandResult.ofError(rejection.error(), rejection.reason())),
-                context));
+                compressed));
         try {
             server.start();
         } catch (Exception e) { // Jetty declares no narrower type

@@ -57,7 +57,7 @@ public final class TemplatesResource {
     public CompletionStage<Response> save(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
         return manager.request(request, "save-template", JsonBodyReader.read(body))
-                .thenApply(answer -> JsonResponses.created(answer, "templates", TEMPLATE));
+                .thenApply(answer -> JsonResponses.created(request, answer, "templates", TEMPLATE));
     }
 
     /** @param name {@code <name>} for the newest, or {@code <name>@<version>} */

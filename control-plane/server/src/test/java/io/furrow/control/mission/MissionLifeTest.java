@@ -205,8 +205,12 @@ class MissionLifeTest {
     @Test
     void startsAtItsDateAndStopsAfterItsDuration() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
-        farm.request(new MissionCommand.Start(
-                "m", "north", FarmFixture.devices(group("Camera", 1)), date, Duration.ofSeconds(5)));
+        assertThat(farm.request(new MissionCommand.Start(
+                                "m", "north", FarmFixture.devices(group("Camera", 1)), date, Duration.ofSeconds(5)))
+                        .json()
+                        .path("start")
+                        .asLong())
+                .isEqualTo(date.toEpochMilli());
         assertThat(farm.status("m").state()).isEqualTo(MissionState.CREATED);
         farm.pass(9_999);
         assertThat(farm.all(farm.devices)).isEmpty();

@@ -1,5 +1,9 @@
 package io.furrow.control.rest;
 
+import java.net.URI;
+
+import org.glassfish.jersey.internal.MapPropertiesDelegate;
+import org.glassfish.jersey.server.ContainerRequest;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.control.CommandResult;
@@ -7,14 +11,22 @@ import io.furrow.model.control.CommandResult;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class JsonResponsesTest {
+    private static final CommandResult CREATED = CommandResult.of("created").with("domain", "north");
+
     @Test
     void locatesACreatedResourceExceptThatOfADryRun() {
-        CommandResult created = CommandResult.of("created").with("domain", "north");
+        assertThat(location("api/domains", CREATED)).isEqualTo(URI.create("http://farm/api/domains/north"));
+        assertThat(location("api/domains/", CREATED)).isEqualTo(URI.create("http://farm/api/domains/north"));
+        assertThat(location("api/domains", CREATED.ofDryRun())).isNull();
+    }
 
-        assertThat(JsonResponses.created(created, "/api/domains", "domain").getLocation())
-                .hasToString("/api/domains/north");
-        assertThat(JsonResponses.created(created.ofDryRun(), "/api/domains", "domain")
-                        .getLocation())
-                .isNull();
+    /** As a client resolves it. */
+    private static URI location(String path, CommandResult answer) {
+        URI base = URI.create("http://farm/");
+        ContainerRequest request =
+                new ContainerRequest(base, base.resolve(path), "POST", null, new MapPropertiesDelegate(), null);
+        URI location =
+                JsonResponses.created(request, answer, "domains", "domain").getLocation();
+        return location == null ? null : request.getRequestUri().resolve(location);
     }
 }

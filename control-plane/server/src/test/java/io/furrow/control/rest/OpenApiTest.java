@@ -73,6 +73,25 @@ class OpenApiTest {
                 .hasSameSizeAs(OpenApiDocument.read().operations());
     }
 
+    /** The format duration, which is that of RFC 3339, has no parts of a second. */
+    @Test
+    void describesPeriodsBelowASecond() throws Exception {
+        assertThat(OpenApiDocument.read().json().findValues("period"))
+                .hasSize(2)
+                .allMatch(period -> "PT0.5S".matches(period.path("pattern").asText("none")));
+    }
+
+    /** Without a manager nothing remembers the key of a request. */
+    @Test
+    void describesTheIdempotencyKeyWhereItIsKept() throws Exception {
+        JsonNode paths = OpenApiDocument.read().json().path("paths");
+        for (String path :
+                new String[] {"/api/fields", "/api/fields/{field}", "/api/missions/{mission}/markers/{marker}"}) {
+            assertThat(paths.path(path).toString()).as(path).doesNotContain("IdempotencyKey");
+        }
+        assertThat(paths.path("/api/domains").toString()).contains("IdempotencyKey");
+    }
+
     /** Public operations have no role. */
     @Test
     void describesTheRequiredRoles() throws Exception {

@@ -20,6 +20,7 @@ import io.furrow.kafka.ComponentStatus;
 import io.furrow.kafka.Readiness;
 import io.furrow.model.ngsi.NgsiJson;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -28,7 +29,7 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
     private static final String DEVICES =
-            "[{\"type\":\"Thermometer\",\"count\":2,\"simulated\":true},{\"type\":\"Robot\",\"id\":\"robot-2\"},\"urn:own:3\"]";
+            "[{\"type\":\"Thermometer\",\"count\":2,\"simulated\":true,\"period\":\"PT0.5S\"},{\"type\":\"Robot\",\"id\":\"robot-2\"},\"urn:own:3\"]";
 
     private RunningApi running;
     private ApiClient client;
@@ -167,6 +168,9 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
     @Test
     void handlesTheLifeCycleOfAMission() throws Exception {
         client.send("POST", "/api/domains", "{\"domain\":\"west\"}");
+        JsonNode later = client.ask(
+                "POST", "/api/missions/later/start", "{\"domain\":\"west\",\"start\":\"2999-01-01T00:00:00Z\"}");
+        assertThat(later.path("status").asText()).isEqualTo("scheduled");
         String mission = "{\"mission\":\"tilling\",\"domain\":\"west\",\"devices\":%s}".formatted(DEVICES);
         assertThat(client.status("POST", "/api/missions", mission)).isEqualTo(201);
         assertThat(running.get("/api/missions/tilling").at("/status/state").asText())
@@ -290,9 +294,31 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
         assertThat(running.get("/api/audit?device=urn:nobody")).isEmpty();
     }
 
+    /** The tag of a compressed answer has a suffix, which no client knows to remove. */
+    @Test
+    void compressesAnswersButNoEvents() throws Exception {
+        String path = "/api/domains/compressed";
+        client.send(
+                "POST",
+                "/api/domains",
+                "{\"domain\":\"compressed\",\"description\":\"%s\"}".formatted("wet ".repeat(500)));
+
+        HttpResponse<byte[]> answer = client.send("GET", path, null, false, "Accept-Encoding", "gzip");
+        assertThat(answer.headers().firstValue("Content-Encoding")).contains("gzip");
+        assertThat(answer.body()).hasSizeLessThan(1000);
+        String tag = answer.headers().firstValue("ETag").orElseThrow();
+        assertThat(client.status("PATCH", path, "{\"name\":\"a\"}", "If-Match", tag))
+                .isEqualTo(200);
+        assertThat(client.status("PATCH", path, "{\"name\":\"b\"}", "If-Match", tag))
+                .isEqualTo(412);
+        HttpResponse<byte[]> events = client.send("GET", "/api/events/missions", null, "Accept-Encoding", "gzip");
+        assertThat(new String(events.body(), UTF_8)).startsWith(":");
+    }
+
     @Test
     void describesItself() throws Exception {
         client.send("POST", "/api/domains", "{\"domain\":\"counted\"}");
+        client.send("POST", "/api/domains?dryRun=true", "{\"domain\":\"not-counted\"}");
         assertThat(running.get("/openapi.json"))
                 .isEqualTo(NgsiJson.read(NgsiJson.write(OpenApiDocument.read().json())));
         assertThat(running.get("/api/alarms?state=open")).isEmpty();
@@ -301,7 +327,8 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
                 .contains(
                         "furrow_control_view_complete 1",
                         "path=\"/api/alarms\"",
-                        "furrow_control_answers_total{manager=\"service.domainmanager\",status=\"created\"}");
+                        "furrow_control_answers_total{manager=\"service.domainmanager\",status=\"created\"}",
+                        "furrow_control_answers_total{manager=\"service.domainmanager\",status=\"dry-run\"}");
     }
 
     /** The manager of alarms is not running here. */

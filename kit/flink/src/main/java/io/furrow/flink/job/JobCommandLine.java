@@ -8,9 +8,17 @@ import picocli.CommandLine;
 import picocli.CommandLine.ExecutionException;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.TypeConversionException;
+import picocli.CommandLine.UnmatchedArgumentException;
 
 /** The command line of a job jar: a root command with one subcommand per job. */
 public final class JobCommandLine {
+    /** As picocli says it. */
+    private static final String NO_COMMAND = "Missing required subcommand";
+
+    private static final int COLUMNS = 100;
+    private static final int MIN_COLUMNS = 60;
+    private static final int MAX_COLUMNS = 120;
+
     private JobCommandLine() {}
 
     /** Starts the job of the parsed options. */
@@ -55,7 +63,7 @@ public final class JobCommandLine {
             CommandLine last =
                     parsed.asCommandLineList().get(parsed.asCommandLineList().size() - 1);
             if (!(last.getCommand() instanceof JobOptions options)) {
-                throw new ParameterException(last, "Missing required subcommand");
+                throw new ParameterException(last, NO_COMMAND);
             }
             try {
                 starter.start(options);
@@ -73,7 +81,7 @@ public final class JobCommandLine {
         CommandLine line = new CommandLine(command);
         // Set on the root, inherited by every subcommand.
         return line.setCaseInsensitiveEnumValuesAllowed(true)
-                .setUsageHelpWidth(100)
+                .setUsageHelpWidth(columns(System.getenv("COLUMNS")))
                 .setUsageHelpLongOptionsMaxWidth(36)
                 .registerConverter(Duration.class, new DurationConverter())
                 .registerConverter(Delivery.class, JobCommandLine::delivery)
@@ -86,6 +94,13 @@ public final class JobCommandLine {
                     }
                     throw failure;
                 });
+    }
+
+    /** @param terminal its number of columns; null where the output is none */
+    static int columns(String terminal) {
+        return terminal == null || !terminal.matches("[1-9][0-9]{0,4}")
+                ? COLUMNS
+                : Math.max(MIN_COLUMNS, Math.min(Integer.parseInt(terminal), MAX_COLUMNS));
     }
 
     public static Delivery delivery(String text) {
@@ -109,11 +124,16 @@ public final class JobCommandLine {
         };
     }
 
-    /** Prints one sentence and a hint at the help, rather than the whole usage. */
+    /** Prints one sentence and a hint at the help, rather than the whole usage, except where a command is missing. */
     private static int explain(ParameterException refused, String[] args) {
         CommandLine line = refused.getCommandLine();
-        line.getErr().println(refused.getMessage());
-        line.getErr().println("See: " + line.getCommandSpec().qualifiedName() + " --help");
+        if (refused.getMessage().equals(NO_COMMAND)) {
+            line.usage(line.getErr());
+        } else {
+            line.getErr().println(refused.getMessage());
+            UnmatchedArgumentException.printSuggestions(refused, line.getErr());
+            line.getErr().println("See: " + line.getCommandSpec().qualifiedName() + " --help");
+        }
         return line.getCommandSpec().exitCodeOnInvalidInput();
     }
 }

@@ -39,9 +39,16 @@ public record CommandResult(ObjectNode json) {
         return of(ERROR).with("error", error).with("reason", reason);
     }
 
-    /** Returns a copy with another status; unchanged if it is an error. */
-    public CommandResult as(String status) {
-        return error().isPresent() ? this : with("status", status);
+    /**
+     * Returns a copy whose status is what the command did: on their topics the managers answer a start with
+     * {@code created} and a stop with {@code deleted}.
+     */
+    public CommandResult after(String command) {
+        return switch (command + " " + status()) {
+            case "start created" -> with("status", json.has("start") ? "scheduled" : "started");
+            case "stop deleted" -> with("status", "stopped");
+            default -> this;
+        };
     }
 
     /** Returns a copy with one more member; unchanged for null. */
@@ -71,6 +78,11 @@ public record CommandResult(ObjectNode json) {
     /** Returns the answer to a request; the id may be null. */
     public CommandResult to(String requestId) {
         return with(REQUEST_ID, requestId);
+    }
+
+    /** Returns the status, or {@code dry-run} of what was accepted and changed nothing. */
+    public String outcome() {
+        return isDryRun() && error().isEmpty() ? "dry-run" : status();
     }
 
     public String status() {

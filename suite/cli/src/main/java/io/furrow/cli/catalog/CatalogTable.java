@@ -64,7 +64,7 @@ public final class CatalogTable {
     static String place(JsonNode entry) {
         String domain = entry.path("domain").asText();
         String mission = entry.path("mission").asText();
-        return (domain.isEmpty() ? "–" : domain) + " / " + (mission.isEmpty() ? "–" : mission);
+        return (domain.isEmpty() ? "-" : domain) + " / " + (mission.isEmpty() ? "-" : mission);
     }
 
     private static String second(JsonNode json, String name) {

@@ -32,7 +32,7 @@ public final class StoredTable {
                     one.path("last").asText(),
                     one.has("retentionSeconds")
                             ? retention(one.path("retentionSeconds").asLong())
-                            : "–",
+                            : "-",
                     String.join(", ", indexes)));
         }
         return table;

@@ -5,6 +5,7 @@ import java.io.PrintWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.Locale;
 import java.util.OptionalLong;
 import java.util.Properties;
 import java.util.concurrent.Callable;
@@ -38,7 +39,13 @@ public final class CompareCommand implements Callable<Integer> {
 
     private enum Format {
         TABLE,
-        JSON
+        JSON;
+
+        /** As it is written on the command line. */
+        @Override
+        public String toString() {
+            return name().toLowerCase(Locale.ROOT);
+        }
     }
 
     @Spec
@@ -117,6 +124,11 @@ public final class CompareCommand implements Callable<Integer> {
         Properties client = KafkaClient.settings(kafka, kafkaProperties);
         try (ResultReader reader = new ResultReader(client)) {
             Comparison comparison = compare(reader, range);
+            if (comparison.isEmpty()) {
+                throw new CommandException(
+                        "Nothing was compared: neither %s nor %s has a result there. Check --from and --to, or wait for analytics."
+                                .formatted(comparison.a().name(), comparison.b().name()));
+            }
             if (html != null) {
                 Files.writeString(html, ComparisonHtml.of(comparison));
             }

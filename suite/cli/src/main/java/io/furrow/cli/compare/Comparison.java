@@ -26,13 +26,13 @@ record Comparison(SideResults a, SideResults b, TimeRange range, Map<ResultKind,
             matches.put(
                     kind,
                     all.stream()
-                            .filter(match -> match.a() != null && match.b() != null || !isEmpty(match.either()))
+                            .filter(match -> match.a() != null && match.b() != null || !hasNoReadings(match.either()))
                             .toList());
         }
         return new Comparison(a, b, range, Map.copyOf(matches));
     }
 
-    private static boolean isEmpty(AnalyticsResult span) {
+    private static boolean hasNoReadings(AnalyticsResult span) {
         return span instanceof Average average && average.isEmpty();
     }
 
@@ -41,6 +41,11 @@ record Comparison(SideResults a, SideResults b, TimeRange range, Map<ResultKind,
                 .filter(span -> span instanceof Average window ? range.contains(window) : range.overlaps(span))
                 .map(span -> oneScope ? span.of(span.subject().anyScope()) : span)
                 .toList();
+    }
+
+    /** Whether neither side has a result within the range. */
+    boolean isEmpty() {
+        return matches.values().stream().allMatch(List::isEmpty);
     }
 
     boolean isSame() {

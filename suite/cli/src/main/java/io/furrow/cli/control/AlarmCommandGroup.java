@@ -25,7 +25,7 @@ import io.furrow.cli.option.CommandGroup;
 public final class AlarmCommandGroup extends CommandGroup {
     private static final String ALARMS = "/api/alarms";
     private static final int MAX_LISTED = 9999;
-    private static final ControlTable TABLE = new ControlTable("There is no such alarm.")
+    private static final ControlTable TABLE = new ControlTable("There are no such alarms.")
             .text("ALARM", "/alarm")
             .text("SEVERITY", "/severity")
             .text("STATE", "/state")
@@ -44,7 +44,13 @@ public final class AlarmCommandGroup extends CommandGroup {
         ALL;
 
         String query() {
-            return this == ALL ? "" : "&state=" + name().toLowerCase(Locale.ROOT);
+            return this == ALL ? "" : "&state=" + this;
+        }
+
+        /** As it is written on the command line, and in REST. */
+        @Override
+        public String toString() {
+            return name().toLowerCase(Locale.ROOT);
         }
     }
 

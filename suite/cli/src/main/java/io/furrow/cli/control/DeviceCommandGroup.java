@@ -50,7 +50,7 @@ public final class DeviceCommandGroup extends CommandGroup {
                 .collect(Collectors.joining("&"));
         return control.show(
                 query.isEmpty() ? DEVICES : DEVICES + "?" + query,
-                new ControlTable("There is no such device.")
+                new ControlTable("There are no such devices.")
                         .text("DEVICE", "/id")
                         .text("TYPE", "/type")
                         .text("MISSION", "/mission")

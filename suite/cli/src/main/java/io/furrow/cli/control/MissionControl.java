@@ -68,10 +68,16 @@ public class MissionControl extends CommandGroup {
                         .text("DOMAIN", "/domain")
                         .text("TEMPLATE", "/template")
                         .text("STATE", "/status/state")
-                        .text("UP", "/status/confirmed")
-                        .text("DEVICES", "/status/devices")
+                        .text("UP", MissionControl::up)
+                        .text("DEVICES", "/deviceCount")
                         .time("SINCE", "/status/since")
                         .text("REASON", "/status/reason"));
+    }
+
+    /** Otherwise the devices in the desired state are those that have stopped. */
+    private static JsonNode up(JsonNode mission) {
+        String state = mission.at("/status/state").asText();
+        return mission.at(state.equals("starting") || state.equals("running") ? "/status/confirmed" : "/none");
     }
 
     @Command(name = "show", description = "Shows one mission: its state, missing devices and why they are missing.")

@@ -3,6 +3,7 @@ package io.furrow.cli.field;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.Locale;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import picocli.CommandLine.Model.CommandSpec;
@@ -17,7 +18,13 @@ import io.furrow.model.ngsi.NgsiJson;
 public final class FieldsOptions {
     private enum Output {
         TABLE,
-        JSON
+        JSON;
+
+        /** As it is written on the command line. */
+        @Override
+        public String toString() {
+            return name().toLowerCase(Locale.ROOT);
+        }
     }
 
     @Spec(Spec.Target.MIXEE)

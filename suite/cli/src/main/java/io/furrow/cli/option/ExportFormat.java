@@ -3,6 +3,7 @@ package io.furrow.cli.option;
 import java.io.IOException;
 import java.io.OutputStream;
 import java.util.List;
+import java.util.Locale;
 import java.util.Optional;
 import java.util.function.LongConsumer;
 
@@ -41,6 +42,12 @@ public enum ExportFormat {
      * @param missions its store
      */
     public record Source(StoredMissions missions, String mongo, String mission) {}
+
+    /** As it is written on the command line. */
+    @Override
+    public String toString() {
+        return name().toLowerCase(Locale.ROOT);
+    }
 
     public ExportResult write(Source source, OutputStream out, LongConsumer progress) throws IOException {
         if (export == null) {

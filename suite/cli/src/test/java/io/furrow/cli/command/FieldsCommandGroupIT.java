@@ -69,7 +69,7 @@ class FieldsCommandGroupIT {
 
         assertThat(output(0, "import", first, "--valid-from", "2026-03-01T00:00:00Z"))
                 .contains("WGS 84 → WGS 84")
-                .containsPattern("added +a +Field a +– +[\\d.]+")
+                .containsPattern("added +a +Field a +- +[\\d.]+")
                 .contains("Written: 2 added, 0 changed, 0 unchanged, 0 ended, 0 refused");
         assertThat(output(0, "import", first, "--valid-from", "2026-03-02T00:00:00Z"))
                 .contains("2 unchanged");
@@ -95,7 +95,7 @@ class FieldsCommandGroupIT {
         assertThat(ids("list", "--at", "2026-03-01T00:00:00Z")).containsExactly("a", "b");
         assertThat(ids("list")).containsExactly("b", "c");
         assertThat(ids("list", "--versions")).containsExactly("a", "a", "b", "b", "c");
-        assertThat(output(0, "list", "--versions")).containsPattern("a +– +– +2026-03-31T22:00:00Z +ends");
+        assertThat(output(0, "list", "--versions")).containsPattern("a +- +- +2026-03-31T22:00:00Z +ends");
 
         String broken = file(FEATURE.formatted("d e", "0.01"), FEATURE.formatted("f", "0.01"));
         assertThat(output(1, "import", broken, "--replace")).contains("REFUSED", "d e", "Not written");
@@ -114,8 +114,8 @@ class FieldsCommandGroupIT {
 
         String whole = file(FEATURE.formatted("new", "0.01"));
         assertThat(output(0, "import", whole, "--replace", "--dry-run"))
-                .containsPattern("ended +of-north +Field of-north +north +– +–")
-                .containsPattern("ended +of-none +Field of-none +– +– +–")
+                .containsPattern("ended +of-north +Field of-north +north +- +-")
+                .containsPattern("ended +of-none +Field of-none +- +- +-")
                 .contains("3 ended (a-domain-with-a-name-that-is-longer-than-any-column 1, no domain 1, north 1)");
         assertThat(output(0, "import", whole, "--domain", "north", "--replace")).contains("1 ended (north 1)");
         assertThat(output(0, "import", whole, "--domain", "south"))

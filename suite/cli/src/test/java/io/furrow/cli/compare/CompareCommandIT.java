@@ -121,11 +121,14 @@ class CompareCommandIT {
         assertThat(run(output, "weeding.0000000a", "live")).isEqualTo(2);
         assertThat(run(output, "weeding.0000000a", "weeding.0000000a")).isEqualTo(2);
         assertThat(run(output, "weeding.0000000a", "weeding.0000000c")).isEqualTo(2);
+        assertThat(run(output, "weeding.0000000b", "live", "--from", "2026-04-01T00:00:00Z", "--to", "1777000000000"))
+                .isEqualTo(2);
         assertThat(output.toString())
                 .contains(
                         "say which part of it with --from and --to",
                         "A and B are the same; name two",
-                        "There is no topic");
+                        "There is no topic",
+                        "Nothing was compared: neither weeding.0000000b nor live has a result there.");
     }
 
     private static int run(StringWriter output, String... args) {

@@ -133,7 +133,7 @@ class ControlCommandsIT {
         assertThat(run("mission", "create", "weeding", "--domain", "farm", "--devices", devices.toString()))
                 .contains("created: mission weeding");
         await().untilAsserted(() ->
-                assertThat(run("mission", "list", "--domain", "farm")).containsPattern("weeding +farm +– +created"));
+                assertThat(run("mission", "list", "--domain", "farm")).containsPattern("weeding +farm +- +created"));
         run("mission", "start", "weeding", "--at", Long.toString(System.currentTimeMillis()));
         assertThat(run("mission", "watch", "weeding", "--until", "starting")).contains("starting", "0/1 devices");
         assertThat(run("device", "list", "--mission", "weeding")).contains("urn:ngsi-ld:Robot:7", "running");

@@ -74,7 +74,7 @@ class ReplayCommandGroupTest {
 
         run("replay", "list");
 
-        assertThat(output.toString()).containsPattern("m\\.0a1b2c3d  –      " + shown + " +–");
+        assertThat(output.toString()).containsPattern("m\\.0a1b2c3d  -      " + shown + " +-");
     }
 
     @Test

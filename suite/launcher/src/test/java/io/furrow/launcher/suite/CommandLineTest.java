@@ -36,6 +36,7 @@ class CommandLineTest {
     @ParameterizedTest
     @CsvSource({
         "--help, demo",
+        "help mission, watch",
         "--version, furrow",
         "init --help, FILE",
         "demo --help, --kafka-port",
@@ -302,6 +303,31 @@ class CommandLineTest {
     @Test
     void rejectsAnUnknownOptionInOneSentence() {
         assertThat(refusal("demo", "--orin", "x")).contains("Unknown options: '--orin', 'x'", "furrow demo --help");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+            missions list          | Did you mean: furrow mission
+            mission lists          | Did you mean: mission list
+            mission list --ouput=x | Possible solutions: --output
+            ``                     | dead-letters
+            mission                | add-devices
+            """)
+    void leadsToTheRightCommand(String arguments, String lead) {
+        String[] words = arguments.equals("``") ? new String[0] : arguments.split(" ");
+
+        assertThat(furrow.execute(words)).isEqualTo(2);
+
+        assertThat(err.toString()).contains(lead).doesNotContain("Missing required");
+    }
+
+    @Test
+    void completesValuesAsTheyAreWritten() {
+        assertThat(furrow.execute("generate-completion")).isZero();
+
+        assertThat(out.toString())
+                .contains("(\"table\" \"json\"", "(\"open\" \"acknowledged\"")
+                .doesNotContain("\"TABLE\"", "\"OPEN\"", "\"JSONL\"");
     }
 
     @ParameterizedTest

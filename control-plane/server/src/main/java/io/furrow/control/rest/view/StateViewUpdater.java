@@ -203,7 +203,7 @@ public final class StateViewUpdater implements AutoCloseable {
             return;
         }
         if (view.isComplete()) {
-            answers.count(record.topic(), answer.status());
+            answers.count(record.topic(), answer.outcome());
         }
         answer.requestId().ifPresent(id -> {
             PendingReplies.Key key = new PendingReplies.Key(record.topic(), id);

@@ -5,9 +5,11 @@ import java.io.IOException;
 import java.io.InputStream;
 import java.io.InputStreamReader;
 import java.io.OutputStream;
+import java.net.ConnectException;
 import java.net.HttpURLConnection;
 import java.net.URI;
 import java.net.URLEncoder;
+import java.net.UnknownHostException;
 import java.util.Objects;
 import java.util.UUID;
 import java.util.concurrent.TimeUnit;
@@ -87,10 +89,10 @@ public final class ControlApi {
      * @throws ControlPlaneException if it is unavailable or refuses
      */
     public String text(String path, String type) {
-        return new String(answer("GET", path, null, type), UTF_8);
+        return new String(answer("GET", path, null, type).body(), UTF_8);
     }
 
-    private byte[] answer(String method, String path, JsonNode body, String accept) {
+    private Answer answer(String method, String path, JsonNode body, String accept) {
         String key = method.equals("GET") ? null : UUID.randomUUID().toString();
         Answer answer = exchange(method, path, body, accept, key);
         for (int attempt = 1; answer.status() == NOT_READY && attempt < ATTEMPTS; attempt++) {
@@ -98,9 +100,9 @@ public final class ControlApi {
             answer = exchange(method, path, body, accept, key);
         }
         if (answer.status() / 100 == 2) {
-            return answer.body();
+            return answer;
         }
-        JsonNode json = read(answer.body());
+        JsonNode json = read(answer);
         String reason = json.path("reason").asText("it answers " + answer.status());
         if (answer.status() == NO_TOKEN) {
             throw new ControlPlaneException(
@@ -179,15 +181,18 @@ public final class ControlApi {
     }
 
     private ControlPlaneException failure(IOException e) {
-        return e instanceof SSLException
-                ? new ControlPlaneException(
-                        "The control plane at %s cannot be trusted (%s). Name the certificate of its CA with --api-ca."
-                                .formatted(base, FailureText.of(e)),
-                        e)
-                : new ControlPlaneException(
-                        "No control plane answers at %s. Is it running? ./furrow up starts one; --api names another."
-                                .formatted(base),
-                        e);
+        String why = FailureText.of(e);
+        String sentence;
+        if (e instanceof SSLException) {
+            sentence = "The control plane at %s cannot be trusted (%s). Name the certificate of its CA with --api-ca.";
+        } else if (e instanceof UnknownHostException) {
+            sentence = "No control plane is at %s: %s. Check --api.";
+        } else if (e instanceof ConnectException || "Connect timed out".equals(e.getMessage())) {
+            sentence = "No control plane answers at %s. Is it running? ./furrow up starts one; --api names another.";
+        } else {
+            sentence = "The control plane at %s has not answered (%s). It may have carried a command out.";
+        }
+        return new ControlPlaneException(sentence.formatted(base, why), e);
     }
 
     private static void sleep(String seconds) {
@@ -199,11 +204,14 @@ public final class ControlApi {
         }
     }
 
-    private JsonNode read(byte[] body) {
+    private JsonNode read(Answer answer) {
         try {
-            return body.length == 0 ? MissingNode.getInstance() : NgsiJson.read(body);
+            return answer.body().length == 0 ? MissingNode.getInstance() : NgsiJson.read(answer.body());
         } catch (UnreadableException e) {
-            throw new ControlPlaneException(base + " answers what is not JSON: is it a control plane? Check --api.", e);
+            throw new ControlPlaneException(
+                    "%s answers %d and what is not JSON: is it a control plane? Check --api, or what is between."
+                            .formatted(base, answer.status()),
+                    e);
         }
     }
 }

@@ -5,8 +5,11 @@ import java.io.PrintWriter;
 import java.net.URI;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.Locale;
 import java.util.Map;
 import java.util.function.Function;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
 import java.util.stream.Collectors;
 import javax.net.ssl.SSLContext;
 
@@ -30,8 +33,16 @@ public final class ControlOptions {
         TABLE,
         JSON,
         CSV,
-        ENV
+        ENV;
+
+        /** As it is written on the command line. */
+        @Override
+        public String toString() {
+            return name().toLowerCase(Locale.ROOT);
+        }
     }
+
+    private static final Pattern MEMBER = Pattern.compile("(?:\\ba member |^)'(\\w+)'");
 
     @Spec(Spec.Target.MIXEE)
     private CommandSpec spec;
@@ -167,11 +178,19 @@ public final class ControlOptions {
             out().flush();
             return 0;
         } catch (ControlPlaneException e) {
-            spec.commandLine().getErr().println(e.getMessage());
+            spec.commandLine().getErr().println(inOptions(e.getMessage()));
         } catch (IOException e) {
             spec.commandLine().getErr().println("cannot read or write: " + FailureText.of(e));
         }
         return spec.commandLine().getCommandSpec().exitCodeOnExecutionException();
+    }
+
+    /** Names the option where the control plane names the member of the request that was made of it. */
+    private String inOptions(String message) {
+        return MEMBER.matcher(message).replaceAll(named -> {
+            String option = "--" + named.group(1).replaceAll("([A-Z])", "-$1").toLowerCase(Locale.ROOT);
+            return Matcher.quoteReplacement(spec.findOption(option) == null ? named.group() : option);
+        });
     }
 
     /** Rejects the arguments of a command. */

@@ -98,7 +98,7 @@ public final class ControlTable {
 
     private String cell(Column column, JsonNode row) {
         JsonNode value = column.value().apply(row);
-        return value.isMissingNode() || value.isNull() ? "–" : cell(column.kind(), value);
+        return value.isMissingNode() || value.isNull() ? "-" : cell(column.kind(), value);
     }
 
     private static JsonNode first(List<JsonPointer> places, JsonNode row) {

@@ -51,7 +51,7 @@ public final class DeadLetterTable {
 
     private static String text(JsonNode letter, String member) {
         JsonNode value = letter.path(member);
-        return value.isMissingNode() || value.isNull() ? "–" : ControlTable.printable(ControlTable.textOf(value));
+        return value.isMissingNode() || value.isNull() ? "-" : ControlTable.printable(ControlTable.textOf(value));
     }
 
     /** A letter with its headers and its value. */

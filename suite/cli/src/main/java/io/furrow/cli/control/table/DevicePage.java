@@ -140,7 +140,7 @@ public final class DevicePage {
     }
 
     private static String text(JsonNode name) {
-        return name.asText().isEmpty() ? "–" : name.asText();
+        return name.asText().isEmpty() ? "-" : name.asText();
     }
 
     private void add(String label, String value) {

@@ -34,12 +34,11 @@ public final class MissionPage {
         }
         String since = status.has("since") ? " since " + page.ago(status.path("since")) : "";
         page.add("State", status.path("state").asText("not known") + since + PageLines.reason(status.path("reason")));
-        page.add(
-                "Devices",
-                "%d of %d are up"
-                        .formatted(
-                                status.path("confirmed").asInt(),
-                                status.path("devices").asInt()));
+        switch (status.path("state").asText()) {
+            case "starting", "running" -> devices("up");
+            case "stopping" -> devices("stopped");
+            default -> {} // the counts are those of a stop, or of none
+        }
         for (JsonNode missing : status.path("missing")) {
             page.add("Missing", missing.path("id").asText() + PageLines.reason(missing.path("reason")));
         }
@@ -49,6 +48,16 @@ public final class MissionPage {
         mission.path("devices").forEach(this::group);
         time("Created", mission.path("created"));
         return page.all();
+    }
+
+    private void devices(String as) {
+        page.add(
+                "Devices",
+                "%d of %d are %s"
+                        .formatted(
+                                status.path("confirmed").asInt(),
+                                status.path("devices").asInt(),
+                                as));
     }
 
     private void time(String label, JsonNode time) {

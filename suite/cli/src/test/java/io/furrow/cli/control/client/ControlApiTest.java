@@ -1,14 +1,17 @@
 package io.furrow.cli.control.client;
 
+import java.net.URI;
 import java.util.List;
 import java.util.concurrent.CopyOnWriteArrayList;
 
+import com.sun.net.httpserver.HttpExchange;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.stub.StubServer;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.catchThrowable;
 
 class ControlApiTest {
     /** Proxies refuse a request whose length is unknown. */
@@ -31,5 +34,25 @@ class ControlApiTest {
         }
 
         assertThat(received).containsExactly("POST 2 application/json {}", "DELETE null null ");
+    }
+
+    @Test
+    void distinguishesWhyThereIsNoAnswer() {
+        try (StubServer lost = new StubServer(HttpExchange::close);
+                StubServer proxy = new StubServer(exchange -> StubServer.answer(exchange, 413, "<html>"))) {
+            assertThat(failure(lost.uri("")))
+                    .startsWith("The control plane at %s has not answered (".formatted(lost.uri("")))
+                    .endsWith(" It may have carried a command out.");
+            assertThat(failure(proxy.uri(""))).startsWith(proxy.uri("") + " answers 413 and what is not JSON");
+        }
+        assertThat(failure(URI.create("http://no-such-host.invalid")))
+                .isEqualTo(
+                        "No control plane is at http://no-such-host.invalid: there is no host of this name. Check --api.");
+        assertThat(failure(URI.create("http://127.0.0.1:1"))).startsWith("No control plane answers at ");
+    }
+
+    private static String failure(URI api) {
+        return catchThrowable(() -> new ControlApi(api, null).send("POST", "/api/missions/m/stop", null))
+                .getMessage();
     }
 }

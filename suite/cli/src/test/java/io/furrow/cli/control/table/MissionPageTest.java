@@ -1,8 +1,11 @@
 package io.furrow.cli.control.table;
 
 import java.time.Instant;
+import java.util.List;
 
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.model.ngsi.NgsiJson;
 
@@ -33,5 +36,23 @@ class MissionPageTest {
                         "Group:          urn:r:1 of type Robot, real, carriedBy g",
                         "Group:          3 devices of type Thermometer, simulated, period PT10S",
                         "Created:        2026-11-26T08:00:00Z (4h ago)");
+    }
+
+    /** After a stop they are counted that have stopped. */
+    @ParameterizedTest
+    @CsvSource(nullValues = "-", textBlock = """
+            created,  -
+            running,  Devices:        3 of 5 are up
+            stopping, Devices:        3 of 5 are stopped
+            stopped,  -
+            failed,   -
+            """)
+    void countsDevicesOnlyWhileTheyStartRunOrStop(String state, String line) throws Exception {
+        String mission =
+                "{\"mission\":\"m\",\"domain\":\"d\",\"status\":{\"state\":\"%s\",\"devices\":5,\"confirmed\":3}}";
+
+        assertThat(MissionPage.of(NgsiJson.mapper().readTree(mission.formatted(state)), NOW))
+                .filteredOn(each -> each.startsWith("Devices"))
+                .isEqualTo(line == null ? List.of() : List.of(line));
     }
 }
