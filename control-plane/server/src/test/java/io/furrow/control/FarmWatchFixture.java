@@ -76,6 +76,12 @@ final class FarmWatchFixture implements AutoCloseable {
         temperature(field, 18, List.of(), List.of(), "unverified");
     }
 
+    void temperatureOfAClockAhead(String field, Duration ahead) {
+        now = now.plus(ahead);
+        temperature(field, 18, List.of());
+        now = now.minus(ahead);
+    }
+
     private byte[] temperature(
             String field, double average, List<String> suspects, List<String> types, String quality) {
         EntityBuilder entity = Entity.builder("Analytics:FieldTemperature:" + field, "Analytics:FieldTemperature")

@@ -66,6 +66,22 @@ class SensorAlarmsTest {
     }
 
     @Test
+    void goesOnWhenTheClockIsSetBack() throws Exception {
+        farm.temperatureOfAClockAhead("f", Duration.ofHours(3));
+        pipeSuspectWindows(3);
+        assertThat(farm.all(Topics.ALARMS)).hasSize(1);
+    }
+
+    @Test
+    void ignoresWindowsBeforeOneOfAClockSlightlyAhead() throws Exception {
+        farm.temperatureOfAClockAhead("f", Duration.ofSeconds(45));
+        pipeSuspectWindows(4);
+        assertThat(farm.read(Topics.ALARMS)).isEmpty();
+        pipeSuspectWindows(1);
+        assertThat(farm.all(Topics.ALARMS)).hasSize(1);
+    }
+
+    @Test
     void countsWindowsPerEntityType() throws Exception {
         for (int window = 0; window < 4; window++) {
             farm.temperature("f", 18, List.of(THERMOMETER), List.of(window % 2 == 0 ? "Thermometer" : "Station"));

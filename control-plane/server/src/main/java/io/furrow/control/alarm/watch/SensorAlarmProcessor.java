@@ -17,6 +17,7 @@ import io.furrow.model.control.AlarmKind;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.time.Elapsed;
 
 /**
  * Raises an alarm for a sensor that was excluded in three consecutive windows, because a single window may exclude a
@@ -28,12 +29,15 @@ final class SensorAlarmProcessor implements Observer {
     /** Streaks of a field without windows for this time are discarded. */
     private static final Duration MAX_IDLE = Duration.ofDays(1);
 
+    /** A window may end this much later than the clock, because devices have clocks too. */
+    private static final Duration MAX_AHEAD = Duration.ofMinutes(1);
+
     private static final long CLEARING_INTERVAL = Duration.ofHours(1).toMillis();
 
     private final AlarmCommandHandler alarms;
     private final Function<String, String> types;
     private final Table<SuspectStreaks> streaks;
-    private long nextClearing;
+    private long cleared;
 
     SensorAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types, Table<SuspectStreaks> streaks) {
         this.alarms = alarms;
@@ -48,7 +52,7 @@ final class SensorAlarmProcessor implements Observer {
             return;
         }
         FiwareScope scope = KafkaClients.scope(record.headers());
-        SuspectStreaks existing = streaksOf(scope.identity(window.field()), window.windowEnd());
+        SuspectStreaks existing = streaksOf(scope.identity(window.field()), window.windowEnd(), now);
         SuspectStreaks streak = existing.after(window);
         if (streak == existing) {
             return;
@@ -73,17 +77,20 @@ final class SensorAlarmProcessor implements Observer {
     /** Removes the streaks of fields that no longer produce windows. */
     @Override
     public void passTime(long now) {
-        if (now < nextClearing) {
+        if (!Elapsed.hasPassed(CLEARING_INTERVAL, cleared, now)) {
             return;
         }
-        nextClearing = now + CLEARING_INTERVAL;
+        cleared = now;
         streaks.where(streak -> streak.windowEnd() + MAX_IDLE.toMillis() <= now)
                 .forEach(streak -> streaks.put(streak.field(), null));
     }
 
-    private SuspectStreaks streaksOf(String field, long time) {
+    /** Also discards streaks of when the clock was ahead: all later windows would count as late. */
+    private SuspectStreaks streaksOf(String field, long time, long now) {
         SuspectStreaks existing = streaks.get(field);
-        return existing == null || existing.windowEnd() + MAX_IDLE.toMillis() <= time
+        return existing == null
+                        || existing.windowEnd() + MAX_IDLE.toMillis() <= time
+                        || existing.windowEnd() > now + MAX_AHEAD.toMillis()
                 ? new SuspectStreaks(field, Long.MIN_VALUE, Map.of())
                 : existing;
     }
