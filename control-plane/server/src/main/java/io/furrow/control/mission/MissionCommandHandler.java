@@ -249,7 +249,10 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
         steps.add(templates::installBuiltIn);
         tables.statuses().forEach(status -> {
             boolean ends = status.ends() != null && status.ends() <= now;
-            if (status.isDue(now) && (ends || !devices.isPending(status.mission()))) {
+            MissionStatus corrected = status.notAfter(now);
+            if (corrected != status) {
+                steps.add(() -> store(corrected));
+            } else if (status.isDue(now) && (ends || !devices.isPending(status.mission()))) {
                 steps.add(() -> proceed(status, now));
             }
         });

@@ -138,6 +138,28 @@ public record MissionStatus(
         return waits ? until(earlier(now + timeout, ends), ends) : this;
     }
 
+    /**
+     * Returns the status as if its state had begun now, if a clock that was ahead says later; the same instance
+     * otherwise. A start date is absolute and stays.
+     */
+    MissionStatus notAfter(long now) {
+        if (since <= now || due == null || state == MissionState.CREATED) {
+            return this;
+        }
+        return new MissionStatus(
+                mission,
+                domain,
+                state,
+                now,
+                sequence,
+                devices,
+                confirmed,
+                missing,
+                reason,
+                due - since + now,
+                ends == null ? null : Long.valueOf(ends - since + now));
+    }
+
     boolean isDue(long now) {
         return due != null && due <= now;
     }

@@ -102,6 +102,33 @@ class MissionLifeTest {
     }
 
     @Test
+    void goesOnWhenTheClockIsSetBack() throws Exception {
+        long hour = Duration.ofHours(1).toMillis();
+        farm.request(new MissionCommand.Start(
+                "m", "north", FarmFixture.devices(group("Camera", 2)), null, Duration.ofHours(1)));
+        farm.report(farm.device("urn:ngsi-ld:Camera:m-1"), State.RUNNING);
+        farm.pass(-24 * hour);
+        farm.pass(TIMEOUT - 1);
+        assertThat(farm.status("m").state()).isEqualTo(MissionState.STARTING);
+        farm.pass(1);
+        assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
+
+        farm.pass(hour - TIMEOUT);
+        assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPING);
+    }
+
+    @Test
+    void waitsForItsStartDateWhenTheClockIsSetBack() throws Exception {
+        Instant begin = Instant.ofEpochMilli(farm.now + 1_000);
+        farm.request(new MissionCommand.Start("m", "north", FarmFixture.devices(group("Camera", 1)), begin, null));
+        farm.pass(-TIMEOUT);
+        farm.pass(TIMEOUT);
+        assertThat(farm.status("m").state()).isEqualTo(MissionState.CREATED);
+        farm.pass(1_000);
+        assertThat(farm.status("m").state()).isEqualTo(MissionState.STARTING);
+    }
+
+    @Test
     void waitsForItsFirstDevice() throws Exception {
         farm.start("m", "north", FarmFixture.real("Thermometer", 2), group("Camera", 2));
         farm.report(farm.device("urn:ngsi-ld:Camera:m-2"), State.FAILED);
