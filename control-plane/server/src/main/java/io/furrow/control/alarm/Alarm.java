@@ -205,12 +205,19 @@ public record Alarm(
         return extended(period.until(newUntil), seen);
     }
 
-    /** Returns the alarm as if it were seen now, if a clock that was ahead says later; the same instance otherwise. */
+    /**
+     * Returns the alarm as if it were seen and muted now, if a clock that was ahead says later; the same instance
+     * otherwise.
+     */
     Alarm notAfter(long now) {
-        if (seen == null || seen <= now) {
-            return this;
+        Alarm muted = this;
+        if (handling.mutedUntil != null && period.changed > now) {
+            muted = muted(handling.mutedUntil - period.changed + now, now);
         }
-        return extended(period.until == null ? null : Long.valueOf(period.until - seen + now), now);
+        if (seen == null || seen <= now) {
+            return muted;
+        }
+        return muted.extended(period.until == null ? null : Long.valueOf(period.until - seen + now), now);
     }
 
     private Alarm extended(Period newPeriod, Long at) {

@@ -17,6 +17,7 @@ import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 import io.furrow.model.control.RejectedException;
+import io.furrow.model.time.Elapsed;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -41,7 +42,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     private final Sequence sequence;
     private final EventPublisher publisher;
     private final AlarmLimit limit;
-    private long nextClearing;
+    private long cleared;
 
     AlarmCommandHandler(AlarmTables tables, Sequence sequence, EventPublisher publisher) {
         this.tables = tables;
@@ -214,7 +215,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         AlarmCommand.OfKind of = (AlarmCommand.OfKind) target;
         String key = Cause.key(of.kind(), of.subject() == null ? ALL : of.subject());
         requireRoomFor(key, until);
-        tables.mutes().put(key, until == null ? null : new AlarmTables.Mute(key, until));
+        tables.mutes().put(key, until == null ? null : new AlarmTables.Mute(key, until, now));
         for (Alarm alarm : current()) {
             if (alarm.kind() == of.kind()
                     && (of.subject() == null
@@ -264,8 +265,8 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
                 beyondLimit,
                 "no causes beyond the limit",
                 now);
-        if (now >= nextClearing) {
-            nextClearing = now + CLEARING_INTERVAL;
+        if (Elapsed.hasPassed(CLEARING_INTERVAL, cleared, now)) {
+            cleared = now;
             clear(now);
         }
     }
@@ -280,6 +281,9 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
                 publisher.put(Topics.ALARMS, closed.get(i).alarm(), null);
             }
         }
+        tables.mutes()
+                .where(mute -> mute.notAfter(now) != mute)
+                .forEach(mute -> tables.mutes().put(mute.key(), mute.notAfter(now)));
         tables.mutes()
                 .where(mute -> mute.until() <= now)
                 .forEach(mute -> tables.mutes().put(mute.key(), null));

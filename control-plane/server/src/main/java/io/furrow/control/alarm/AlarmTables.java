@@ -22,6 +22,12 @@ record AlarmTables(
      *
      * @param key kind and subject
      * @param until epoch ms
+     * @param since epoch ms; null if it was stored before this member existed
      */
-    record Mute(String key, long until) {}
+    record Mute(String key, long until, Long since) {
+        /** As {@link Alarm#notAfter}. */
+        Mute notAfter(long now) {
+            return since == null || since <= now ? this : new Mute(key, until - since + now, now);
+        }
+    }
 }

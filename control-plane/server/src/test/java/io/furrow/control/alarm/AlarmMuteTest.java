@@ -46,10 +46,27 @@ class AlarmMuteTest extends AlarmHandlerFixture {
     }
 
     @Test
+    void endsMutesOfWhenTheClockWasAhead() throws Exception {
+        long ahead = NOW + 1_000 * HOUR.toMillis();
+        handler.raise(silent("urn:t:1"), ahead);
+        handler.answer(new AlarmCommand.Mute(new AlarmCommand.OfAlarm("silent-device-1"), HOUR), ahead);
+        handler.answer(mute("urn:t:2"), ahead);
+        for (long now : new long[] {NOW, NOW + HOUR.toMillis() - 1}) {
+            handler.passTime(now);
+            assertThat(handler.isMuted(AlarmKind.SILENT_DEVICE, "urn:t:2", now)).isTrue();
+            assertThat(alarm("silent-device-1").isMuted(now)).isTrue();
+        }
+        handler.passTime(NOW + HOUR.toMillis());
+        assertThat(handler.isMuted(AlarmKind.SILENT_DEVICE, "urn:t:2", NOW + HOUR.toMillis()))
+                .isFalse();
+        assertThat(alarm("silent-device-1").handling().mutedUntil()).isNull();
+    }
+
+    @Test
     void limitsTheNumberOfMutes() throws Exception {
         for (int i = 0; i < Limits.MUTES; i++) {
             String key = Cause.key(AlarmKind.SILENT_DEVICE, "urn:t:" + i);
-            mutes.put(key, new AlarmTables.Mute(key, NOW + HOUR.toMillis()));
+            mutes.put(key, new AlarmTables.Mute(key, NOW + HOUR.toMillis(), null));
         }
 
         assertThatThrownBy(() -> handler.answer(mute("urn:t:further"), NOW))
