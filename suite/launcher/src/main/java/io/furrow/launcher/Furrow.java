@@ -21,6 +21,7 @@ import io.furrow.launcher.command.InitCommand;
 import io.furrow.launcher.command.ScenarioCommand;
 import io.furrow.launcher.command.SecretCommandGroup;
 import io.furrow.launcher.command.UpCommand;
+import io.furrow.launcher.process.ClockWatch;
 import io.furrow.launcher.process.LogFile;
 import io.furrow.launcher.replay.AnalyticsCommand;
 import io.furrow.simulators.host.DeviceHostCommand;
@@ -89,6 +90,7 @@ public final class Furrow {
         return furrow.setExecutionStrategy(parsed -> {
             if (parsed.hasSubcommand() && parsed.subcommand().commandSpec().userObject() instanceof DeviceHostCommand) {
                 LogFile.writeToErrorStream(); // its module does not depend on log4j
+                ClockWatch.endProcess(); // nor on this one
             }
             return strategy.execute(parsed);
         });

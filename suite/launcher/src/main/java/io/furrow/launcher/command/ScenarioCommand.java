@@ -21,6 +21,7 @@ import picocli.CommandLine.Spec;
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.launcher.option.FiwareOptions;
+import io.furrow.launcher.process.ClockWatch;
 import io.furrow.model.text.Counts;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.fleet.FarmFleet;
@@ -90,8 +91,10 @@ public final class ScenarioCommand implements Callable<Integer> {
         Runtime.getRuntime().addShutdownHook(hook);
         try (FarmFleet fleet = FarmFleet.start(farm, access)) {
             out.printf("Runs %s; Ctrl-C stops them.%n", Counts.of(farm.devices().size(), "device"));
+            ClockWatch clock = new ClockWatch(); // reports are due by the wall clock
             long end = howLong == null ? Long.MAX_VALUE : System.nanoTime() + howLong.toNanos();
             while (System.nanoTime() < end && !stop.await(1, TimeUnit.SECONDS)) {
+                clock.check();
                 out.printf("\r  %,d reports, %,d connections", fleet.reports(), fleet.connections());
                 out.flush();
             }

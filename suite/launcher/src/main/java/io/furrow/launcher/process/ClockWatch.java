@@ -47,6 +47,25 @@ public final class ClockWatch {
         }
     }
 
+    /** Watches in the background, and exits with 1, for a command that waits by itself. */
+    public static void endProcess() {
+        ClockWatch clock = new ClockWatch();
+        Thread thread = new Thread(
+                () -> {
+                    try {
+                        clock.await(new CountDownLatch(1));
+                    } catch (CommandException e) {
+                        System.err.println(e.getMessage());
+                        System.exit(1);
+                    } catch (InterruptedException e) {
+                        Thread.currentThread().interrupt();
+                    }
+                },
+                "clock-watch");
+        thread.setDaemon(true);
+        thread.start();
+    }
+
     /** Waits until the process is to stop. */
     public void await(CountDownLatch stop) throws InterruptedException {
         while (!stop.await(1, TimeUnit.SECONDS)) {

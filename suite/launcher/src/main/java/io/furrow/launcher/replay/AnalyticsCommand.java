@@ -17,6 +17,7 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.cli.option.KafkaClient;
+import io.furrow.launcher.process.ClockWatch;
 import io.furrow.launcher.process.LogFile;
 import io.furrow.model.topic.Topics;
 
@@ -95,7 +96,7 @@ public final class AnalyticsCommand implements Callable<Integer> {
             PrintWriter out = spec.commandLine().getOut();
             out.println("Follows " + Topics.REPLAYS + " at " + kafka + "; Ctrl-C stops it, jobs stay.");
             out.flush();
-            stop.await();
+            new ClockWatch().await(stop);
             return 0;
         } finally {
             analytics.close();
