@@ -10,6 +10,7 @@ import org.apache.flink.api.java.typeutils.PojoTypeInfo;
 import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.route.ReportedEvent;
@@ -71,6 +72,9 @@ class CatalogStageTest {
 
     /** Its entry has expired by then: an entity that is not counted again would make one of 0 entities. */
     @Test
+    @Timeout(
+            value = 60,
+            threadMode = Timeout.ThreadMode.SEPARATE_THREAD) // an entry that stays fires its timer for ever
     void countsAnEntityAgainThatWasSilentForTheRetention() throws Exception {
         try (var harness = profiles()) {
             long later = T + Duration.ofDays(40).toMillis();
