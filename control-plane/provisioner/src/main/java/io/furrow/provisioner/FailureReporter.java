@@ -1,13 +1,16 @@
 package io.furrow.provisioner;
 
+import java.time.Duration;
 import java.util.HashMap;
 import java.util.Map;
+import java.util.function.LongSupplier;
 
 import org.apache.kafka.clients.producer.Producer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.control.Fault;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.topic.Topics;
@@ -15,9 +18,13 @@ import io.furrow.model.topic.Topics;
 /**
  * Reports devices that could not be provisioned on {@code service.devices.status}: once per desired state of a device,
  * after the third attempt. Retries continue; once the device is provisioned, its host reports it as running.
+ * Reports undecided devices as a fault.
  */
 final class FailureReporter {
     static final int ATTEMPTS = 3;
+    /** Interval of a fault, whose alarm ends when it is no longer reported. */
+    static final Duration REPORT_INTERVAL = Duration.ofMinutes(1);
+
     private static final Logger LOG = LoggerFactory.getLogger(FailureReporter.class);
 
     private final DesiredDeviceTable desired;
@@ -25,11 +32,16 @@ final class FailureReporter {
     private final Map<String, Count> rejections = new HashMap<>();
     private final Map<String, Count> outages = new HashMap<>();
 
+    private final LongSupplier nanos;
+    private long undecidedReported;
+
     private record Count(long sequence, int attempts) {}
 
-    FailureReporter(DesiredDeviceTable desired, Producer<String, byte[]> producer) {
+    FailureReporter(DesiredDeviceTable desired, Producer<String, byte[]> producer, LongSupplier nanos) {
         this.desired = desired;
         this.producer = producer;
+        this.nanos = nanos;
+        this.undecidedReported = nanos.getAsLong();
     }
 
     void clear() {
@@ -51,6 +63,19 @@ final class FailureReporter {
     /** Called after a completed step: the agent is available. */
     void available() {
         outages.clear();
+    }
+
+    /** Reports undecided devices; the first report waits too, because a device's record may come before its list. */
+    void undecided() {
+        long now = nanos.getAsLong();
+        if (desired.undecidedKeys().isEmpty()) {
+            undecidedReported = now;
+        } else if (now - undecidedReported >= REPORT_INTERVAL.toNanos()) {
+            undecidedReported = now;
+            String text = desired.undecidedText();
+            LOG.warn(text);
+            producer.send(new ProducerRecord<>(Topics.FAULTS, "provisioner devices", new Fault(text).toBytes()));
+        }
     }
 
     private void count(Map<String, Count> counts, String key, String reason) {

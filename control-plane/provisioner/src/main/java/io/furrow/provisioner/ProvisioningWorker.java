@@ -52,7 +52,6 @@ final class ProvisioningWorker implements AutoCloseable {
     private static final String TAKEN_OVER_AFTER_MS = "10000";
     private static final Duration POLL_INTERVAL = Duration.ofMillis(500);
     private static final Duration ADMIN_TIMEOUT = Duration.ofSeconds(15);
-    private static final Duration REPORT_INTERVAL = Duration.ofMinutes(1);
 
     private final KafkaConsumer<String, byte[]> consumer;
     private final KafkaProducer<String, byte[]> producer;
@@ -71,7 +70,6 @@ final class ProvisioningWorker implements AutoCloseable {
     private String failure = "";
     private Retained retained;
     private long retainedReported;
-    private long undecidedReported = System.nanoTime();
     private boolean provisionedRecorded;
 
     ProvisioningWorker(ProvisioningSettings settings) {
@@ -83,7 +81,7 @@ final class ProvisioningWorker implements AutoCloseable {
         this.agent = settings.agent().base().toString();
         this.consumer = KafkaClients.consumer(consumerSettings(client));
         this.producer = KafkaClients.producer(client);
-        this.failures = new FailureReporter(desired, producer);
+        this.failures = new FailureReporter(desired, producer, System::nanoTime);
         this.connections = new ConnectionPublisher(settings, desired, producer, System::currentTimeMillis);
         consumer.subscribe(List.of(Topics.DEVICES), new Assignment());
     }
@@ -109,7 +107,7 @@ final class ProvisioningWorker implements AutoCloseable {
                 step();
             }
             reportRetained();
-            reportUndecided();
+            failures.undecided();
             connections.publish(provisioning.registered());
         }
     }
@@ -195,7 +193,7 @@ final class ProvisioningWorker implements AutoCloseable {
             failure = outcome.retained() == null ? "" : outcome.retained().summary();
             if (outcome.retained() != null && !outcome.retained().equals(retained)) {
                 LOG.warn(outcome.retained().text());
-                retainedReported = System.nanoTime() - REPORT_INTERVAL.toNanos();
+                retainedReported = System.nanoTime() - FailureReporter.REPORT_INTERVAL.toNanos();
             }
             retained = outcome.retained();
             recordProvisioned();
@@ -217,22 +215,9 @@ final class ProvisioningWorker implements AutoCloseable {
 
     /** Repeats the fault, because its alarm ends when it is no longer reported. */
     private void reportRetained() {
-        if (retained != null && System.nanoTime() - retainedReported >= REPORT_INTERVAL.toNanos()) {
+        if (retained != null && System.nanoTime() - retainedReported >= FailureReporter.REPORT_INTERVAL.toNanos()) {
             retainedReported = System.nanoTime();
             producer.send(new ProducerRecord<>(Topics.FAULTS, "provisioner", new Fault(retained.text()).toBytes()));
-        }
-    }
-
-    /** The first report waits too: a device's record may come before its list. */
-    private void reportUndecided() {
-        long now = System.nanoTime();
-        if (desired.undecidedKeys().isEmpty()) {
-            undecidedReported = now;
-        } else if (now - undecidedReported >= REPORT_INTERVAL.toNanos()) {
-            undecidedReported = now;
-            String text = desired.undecidedText();
-            LOG.warn(text);
-            producer.send(new ProducerRecord<>(Topics.FAULTS, "provisioner devices", new Fault(text).toBytes()));
         }
     }
 

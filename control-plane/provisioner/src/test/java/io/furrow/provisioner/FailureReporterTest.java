@@ -1,5 +1,6 @@
 package io.furrow.provisioner;
 
+import java.time.Duration;
 import java.util.List;
 import java.util.Map;
 
@@ -9,16 +10,19 @@ import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.model.control.Fault;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus;
+import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 class FailureReporterTest {
+    private long nanos = Long.MAX_VALUE - 5;
     private final MockProducer<String, byte[]> producer =
             new MockProducer<>(true, null, new StringSerializer(), new ByteArraySerializer());
     private final DesiredDeviceTable desired = new DesiredDeviceTable(DesiredDeviceFixture.SCOPE);
-    private final FailureReporter failures = new FailureReporter(desired, producer);
+    private final FailureReporter failures = new FailureReporter(desired, producer, () -> nanos);
     private final DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
     private final String key = device.version().key();
 
@@ -51,6 +55,30 @@ class FailureReporterTest {
         }
 
         assertThat(producer.history()).isEmpty();
+    }
+
+    @Test
+    void reportsUndecidedDevicesOnceAMinute() throws Exception {
+        pass(120);
+        desired.takeUnreadable(key);
+        pass(59);
+        assertThat(producer.history()).as("its list may come").isEmpty();
+        pass(1);
+        assertThat(producer.history()).hasSize(1);
+        pass(59);
+        assertThat(producer.history()).hasSize(1);
+        pass(1);
+        assertThat(producer.history()).hasSize(2).allMatch(each -> each.topic().equals(Topics.FAULTS));
+        assertThat(Fault.read(producer.history().get(0).value()).text()).contains("1 devices", key);
+
+        desired.take(key, device);
+        pass(120);
+        assertThat(producer.history()).hasSize(2);
+    }
+
+    private void pass(int seconds) {
+        nanos += Duration.ofSeconds(seconds).toNanos();
+        failures.undecided();
     }
 
     @Test
