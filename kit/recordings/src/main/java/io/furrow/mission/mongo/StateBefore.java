@@ -33,7 +33,8 @@ import io.furrow.model.ngsi.UnreadableException;
  * document of each entity, one for the newest documents of all, then further ones for each unsettled entity, with the
  * index on entity and event time. An entity is settled by its deletion, by all of its documents, or by its newest
  * document if that has every attribute of the {@value #MIN_EVENTS} documents before it and of the oldest, as is the
- * case if the context broker notifies whole entities. Other entities report only changes.
+ * case if the context broker notifies whole entities. Other entities report only changes. An entity that shares its id is
+ * found if the oldest document of the id, or one of those newest ones, is of it.
  */
 final class StateBefore {
     private static final int MIN_EVENTS = 8;
