@@ -17,7 +17,10 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.result.ResultTypes;
 
-/** A record for the streams of a topic. Encodes key, text and envelope once for all streams. */
+/**
+ * A record for the streams of a topic. Encodes text and envelope once for all streams, except those of the initial state,
+ * which may wait for long.
+ */
 public final class FeedRecord {
     /** Sequence of a record of the initial state. */
     public static final long NO_SEQUENCE = -1;
@@ -119,18 +122,22 @@ public final class FeedRecord {
 
     /** The value as text; {@code null} for a deletion. */
     public synchronized String text() {
-        if (text == null) {
-            text = record.value() == null ? "null" : new String(record.value(), StandardCharsets.UTF_8);
+        if (text != null) {
+            return text;
         }
-        return text;
+        String created = record.value() == null ? "null" : new String(record.value(), StandardCharsets.UTF_8);
+        text = sequence == NO_SEQUENCE ? null : created;
+        return created;
     }
 
     /** The record as a JSON object with all its members. */
     public synchronized String envelope() {
-        if (envelope == null) {
-            envelope = createEnvelope();
+        if (envelope != null) {
+            return envelope;
         }
-        return envelope;
+        String created = createEnvelope();
+        envelope = sequence == NO_SEQUENCE ? null : created;
+        return created;
     }
 
     private String createEnvelope() {

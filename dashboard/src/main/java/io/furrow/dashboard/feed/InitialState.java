@@ -27,23 +27,37 @@ import io.furrow.model.topic.Topics;
  *
  * @param compacted whether a topic is compacted
  */
-public record InitialState(Properties client, StreamLimits limits, Predicate<String> compacted) {
+public record InitialState(Properties client, StreamLimits limits, StateBudget budget, Predicate<String> compacted) {
     private static final Pattern LIVE = Pattern.compile("data\\.[^.]+\\.realtime(\\.[^.]+)?");
     private static final Duration TIMEOUT = Duration.ofSeconds(30);
     /** Older records are history, not state: such a topic may hold a week of records per second. */
     private static final Duration NOT_COMPACTED = Duration.ofHours(1);
 
     /** Every stream that begins holds its initial state until the client has read it. */
-    private static final long MAX_BYTES = 64L * 1024 * 1024;
+    static final long MAX_BYTES = 64L * 1024 * 1024;
 
     private static final String EPOCH = "replay-epoch";
     private static final String KIND = "replay-kind";
 
+    /** The records of a topic's keys, and their share of the memory; whoever gets them releases it. */
+    public record State(List<FeedRecord> records, StateBudget.Share share) {}
+
     /** @throws Problem if reading takes too long, or there are too many keys or bytes */
-    public List<FeedRecord> read(String topic) {
+    public State read(String topic) {
+        StateBudget.Share share = budget.share();
+        try {
+            List<FeedRecord> records = read(topic, share);
+            share.hold(1);
+            return new State(records, share);
+        } finally {
+            share.release();
+        }
+    }
+
+    private List<FeedRecord> read(String topic, StateBudget.Share share) {
         boolean live = topic.equals(Topics.RAW) || LIVE.matcher(topic).matches();
         Predicate<ConsumerRecord<byte[], byte[]>> filter = live ? record -> isOf(topic, record) : record -> true;
-        Newest newest = new Newest();
+        Newest newest = new Newest(share);
         long[] epoch = {-1};
         String source = live ? Topics.LATEST : topic;
         long startedAt = System.nanoTime();
@@ -66,8 +80,13 @@ public record InitialState(Properties client, StreamLimits limits, Predicate<Str
 
     /** The newest record of each key, and their memory. */
     static final class Newest {
+        private final StateBudget.Share share;
         private final Map<String, FeedRecord> byKey = new LinkedHashMap<>();
         private long bytes;
+
+        Newest(StateBudget.Share share) {
+            this.share = share;
+        }
 
         void put(FeedRecord record) {
             remove(record);
@@ -105,6 +124,7 @@ public record InitialState(Properties client, StreamLimits limits, Predicate<Str
                         "too-much",
                         "the state of topic '%s' has more than %d MiB".formatted(source, MAX_BYTES / 1024 / 1024));
             }
+            share.resize(bytes, source);
         }
     }
 
@@ -129,6 +149,12 @@ public record InitialState(Properties client, StreamLimits limits, Predicate<Str
         if (record.value() == null) {
             newest.delete(next);
         } else if (filter.test(record)) {
+            record.headers()
+                    .forEach(
+                            header -> { // until they are read they keep Kafka's whole response in memory
+                                header.key();
+                                header.value();
+                            });
             newest.put(next);
         }
     }

@@ -3,7 +3,6 @@ package io.furrow.dashboard.feed;
 import java.time.Duration;
 import java.util.HashMap;
 import java.util.HashSet;
-import java.util.List;
 import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.CompletableFuture;
@@ -21,45 +20,58 @@ public final class InitialStateReader implements AutoCloseable {
     private static final int THREADS = 16;
     private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(2);
 
-    private final Function<String, List<FeedRecord>> reader;
+    private final Function<String, InitialState.State> reader;
     private final ExecutorService threads = Executors.newFixedThreadPool(THREADS, DaemonThreads.named("initial-state"));
     /** Reads that have not begun. */
-    private final Map<String, CompletableFuture<List<FeedRecord>>> next = new HashMap<>();
+    private final Map<String, Reading> next = new HashMap<>();
     /** Topics with a read that runs or is about to. */
     private final Set<String> busy = new HashSet<>();
 
+    private static final class Reading {
+        private final CompletableFuture<InitialState.State> state = new CompletableFuture<>();
+        private int requests;
+    }
+
     /** @param reader reads the initial state of a topic */
-    public InitialStateReader(Function<String, List<FeedRecord>> reader) {
+    public InitialStateReader(Function<String, InitialState.State> reader) {
         this.reader = reader;
     }
 
     /**
-     * The state as of a moment after this call, so that there is no gap between it and a stream that has begun.
+     * The state, of which each request must release its share once, as of a moment after this call, so that there is no gap between it and a stream that has begun.
      *
      * @throws java.util.concurrent.RejectedExecutionException if this is closed
      */
-    public synchronized CompletableFuture<List<FeedRecord>> read(String topic) {
+    public synchronized CompletableFuture<InitialState.State> read(String topic) {
+        begin(topic);
+        Reading reading = next.computeIfAbsent(topic, any -> new Reading());
+        reading.requests++;
+        return reading.state;
+    }
+
+    private void begin(String topic) {
         if (!busy.contains(topic)) {
             threads.execute(() -> readNext(topic));
             busy.add(topic);
         }
-        return next.computeIfAbsent(topic, any -> new CompletableFuture<>());
     }
 
     private void readNext(String topic) {
-        CompletableFuture<List<FeedRecord>> reading;
+        Reading reading;
         synchronized (this) {
             reading = next.remove(topic);
         }
         try {
-            reading.complete(reader.apply(topic));
+            InitialState.State state = reader.apply(topic);
+            state.share().hold(reading.requests - 1);
+            reading.state.complete(state);
         } catch (RuntimeException | Error e) { // otherwise the future never completes, and the topic stays busy
-            reading.completeExceptionally(e);
+            reading.state.completeExceptionally(e);
         }
         synchronized (this) {
             busy.remove(topic);
             if (next.containsKey(topic) && !threads.isShutdown()) {
-                read(topic);
+                begin(topic);
             }
         }
     }

@@ -143,6 +143,7 @@ final class EventStream implements OpenStream, WriteListener, AsyncListener {
             }
             closed = true;
         }
+        queue.close();
         streams.end(topic, this, reason);
         return true;
     }

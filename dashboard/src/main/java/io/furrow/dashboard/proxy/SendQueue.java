@@ -9,6 +9,8 @@ import java.util.Map;
 import java.util.Queue;
 
 import io.furrow.dashboard.feed.FeedRecord;
+import io.furrow.dashboard.feed.InitialState;
+import io.furrow.dashboard.feed.StateBudget;
 import io.furrow.dashboard.feed.StreamCounters;
 import io.furrow.dashboard.feed.StreamCounters.Count;
 import io.furrow.dashboard.feed.StreamLimits;
@@ -31,6 +33,10 @@ final class SendQueue {
     private long merged;
     private boolean priming;
     private boolean overflown;
+    /** Of the initial state; null unless some of it waits. */
+    private StateBudget.Share share;
+
+    private boolean closed;
 
     SendQueue(StreamRequest request, StreamLimits limits, StreamCounters counters) {
         this.request = request;
@@ -61,13 +67,31 @@ final class SendQueue {
     }
 
     /** Adds the initial state. */
-    synchronized void prime(List<FeedRecord> records) {
-        initial.addAll(records);
+    synchronized void prime(InitialState.State state) {
+        initial.addAll(state.records());
+        share = state.share();
+        releaseSent();
         if (request.format() == StreamRequest.Format.RECORD) {
             // sent after the initial state, whose frames are polled first
             controlFrames.add("{\"primed\":true}");
         }
         priming = false;
+    }
+
+    /** Drops the initial state, now or when it is added. */
+    synchronized void close() {
+        closed = true;
+        releaseSent();
+    }
+
+    private void releaseSent() {
+        if (closed) {
+            initial.clear();
+        }
+        if (share != null && initial.isEmpty()) {
+            share.release();
+            share = null;
+        }
     }
 
     /** Adds a short frame without records. */
@@ -78,7 +102,9 @@ final class SendQueue {
     /** The next frame; null if none waits. */
     synchronized String poll() {
         if (!initial.isEmpty()) {
-            return frame(initial.iterator(), false);
+            String frame = frame(initial.iterator(), false);
+            releaseSent();
+            return frame;
         } else if (!controlFrames.isEmpty()) {
             return controlFrames.remove();
         } else if (priming || all.isEmpty() && latest.isEmpty()) {

@@ -251,6 +251,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
             }
             closed = true;
         }
+        queue.close();
         streams.end(ticket.request().topic(), this, why);
         return true;
     }

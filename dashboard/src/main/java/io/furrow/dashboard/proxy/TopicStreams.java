@@ -1,7 +1,6 @@
 package io.furrow.dashboard.proxy;
 
 import java.time.Duration;
-import java.util.List;
 import java.util.Properties;
 import java.util.Set;
 import java.util.concurrent.CompletableFuture;
@@ -17,9 +16,9 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.dashboard.auth.UserCache;
-import io.furrow.dashboard.feed.FeedRecord;
 import io.furrow.dashboard.feed.InitialState;
 import io.furrow.dashboard.feed.InitialStateReader;
+import io.furrow.dashboard.feed.StateBudget;
 import io.furrow.dashboard.feed.StreamCounters;
 import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.dashboard.feed.TopicFeeds;
@@ -64,7 +63,8 @@ public final class TopicStreams implements AutoCloseable {
 
     public TopicStreams(Properties client, TopicRules rules, StreamLimits limits, UserCache users) {
         this.feeds = new TopicFeeds(client, limits, counters);
-        this.initialStates = new InitialStateReader(new InitialState(client, limits, feeds::isCompacted)::read);
+        this.initialStates = new InitialStateReader(
+                new InitialState(client, limits, StateBudget.ofHeap(), feeds::isCompacted)::read);
         this.writer = new TopicWriter(client, rules);
         this.users = users;
         this.rules = rules;
@@ -168,7 +168,7 @@ public final class TopicStreams implements AutoCloseable {
                     if (request.prime()) {
                         initialStates
                                 .read(request.topic())
-                                .whenComplete((records, failure) -> prime(request, stream, queue, records, failure));
+                                .whenComplete((state, failure) -> prime(request, stream, queue, state, failure));
                     }
                 } catch (Problem | KafkaException e) {
                     fail(request, stream, e);
@@ -185,12 +185,12 @@ public final class TopicStreams implements AutoCloseable {
     }
 
     private static void prime(
-            StreamRequest request, OpenStream stream, SendQueue queue, List<FeedRecord> records, Throwable failure) {
+            StreamRequest request, OpenStream stream, SendQueue queue, InitialState.State state, Throwable failure) {
         if (failure != null) {
             fail(request, stream, failure);
             return;
         }
-        queue.prime(records);
+        queue.prime(state);
         stream.flush();
     }
 

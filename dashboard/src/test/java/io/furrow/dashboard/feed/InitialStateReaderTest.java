@@ -16,12 +16,13 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class InitialStateReaderTest {
+    private final StateBudget budget = new StateBudget(100);
     private final CountDownLatch begun = new CountDownLatch(1);
     private final CountDownLatch finish = new CountDownLatch(1);
     private final AtomicInteger reads = new AtomicInteger();
     private final InitialStateReader reader = new InitialStateReader(this::read);
 
-    private List<FeedRecord> read(String topic) {
+    private InitialState.State read(String topic) {
         if (topic.equals("broken")) {
             throw new Problem(503, "too-slow", "it took too long");
         }
@@ -34,7 +35,9 @@ class InitialStateReaderTest {
                 Thread.currentThread().interrupt();
             }
         }
-        return new ArrayList<>();
+        StateBudget.Share share = budget.share();
+        share.resize(1, topic);
+        return new InitialState.State(List.of(), share);
     }
 
     @AfterEach
@@ -45,9 +48,9 @@ class InitialStateReaderTest {
 
     @Test
     void readsOnceForAllRequestsDuringARead() throws Exception {
-        CompletableFuture<List<FeedRecord>> first = reader.read("long");
+        CompletableFuture<InitialState.State> first = reader.read("long");
         begun.await();
-        List<CompletableFuture<List<FeedRecord>>> later = new ArrayList<>();
+        List<CompletableFuture<InitialState.State>> later = new ArrayList<>();
         for (int i = 0; i < 20; i++) {
             later.add(reader.read("long"));
         }
@@ -60,12 +63,29 @@ class InitialStateReaderTest {
     }
 
     @Test
+    void releasesTheMemoryWithTheLastRequest() throws Exception {
+        CompletableFuture<InitialState.State> first = reader.read("long");
+        begun.await();
+        reader.read("long");
+        CompletableFuture<InitialState.State> shared = reader.read("long");
+        finish.countDown();
+        first.get(30, TimeUnit.SECONDS).share().release();
+
+        StateBudget.Share share = shared.get(30, TimeUnit.SECONDS).share();
+        share.release();
+        assertThat(budget.used()).as("of the other request").isOne();
+        share.release();
+        assertThat(budget.used()).isZero();
+    }
+
+    @Test
     void readsOtherTopicsDuringASlowRead() throws Exception {
-        CompletableFuture<List<FeedRecord>> slow = reader.read("long");
+        CompletableFuture<InitialState.State> slow = reader.read("long");
         begun.await();
 
         for (int i = 0; i < 20; i++) {
-            assertThat(reader.read("short-" + i).get(30, TimeUnit.SECONDS)).isEmpty();
+            assertThat(reader.read("short-" + i).get(30, TimeUnit.SECONDS).records())
+                    .isEmpty();
         }
         assertThat(slow).isNotDone();
     }

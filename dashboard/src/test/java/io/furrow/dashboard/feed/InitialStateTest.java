@@ -11,7 +11,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class InitialStateTest {
     private static final byte[] LARGE = new byte[20 * 1024 * 1024];
 
-    private final InitialState.Newest newest = new InitialState.Newest();
+    private final InitialState.Newest newest = new InitialState.Newest(new StateBudget(Long.MAX_VALUE).share());
 
     @Test
     void refusesMoreBytesThanMayWait() {

@@ -7,6 +7,8 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.dashboard.feed.FeedRecord;
+import io.furrow.dashboard.feed.InitialState;
+import io.furrow.dashboard.feed.StateBudget;
 import io.furrow.dashboard.feed.StreamCounters;
 import io.furrow.dashboard.feed.StreamLimits;
 
@@ -18,6 +20,10 @@ class SendQueueTest {
     private static final String PUMP = "{\"id\":\"pb-13\",\"type\":\"Pump\"}";
     private static final StreamLimits LIMITS =
             new StreamLimits(1, 1, 1, Duration.ofSeconds(1), 3, 10_000, 1_000, 1_000, 1, 1_000);
+
+    private static final long STATE = 10;
+
+    private final StateBudget budget = new StateBudget(STATE);
 
     private static FeedRecord record(String key, String value, long sequence) {
         return new FeedRecord(
@@ -91,11 +97,42 @@ class SendQueueTest {
         queue.offer(record("a", "2", 7));
         assertThat(queue.poll()).isNull();
 
-        queue.prime(List.of(record("a", "1", FeedRecord.NO_SEQUENCE)));
+        queue.prime(state(record("a", "1", FeedRecord.NO_SEQUENCE)));
 
         assertThat(queue.poll()).contains("\"kind\":\"prime\"", "\"value\":1").doesNotContain("sequence");
         assertThat(queue.poll()).isEqualTo("{\"primed\":true}");
         assertThat(queue.poll()).contains("\"kind\":\"event\"", "\"sequence\":7", "\"value\":2");
+    }
+
+    @Test
+    void releasesTheInitialStateOnceItIsSentOrTheStreamIsClosed() {
+        SendQueue sent = queue(StreamRequest.Mode.ALL, true, StreamRequest.Format.VALUE);
+        sent.prime(state(record("a", "1", FeedRecord.NO_SEQUENCE), record("b", "2", FeedRecord.NO_SEQUENCE)));
+        sent.poll();
+        assertThat(budget.used()).isEqualTo(STATE);
+        sent.poll();
+        assertThat(budget.used()).isZero();
+        sent.close();
+        assertThat(budget.used()).isZero();
+
+        SendQueue closed = queue(StreamRequest.Mode.ALL, true, StreamRequest.Format.VALUE);
+        closed.prime(state(record("a", "1", FeedRecord.NO_SEQUENCE)));
+        closed.close();
+        assertThat(budget.used()).isZero();
+
+        SendQueue tooLate = queue(StreamRequest.Mode.ALL, true, StreamRequest.Format.VALUE);
+        tooLate.close();
+        tooLate.prime(state(record("a", "1", FeedRecord.NO_SEQUENCE)));
+        assertThat(budget.used()).isZero();
+
+        queue(StreamRequest.Mode.ALL, true, StreamRequest.Format.VALUE).prime(state());
+        assertThat(budget.used()).as("empty").isZero();
+    }
+
+    private InitialState.State state(FeedRecord... records) {
+        StateBudget.Share share = budget.share();
+        share.resize(STATE, "data.raw");
+        return new InitialState.State(List.of(records), share);
     }
 
     /** The same id in two tenants, and with two types in one of them. */
