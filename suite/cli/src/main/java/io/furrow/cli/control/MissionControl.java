@@ -7,6 +7,7 @@ import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.fasterxml.jackson.databind.node.TextNode;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
@@ -19,6 +20,7 @@ import io.furrow.cli.control.table.DeviceListParts;
 import io.furrow.cli.control.table.JsonFile;
 import io.furrow.cli.control.table.MissionPage;
 import io.furrow.cli.option.CommandGroup;
+import io.furrow.cli.time.Times;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** The commands of {@code ./furrow mission} that use the control plane. */
@@ -71,6 +73,7 @@ public class MissionControl extends CommandGroup {
                         .text("UP", MissionControl::up)
                         .text("DEVICES", "/deviceCount")
                         .time("SINCE", "/status/since")
+                        .text("NEXT", MissionControl::next)
                         .text("REASON", "/status/reason"));
     }
 
@@ -78,6 +81,12 @@ public class MissionControl extends CommandGroup {
     private static JsonNode up(JsonNode mission) {
         String state = mission.at("/status/state").asText();
         return mission.at(state.equals("starting") || state.equals("running") ? "/status/confirmed" : "/none");
+    }
+
+    private static JsonNode next(JsonNode mission) {
+        boolean waits = mission.at("/status/state").asText().equals("created");
+        JsonNode time = mission.at(waits ? "/status/due" : "/status/ends");
+        return time.isNumber() ? TextNode.valueOf((waits ? "starts " : "ends ") + Times.of(time)) : time;
     }
 
     @Command(name = "show", description = "Shows one mission: its state, missing devices and why they are missing.")

@@ -1,13 +1,13 @@
 package io.furrow.cli.control;
 
 import java.io.IOException;
-import java.time.Instant;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
+import io.furrow.cli.time.Times;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** Follows a mission: prints a line for every change of its state, its progress or its missing devices. */
@@ -59,9 +59,7 @@ final class MissionWatch implements ControlOptions.Work {
         int full = devices == 0 ? 0 : BAR * confirmed / devices;
         StringBuilder line = new StringBuilder("%s  %-8s  [%s%s] %d/%d devices"
                 .formatted(
-                        Instant.ofEpochMilli(status.path("since").asLong())
-                                .toString()
-                                .replaceFirst("\\.\\d+Z$", "Z"),
+                        Times.of(status.path("since").asLong()),
                         status.path("state").asText(),
                         "#".repeat(full),
                         "·".repeat(BAR - full),

@@ -150,6 +150,6 @@ public final class ReplayCommandGroup extends CommandGroup {
     }
 
     private static int steer(ControlOptions control, ReplayTarget target, String verb, Map<String, ?> body) {
-        return control.command("POST", target.path(control) + "/" + verb, ControlOptions.object(body));
+        return control.commandEchoed("POST", target.path(control) + "/" + verb, ControlOptions.object(body));
     }
 }

@@ -6,6 +6,7 @@ import java.util.ArrayList;
 import java.util.List;
 
 import org.junit.jupiter.api.AutoClose;
+import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import picocli.CommandLine;
@@ -47,6 +48,44 @@ class MissionControlTest {
 
         assertThat(output.toString()).containsPattern("m +d +- +%s +%s +5 +-".formatted(state, up));
         assertThat(requested).containsExactly("GET /api/missions");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', nullValues = "-", textBlock = """
+            created | "due":1795755600000                       | starts 2026-11-27T05:00:00Z
+            running | "due":1795755600000,"ends":1795755700000  | ends 2026-11-27T05:01:40Z
+            created | "due":null                                | -
+            running | "since":1795755600000                     | -
+            """)
+    void listsWhenAMissionStartsOrEnds(String state, String times, String next) {
+        answer = "{\"missions\":[{\"mission\":\"m\",\"status\":{\"state\":\"%s\",%s}}]}".formatted(state, times);
+
+        run("mission", "list");
+
+        assertThat(output.toString()).contains("SINCE", "NEXT");
+        assertThat(output.toString().contains(next == null ? "s 2026" : next)).isEqualTo(next != null);
+    }
+
+    @Test
+    void printsTimesOfAnswersForPeople() {
+        answer =
+                "{\"type\":\"response\",\"status\":\"scheduled\",\"mission\":\"m\",\"mission_topic\":\"data.d.realtime.m\",\"start\":1795755600000}";
+        run("mission", "start", "m");
+        assertThat(output.toString())
+                .isEqualToIgnoringNewLines(
+                        "scheduled: mission m, mission topic data.d.realtime.m, start 2026-11-27T05:00:00Z");
+
+        output.getBuffer().setLength(0);
+        answer =
+                "{\"domain\":\"d\",\"created\":1795755600000,\"sequence\":7,\"area\":{\"type\":\"Point\",\"coordinates\":[1,2]}}";
+        run("domain", "show", "d");
+        assertThat(output.toString().lines())
+                .containsExactly(
+                        "domain            d",
+                        "created           2026-11-27T05:00:00Z",
+                        "sequence          7",
+                        "area.type         Point",
+                        "area.coordinates  [1,2]");
     }
 
     @ParameterizedTest

@@ -86,6 +86,20 @@ class ReplayCommandGroupTest {
         assertThat(output.toString()).isEqualToIgnoringNewLines("stopped: replay m.0a1b2c3d");
     }
 
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+            seek m.0a1b2c3d 1777600000000 | paused: replay m.0a1b2c3d, to 2026-05-01T01:46:40Z
+            speed m.0a1b2c3d 2            | paused: replay m.0a1b2c3d, speed 2.0
+            pause m.0a1b2c3d              | paused: replay m.0a1b2c3d
+            """)
+    void reportsWhatWasChanged(String arguments, String sentence) {
+        answer = "{\"type\":\"response\",\"status\":\"paused\",\"replay\":\"m.0a1b2c3d\"}";
+
+        run(("replay " + arguments).split(" "));
+
+        assertThat(output.toString()).isEqualToIgnoringNewLines(sentence);
+    }
+
     @Test
     void loopsBetweenTwoTimes() {
         run("replay", "loop", "m.0a1b2c3d", "2026-05-01T00:00:00Z", "1777600000000");

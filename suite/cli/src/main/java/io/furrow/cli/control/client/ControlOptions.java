@@ -10,7 +10,6 @@ import java.util.Map;
 import java.util.function.Function;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
-import java.util.stream.Collectors;
 import javax.net.ssl.SSLContext;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -21,6 +20,7 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 
+import io.furrow.cli.control.table.AnswerText;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.CredentialList;
 import io.furrow.cli.option.HttpUriConverter;
@@ -92,7 +92,7 @@ public final class ControlOptions {
 
     /** Prints the object at a path, a member per line. */
     public int showOne(String path) {
-        return showPage(path, ControlOptions::members);
+        return showPage(path, AnswerText::members);
     }
 
     /** Prints the object at a path as a page. */
@@ -114,7 +114,7 @@ public final class ControlOptions {
             if (output == Output.ENV) {
                 CredentialList.env(devices).forEach(out()::println);
             } else {
-                print(answer, answer.isArray() ? CredentialList.table()::lines : ControlOptions::members);
+                print(answer, answer.isArray() ? CredentialList.table()::lines : AnswerText::members);
             }
         });
     }
@@ -124,22 +124,34 @@ public final class ControlOptions {
         return run(api -> answered(api.send(method, path, body)));
     }
 
+    /** Sends a command and prints the answer, and the members of the command. */
+    public int commandEchoed(String method, String path, ObjectNode body) {
+        return run(api -> {
+            JsonNode answer = api.send(method, path, body);
+            String members = AnswerText.sentence(body);
+            answered(
+                    answer,
+                    answer.path("status").asText("done") + ": " + AnswerText.sentence(answer)
+                            + (members.isEmpty() ? "" : ", " + members));
+        });
+    }
+
     /** Sends a command and prints the answer. @param done a sentence about the effect */
     public int commandDone(String method, String path, String done) {
         return run(api -> {
             JsonNode answer = api.send(method, path, null);
-            answered(answer, done + ": " + message(answer));
+            answered(answer, done + ": " + AnswerText.sentence(answer));
         });
     }
 
     /** Sends a command and prints the object in the answer, a member per line. */
     public int commandShown(String method, String path) {
-        return run(api -> print(api.send(method, path, null), ControlOptions::members));
+        return run(api -> print(api.send(method, path, null), AnswerText::members));
     }
 
     /** Prints the answer to a command. */
     public void answered(JsonNode answer) throws IOException {
-        answered(answer, answer.path("status").asText("done") + ": " + message(answer));
+        answered(answer, answer.path("status").asText("done") + ": " + AnswerText.sentence(answer));
     }
 
     /** Prints the answer to a command. @param sentence about the effect */
@@ -153,15 +165,6 @@ public final class ControlOptions {
         } else {
             page.apply(answer).forEach(out()::println);
         }
-    }
-
-    private static String message(JsonNode answer) {
-        return answer.properties().stream()
-                .filter(each -> !each.getKey().equals("type")
-                        && !each.getKey().equals("status")
-                        && !each.getKey().equals("requestId"))
-                .map(each -> each.getKey() + " " + ControlTable.textOf(each.getValue()))
-                .collect(Collectors.joining(", "));
     }
 
     /** Runs it and prints a sentence if it fails. @return the exit code */
@@ -223,18 +226,6 @@ public final class ControlOptions {
             }
         });
         return json;
-    }
-
-    private static List<String> members(JsonNode object) {
-        int width = object.properties().stream()
-                .mapToInt(each -> each.getKey().length())
-                .max()
-                .orElse(0);
-        return object.properties().stream()
-                .map(each -> each.getKey()
-                        + " ".repeat(width - each.getKey().length() + 2)
-                        + ControlTable.textOf(each.getValue()))
-                .toList();
     }
 
     /** A list may be the answer itself, or the only list of an object. */

@@ -1,7 +1,6 @@
 package io.furrow.cli.control.table;
 
 import java.io.UncheckedIOException;
-import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.StringJoiner;
@@ -9,6 +8,7 @@ import java.util.StringJoiner;
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
 
+import io.furrow.cli.time.Times;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.Counts;
 
@@ -46,7 +46,7 @@ public final class DeadLetterTable {
     }
 
     private static String time(JsonNode letter) {
-        return Instant.ofEpochMilli(letter.path("time").asLong()).toString().replaceFirst("\\.\\d+Z$", "Z");
+        return Times.of(letter.path("time").asLong());
     }
 
     private static String text(JsonNode letter, String member) {
