@@ -1,5 +1,6 @@
 package io.furrow.cli.control;
 
+import java.time.Duration;
 import java.util.LinkedHashMap;
 import java.util.Locale;
 import java.util.Map;
@@ -106,10 +107,10 @@ public final class AlarmCommandGroup extends CommandGroup {
             @Option(
                             names = "--for",
                             paramLabel = "DURATION",
-                            defaultValue = "PT1H",
-                            description = "ISO 8601. Default: PT1H.")
-                    String duration) {
-        return post(control, alarm, "mute", duration);
+                            defaultValue = "1h",
+                            description = "How long, as 30m, 8h or 2d. Default: 1h.")
+                    Duration duration) {
+        return post(control, alarm, "mute", duration.toString());
     }
 
     @Command(name = "unmute", description = "Unmutes an alarm: the webhook gets it again.")

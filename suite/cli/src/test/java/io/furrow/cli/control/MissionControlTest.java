@@ -67,6 +67,21 @@ class MissionControlTest {
     }
 
     @Test
+    void sendsTimesAndDurationsAsPeopleWriteThem() {
+        run("mission", "start", "m", "--at", "2026-05-01T06:00:00+02:00", "--duration", "1h30m");
+        run("alarm", "mute", "a", "--for", "8h");
+        run("alarm", "mute", "a");
+        run("dead-letters", "list", "--from", "1777600000000", "--to", "2026-05-02");
+
+        assertThat(requested)
+                .containsExactly(
+                        "POST /api/missions/m/start {\"mission\":\"m\",\"start\":1777608000000,\"duration\":\"PT1H30M\"}",
+                        "POST /api/alarms/a/mute {\"for\":\"PT8H\"}",
+                        "POST /api/alarms/a/mute {\"for\":\"PT1H\"}",
+                        "GET /api/dead-letters?limit=50&from=2026-05-01T01%3A46%3A40Z&to=2026-05-02T00%3A00%3A00Z");
+    }
+
+    @Test
     void printsTimesOfAnswersForPeople() {
         answer =
                 "{\"type\":\"response\",\"status\":\"scheduled\",\"mission\":\"m\",\"mission_topic\":\"data.d.realtime.m\",\"start\":1795755600000}";
