@@ -100,7 +100,7 @@ public final class CompareCommand implements Callable<Integer> {
     private String mission;
 
     @Option(
-            names = "--format",
+            names = {"-o", "--output", "--format"},
             paramLabel = "FORM",
             defaultValue = "table",
             description = "table or json. Default: ${DEFAULT-VALUE}.")

@@ -79,12 +79,8 @@ public final class AlarmCommandGroup extends CommandGroup {
             if (more) {
                 ((ArrayNode) alarms).remove(limit);
             }
-            if (control.isJson()) {
-                control.print(alarms);
-                return;
-            }
-            TABLE.lines(alarms).forEach(control.out()::println);
-            if (more) {
+            control.print(alarms, TABLE);
+            if (more && control.isForPeople()) {
                 control.out().printf("There are more than %d; --limit shows more of them.%n", limit);
             }
         });

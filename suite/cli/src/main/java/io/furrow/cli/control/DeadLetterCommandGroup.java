@@ -3,7 +3,6 @@ package io.furrow.cli.control;
 import java.net.URLEncoder;
 import java.nio.charset.StandardCharsets;
 import java.time.Instant;
-import java.util.ArrayList;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
@@ -74,12 +73,12 @@ public final class DeadLetterCommandGroup extends CommandGroup {
         query.put("stage", stage);
         query.put("from", from);
         query.put("to", to);
-        return control.showPage(PATH + query(limit, query), letters -> {
-            List<String> lines = new ArrayList<>(DeadLetterTable.lines(letters));
-            if (letters.size() == limit) {
-                lines.add("There may be more than %d; --limit, --from and --to show others.".formatted(limit));
+        return control.run(api -> {
+            JsonNode letters = api.get(PATH + query(limit, query));
+            control.print(letters, DeadLetterTable::lines, DeadLetterTable::names);
+            if (letters.size() == limit && control.isForPeople()) {
+                control.out().printf("There may be more than %d; --limit, --from and --to show others.%n", limit);
             }
-            return lines;
         });
     }
 

@@ -39,7 +39,8 @@ final class MissionWatch implements ControlOptions.Work {
             JsonNode mission = api.get(path);
             JsonNode status = mission.path("status");
             state = status.path("state").asText();
-            String line = control.isJson() ? NgsiJson.mapper().writeValueAsString(mission) : line(status);
+            String line =
+                    control.isForPeople() ? line(status) : NgsiJson.mapper().writeValueAsString(mission);
             if (!line.equals(shown)) {
                 control.out().println(line);
                 control.out().flush();

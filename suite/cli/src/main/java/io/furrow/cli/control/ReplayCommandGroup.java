@@ -66,7 +66,7 @@ public final class ReplayCommandGroup extends CommandGroup {
             JsonNode answer = api.send("POST", REPLAYS, body);
             control.answered(answer);
             List<String> commands = start.commands(answer);
-            if (!control.isJson() && !commands.isEmpty()) {
+            if (control.isForPeople() && !commands.isEmpty()) {
                 control.out()
                         .println(
                                 "Analytics run by themselves beside ./furrow demo, up and replay analytics. On another Flink:");

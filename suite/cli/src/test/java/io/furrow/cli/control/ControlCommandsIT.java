@@ -255,10 +255,9 @@ class ControlCommandsIT {
         }
 
         assertThat(run("dead-letters", "list", "--topic", "sown.dead").lines())
-                .allSatisfy(line -> assertThat(line).hasSizeLessThanOrEqualTo(80))
                 .satisfiesExactly(
                         line -> assertThat(line).containsPattern("sown.dead-0@1  20\\S+Z  not-json  ngsi-source"),
-                        line -> assertThat(line).startsWith("  no JSON: xxx").endsWith("x…"),
+                        line -> assertThat(line).isEqualTo("  " + message),
                         line -> assertThat(line).containsPattern("sown.dead-0@0  20\\S+Z  not-json  ingest"),
                         line -> assertThat(line).startsWith("  no JSON"));
         assertThat(run("dead-letters", "list", "--stage", "ingest", "--limit", "1"))

@@ -120,6 +120,45 @@ class MissionControlTest {
         assertThat(output.toString()).isEqualToIgnoringNewLines(sentence);
     }
 
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+            mission list -o name            | m
+            mission show m -o name          | m
+            device credentials --mission m -o name | m
+            mission list -o yaml            | - mission: "m"\\n  domain: "d"\\n  status:\\n    state: "created"
+            mission list --output json      | [ {\\n  "mission" : "m",\\n  "domain" : "d",\\n  "status" : {\\n    "state" : "created"\\n  }\\n} ]
+            """)
+    void printsListsForPrograms(String arguments, String printed) {
+        String mission = "{\"mission\":\"m\",\"domain\":\"d\",\"status\":{\"state\":\"created\"}}";
+        answer = arguments.contains("list") || arguments.contains("--mission") ? "[" + mission + "]" : mission;
+
+        assertThat(run(arguments.split(" "))).isZero();
+
+        assertThat(output.toString().strip()).isEqualTo(printed.replace("\\n", "\n"));
+    }
+
+    @Test
+    void printsRefusalsForProgramsToo() {
+        status = 409;
+        answer = "{\"error\":\"mission-exists\",\"reason\":\"there is one\"}";
+
+        assertThat(run("mission", "create", "m", "--domain", "d", "-o", "yaml")).isEqualTo(1);
+
+        assertThat(output.toString().strip()).isEqualTo("error: \"mission-exists\"\nreason: \"there is one\"");
+        assertThat(run("mission", "list", "-o", "csv")).isEqualTo(2);
+    }
+
+    @Test
+    void namesDeadLettersAsShowTakesThem() {
+        answer = "[{\"topic\":\"data.raw.dead\",\"partition\":1,\"offset\":7,\"time\":0,\"message\":\"%s\"}]"
+                .formatted("x".repeat(90));
+
+        run("dead-letters", "list", "-o", "name");
+        run("dead-letters", "list");
+
+        assertThat(output.toString()).startsWith("data.raw.dead-1@7").contains("  " + "x".repeat(90));
+    }
+
     private int run(String... arguments) {
         CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"), Commands.ALL);
         line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));

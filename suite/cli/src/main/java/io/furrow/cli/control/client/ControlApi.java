@@ -111,7 +111,9 @@ public final class ControlApi {
         }
         String code = json.path("error").asText();
         throw new ControlPlaneException(
-                code.isEmpty() ? reason : reason + " (" + code + ")", answer.status() == UNKNOWN);
+                code.isEmpty() ? reason : reason + " (" + code + ")",
+                answer.status() == UNKNOWN,
+                json.isObject() ? json : null);
     }
 
     /**
@@ -126,7 +128,9 @@ public final class ControlApi {
             if (status / 100 != 2) {
                 connection.disconnect();
                 throw new ControlPlaneException(
-                        "The control plane at %s answers %d to %s".formatted(base, status, path), status == UNKNOWN);
+                        "The control plane at %s answers %d to %s".formatted(base, status, path),
+                        status == UNKNOWN,
+                        null);
             }
             return new BufferedReader(new InputStreamReader(connection.getInputStream(), UTF_8))
                     .lines()

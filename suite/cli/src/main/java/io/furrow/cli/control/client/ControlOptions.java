@@ -2,6 +2,7 @@ package io.furrow.cli.control.client;
 
 import java.io.IOException;
 import java.io.PrintWriter;
+import java.io.UncheckedIOException;
 import java.net.URI;
 import java.nio.file.Path;
 import java.util.List;
@@ -15,6 +16,7 @@ import javax.net.ssl.SSLContext;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
@@ -24,24 +26,12 @@ import io.furrow.cli.control.table.AnswerText;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.CredentialList;
 import io.furrow.cli.option.HttpUriConverter;
+import io.furrow.cli.option.OutputOptions;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
 /** Common options of the commands that use the control plane: its address, the credentials, and the format of the output. */
 public final class ControlOptions {
-    private enum Output {
-        TABLE,
-        JSON,
-        CSV,
-        ENV;
-
-        /** As it is written on the command line. */
-        @Override
-        public String toString() {
-            return name().toLowerCase(Locale.ROOT);
-        }
-    }
-
     private static final Pattern MEMBER = Pattern.compile("(?:\\ba member |^)'(\\w+)'");
 
     @Spec(Spec.Target.MIXEE)
@@ -73,12 +63,8 @@ public final class ControlOptions {
                             + "$FURROW_API_CA, else those that Java trusts.")
     private Path ca;
 
-    @Option(
-            names = "--output",
-            paramLabel = "FORM",
-            defaultValue = "table",
-            description = "table or json; of credentials also csv and env. Default: ${DEFAULT-VALUE}.")
-    private Output output;
+    @Mixin
+    private final OutputOptions output = new OutputOptions();
 
     /** A use of the API. */
     public interface Work {
@@ -87,7 +73,22 @@ public final class ControlOptions {
 
     /** Prints the content of a path as rows of a table; one object is one row. */
     public int show(String path, ControlTable table) {
-        return showPage(path, answer -> table.lines(rows(answer)));
+        return run(api -> print(api.get(path), table));
+    }
+
+    /** Prints the rows of a table. */
+    public void print(JsonNode answer, ControlTable table) throws IOException {
+        print(answer, all -> table.lines(rows(all)), all -> table.names(rows(all)));
+    }
+
+    /** Prints a list by its lines, which are as wide as the terminal, or its names. */
+    public void print(JsonNode answer, Function<JsonNode, List<String>> lines, Function<JsonNode, List<String>> names)
+            throws IOException {
+        if (output.isName()) {
+            names.apply(answer).forEach(out()::println);
+        } else {
+            print(answer, all -> output.table(lines.apply(all)));
+        }
     }
 
     /** Prints the object at a path, a member per line. */
@@ -103,7 +104,7 @@ public final class ControlOptions {
     /** Prints the credentials at a path, of one device or of many. */
     public int showCredentials(String path) {
         return runWith(api -> {
-            if (output == Output.CSV) {
+            if (output.isCsv()) {
                 out().print(api.text(path, "text/csv"));
                 return;
             }
@@ -111,7 +112,7 @@ public final class ControlOptions {
             JsonNode devices = answer.isArray()
                     ? answer
                     : JsonNodeFactory.instance.arrayNode().add(answer);
-            if (output == Output.ENV) {
+            if (output.isEnv()) {
                 CredentialList.env(devices).forEach(out()::println);
             } else {
                 print(answer, answer.isArray() ? CredentialList.table()::lines : AnswerText::members);
@@ -160,17 +161,19 @@ public final class ControlOptions {
     }
 
     private void print(JsonNode answer, Function<JsonNode, List<String>> page) throws IOException {
-        if (isJson()) {
-            print(answer);
-        } else {
+        if (output.isForPeople()) {
             page.apply(answer).forEach(out()::println);
+        } else if (output.isName()) {
+            rows(answer).forEach(row -> out().println(AnswerText.name(row)));
+        } else {
+            print(answer);
         }
     }
 
     /** Runs it and prints a sentence if it fails. @return the exit code */
     public int run(Work work) {
-        if (output == Output.CSV || output == Output.ENV) {
-            throw refused("--output csv and env are for 'device credentials'; use table or json");
+        if (output.isCsv() || output.isEnv()) {
+            throw refused("--output csv and env are for 'device credentials'; use table, wide, json, yaml or name");
         }
         return runWith(work);
     }
@@ -181,11 +184,21 @@ public final class ControlOptions {
             out().flush();
             return 0;
         } catch (ControlPlaneException e) {
-            spec.commandLine().getErr().println(inOptions(e.getMessage()));
+            spec.commandLine().getErr().println(reason(e));
         } catch (IOException e) {
             spec.commandLine().getErr().println("cannot read or write: " + FailureText.of(e));
         }
         return spec.commandLine().getCommandSpec().exitCodeOnExecutionException();
+    }
+
+    private String reason(ControlPlaneException rejection) {
+        try {
+            return output.isForPeople() || output.isName() || rejection.problem() == null
+                    ? inOptions(rejection.getMessage())
+                    : output.text(rejection.problem());
+        } catch (IOException e) { // it was read from JSON
+            throw new UncheckedIOException(e);
+        }
     }
 
     /** Names the option where the control plane names the member of the request that was made of it. */
@@ -201,12 +214,13 @@ public final class ControlOptions {
         return new ParameterException(spec.commandLine(), reason);
     }
 
-    public boolean isJson() {
-        return output == Output.JSON;
+    public boolean isForPeople() {
+        return output.isForPeople();
     }
 
-    public void print(JsonNode json) throws IOException {
-        out().println(pretty(json));
+    /** Prints an answer in YAML if that is the form, else in JSON. */
+    public void print(JsonNode answer) throws IOException {
+        out().println(output.text(answer));
     }
 
     public static String pretty(JsonNode json) throws IOException {

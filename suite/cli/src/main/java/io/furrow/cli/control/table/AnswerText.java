@@ -29,6 +29,9 @@ public final class AnswerText {
             "to",
             "until");
 
+    /** Members that every answer has. */
+    private static final Set<String> COMMON = Set.of("type", "status", "requestId");
+
     private static final long MIN_TIME = 100_000_000_000L;
 
     private AnswerText() {}
@@ -36,11 +39,18 @@ public final class AnswerText {
     /** The members in one sentence, without those that every answer has. */
     public static String sentence(JsonNode answer) {
         return answer.properties().stream()
-                .filter(each -> !each.getKey().equals("type")
-                        && !each.getKey().equals("status")
-                        && !each.getKey().equals("requestId"))
+                .filter(each -> !COMMON.contains(each.getKey()))
                 .map(each -> each.getKey().replace('_', ' ') + " " + text(each))
                 .collect(Collectors.joining(", "));
+    }
+
+    /** The value of the first of these members, which is a name. */
+    public static String name(JsonNode answer) {
+        return answer.properties().stream()
+                .filter(each -> !COMMON.contains(each.getKey()))
+                .findFirst()
+                .map(AnswerText::text)
+                .orElse("");
     }
 
     private static String text(Map.Entry<String, JsonNode> member) {

@@ -89,6 +89,13 @@ public final class ControlTable {
         return cells.stream().map(line -> line(line, widths)).toList();
     }
 
+    /** The first cell of each object. */
+    public List<String> names(JsonNode rows) {
+        List<String> names = new ArrayList<>();
+        rows.forEach(row -> names.add(cell(columns.get(0), row)));
+        return names;
+    }
+
     private static String line(List<String> cells, int[] widths) {
         StringBuilder line = new StringBuilder();
         for (int i = 0; i < widths.length; i++) {

@@ -14,7 +14,6 @@ import io.furrow.model.text.Counts;
 
 /** Prints dead letters: two lines for each in a list, because topics and messages are long, and a page for one. */
 public final class DeadLetterTable {
-    private static final int WIDTH = 80;
     private static final List<String> MEMBERS = List.of("reason", "stage", "message", "source", "key", "size");
 
     private DeadLetterTable() {}
@@ -28,13 +27,16 @@ public final class DeadLetterTable {
         for (JsonNode letter : letters) {
             lines.add("%s  %s  %s  %s"
                     .formatted(place(letter), time(letter), text(letter, "reason"), text(letter, "stage")));
-            lines.add(cut("  " + text(letter, "message")));
+            lines.add("  " + text(letter, "message"));
         }
         return lines;
     }
 
-    private static String cut(String line) {
-        return line.length() <= WIDTH ? line : line.substring(0, WIDTH - 1) + "…";
+    /** The place of each letter, as show takes it. */
+    public static List<String> names(JsonNode letters) {
+        List<String> names = new ArrayList<>();
+        letters.forEach(letter -> names.add(place(letter)));
+        return names;
     }
 
     private static String place(JsonNode letter) {
