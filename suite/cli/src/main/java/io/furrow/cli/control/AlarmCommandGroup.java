@@ -80,8 +80,8 @@ public final class AlarmCommandGroup extends CommandGroup {
                 ((ArrayNode) alarms).remove(limit);
             }
             control.print(alarms, TABLE);
-            if (more && control.isForPeople()) {
-                control.out().printf("There are more than %d; --limit shows more of them.%n", limit);
+            if (more) {
+                control.remark("There are more than %d; --limit shows more of them.".formatted(limit));
             }
         });
     }

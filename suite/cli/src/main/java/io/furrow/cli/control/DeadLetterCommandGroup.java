@@ -74,10 +74,12 @@ public final class DeadLetterCommandGroup extends CommandGroup {
         query.put("from", from);
         query.put("to", to);
         return control.run(api -> {
-            JsonNode letters = api.get(PATH + query(limit, query));
-            control.print(letters, DeadLetterTable::lines, DeadLetterTable::names);
-            if (letters.size() == limit && control.isForPeople()) {
-                control.out().printf("There may be more than %d; --limit, --from and --to show others.%n", limit);
+            ControlApi.Page letters = api.list(PATH + query(limit, query), limit);
+            if (!letters.elements().isEmpty() || !letters.hasMore()) {
+                control.print(letters.elements(), DeadLetterTable::lines, DeadLetterTable::names);
+            }
+            if (letters.hasMore()) {
+                control.remark("There may be more; --limit, --from and --to show others.");
             }
         });
     }

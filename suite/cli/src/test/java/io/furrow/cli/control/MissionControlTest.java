@@ -24,11 +24,15 @@ class MissionControlTest {
     private final List<String> requested = new ArrayList<>();
     private int status = 200;
     private String answer = "{}";
+    private String link;
 
     @AutoClose
     private final StubServer control = new StubServer(exchange -> {
         String body = new String(exchange.getRequestBody().readAllBytes(), UTF_8);
         requested.add((exchange.getRequestMethod() + " " + exchange.getRequestURI() + " " + body).trim());
+        if (link != null) {
+            exchange.getResponseHeaders().add("Link", link);
+        }
         StubServer.answer(exchange, status, answer);
     });
 
@@ -146,6 +150,22 @@ class MissionControlTest {
 
         assertThat(output.toString().strip()).isEqualTo("error: \"mission-exists\"\nreason: \"there is one\"");
         assertThat(run("mission", "list", "-o", "csv")).isEqualTo(2);
+    }
+
+    /** Where a request has read much and found nothing. */
+    @Test
+    void doesNotSayThatThereAreNoDeadLettersBeforeTheEnd() {
+        link = "<?before=1>; rel=\"next\"";
+        answer = "[]";
+
+        run("dead-letters", "list");
+        assertThat(output.toString())
+                .isEqualToIgnoringNewLines("There may be more; --limit, --from and --to show others.");
+        assertThat(requested).hasSize(20);
+
+        link = null;
+        run("dead-letters", "list");
+        assertThat(output.toString()).contains("There are no such dead letters.");
     }
 
     @Test

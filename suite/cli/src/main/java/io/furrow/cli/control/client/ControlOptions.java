@@ -214,6 +214,11 @@ public final class ControlOptions {
         return new ParameterException(spec.commandLine(), reason);
     }
 
+    /** Prints a sentence below an answer, or beside it where that is for programs. */
+    public void remark(String sentence) {
+        (isForPeople() ? out() : spec.commandLine().getErr()).println(sentence);
+    }
+
     public boolean isForPeople() {
         return output.isForPeople();
     }
