@@ -16,6 +16,7 @@ import io.furrow.cli.command.FieldsCommandGroup;
 import io.furrow.cli.command.ImagesCommand;
 import io.furrow.cli.command.MissionCommandGroup;
 import io.furrow.cli.control.AlarmCommandGroup;
+import io.furrow.cli.control.AuditCommand;
 import io.furrow.cli.control.DeadLetterCommandGroup;
 import io.furrow.cli.control.DeviceCommandGroup;
 import io.furrow.cli.control.DomainCommandGroup;
@@ -37,7 +38,8 @@ public final class Commands {
             ImagesCommand.class,
             CatalogCommand.class,
             FieldsCommandGroup.class,
-            DeadLetterCommandGroup.class);
+            DeadLetterCommandGroup.class,
+            AuditCommand.class);
 
     private Commands() {}
 

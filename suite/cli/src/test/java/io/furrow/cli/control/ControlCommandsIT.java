@@ -95,6 +95,8 @@ class ControlCommandsIT {
         assertThat(run("domain", "delete", "north"))
                 .contains("deleted: domain north; missions deleted: none; fields ended: none");
         assertThat(refused("domain", "delete", "north")).contains("there is no domain 'north'", "unknown-domain");
+        await().untilAsserted(() -> assertThat(run("audit", "--user", "ann").lines())
+                .anyMatch(line -> line.matches(".*Z +ann +service.domainmanager +delete +deleted +domain north.*")));
     }
 
     /** One of many ways to the manager: the others are tested without a control plane. */
