@@ -1,6 +1,7 @@
 package io.furrow.cli;
 
 import java.lang.reflect.Method;
+import java.time.Instant;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.Comparator;
@@ -15,12 +16,14 @@ import io.furrow.cli.command.FieldsCommandGroup;
 import io.furrow.cli.command.ImagesCommand;
 import io.furrow.cli.command.MissionCommandGroup;
 import io.furrow.cli.control.AlarmCommandGroup;
+import io.furrow.cli.control.AuditCommand;
 import io.furrow.cli.control.DeadLetterCommandGroup;
 import io.furrow.cli.control.DeviceCommandGroup;
 import io.furrow.cli.control.DomainCommandGroup;
 import io.furrow.cli.control.ReplayCommandGroup;
 import io.furrow.cli.control.TemplateCommandGroup;
 import io.furrow.cli.option.CommandException;
+import io.furrow.cli.time.TimeConverter;
 import io.furrow.flink.job.JobCommandLine;
 
 /** Commands that start nothing: they use the control plane, Kafka and stored missions wherever these run. */
@@ -35,7 +38,8 @@ public final class Commands {
             ImagesCommand.class,
             CatalogCommand.class,
             FieldsCommandGroup.class,
-            DeadLetterCommandGroup.class);
+            DeadLetterCommandGroup.class,
+            AuditCommand.class);
 
     private Commands() {}
 
@@ -47,7 +51,8 @@ public final class Commands {
     public static CommandLine commandLine(Object root, List<Class<?>> commands, String... args) {
         CommandSpec spec = CommandSpec.forAnnotatedObject(root);
         commands.forEach(command -> spec.addSubcommand(null, command(command, args)));
-        return JobCommandLine.of(spec).setExecutionExceptionHandler((failure, command, parsed) -> {
+        CommandLine line = JobCommandLine.of(spec).registerConverter(Instant.class, new TimeConverter());
+        return line.setExecutionExceptionHandler((failure, command, parsed) -> {
             if (failure instanceof CommandException rejected) {
                 command.getErr().println(rejected.getMessage());
                 return command.getCommandSpec().exitCodeOnExecutionException();
@@ -68,6 +73,10 @@ public final class Commands {
         if (type == ReplayCommandGroup.class && command.getSubcommands().containsKey("step")) {
             // -3 is a number of events, not an option.
             command.getSubcommands().get("step").setUnmatchedOptionsArePositionalParams(true);
+        }
+        if (type == MissionCommandGroup.class && command.getSubcommands().containsKey("marker")) {
+            // -5m is a time.
+            command.getSubcommands().get("marker").setUnmatchedOptionsArePositionalParams(true);
         }
         return command;
     }

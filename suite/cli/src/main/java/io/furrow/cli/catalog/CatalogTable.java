@@ -7,10 +7,12 @@ import java.util.Map;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
+import io.furrow.cli.time.Times;
+
 /** The catalog as text: a line for each type of a mission, and one for each of its attributes. */
 public final class CatalogTable {
-    private static final String ENTRY = "%-28s %-22s %8s %10s %9s %8s %9s  %-20s  %-20s";
-    private static final String ATTRIBUTE = "    %-24s %-22s %8s %10s %9s %18s  %-20s  %-20s";
+    private static final String ENTRY = "%-28s %-22s %8s %10s %9s %8s %9s  %-25s  %-25s";
+    private static final String ATTRIBUTE = "    %-24s %-22s %8s %10s %9s %18s  %-25s  %-25s";
 
     private CatalogTable() {}
 
@@ -32,8 +34,9 @@ public final class CatalogTable {
                     size(entry.path("bytes").asLong()),
                     entry.path("images").asText(),
                     size(entry.path("imageBytes").asLong()),
-                    second(entry, "first"),
-                    second(entry, "last") + (entry.has("deleted") ? "  deleted " + second(entry, "deleted") : "")));
+                    Times.of(entry.path("first")),
+                    Times.of(entry.path("last"))
+                            + (entry.has("deleted") ? "  deleted " + Times.of(entry.path("deleted")) : "")));
             for (Map.Entry<String, JsonNode> attribute :
                     entry.path("attributes").properties()) {
                 lines.add(attribute(attribute.getKey(), attribute.getValue()));
@@ -57,18 +60,14 @@ public final class CatalogTable {
                         ? profile.path("min").asText() + " … "
                                 + profile.path("max").asText()
                         : "",
-                second(profile, "first"),
-                second(profile, "last"));
+                Times.of(profile.path("first")),
+                Times.of(profile.path("last")));
     }
 
     static String place(JsonNode entry) {
         String domain = entry.path("domain").asText();
         String mission = entry.path("mission").asText();
         return (domain.isEmpty() ? "-" : domain) + " / " + (mission.isEmpty() ? "-" : mission);
-    }
-
-    private static String second(JsonNode json, String name) {
-        return json.path(name).asText().replaceFirst("\\.\\d+Z$", "Z");
     }
 
     /** For instance {@code 1.2 MB}. */

@@ -7,9 +7,11 @@ import java.util.Locale;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
+import io.furrow.cli.time.Times;
+
 /** Prints stored data as text: a line for each mission in MongoDB, and for the images of each domain and mission. */
 public final class StoredTable {
-    private static final String MISSION = "%-28s %10s %9s  %-24s  %-24s  %-10s  %s";
+    private static final String MISSION = "%-28s %10s %9s  %-25s  %-25s  %-10s  %s";
     private static final String IMAGES = "%-28s %10s %10s %9s";
 
     private StoredTable() {}
@@ -28,8 +30,8 @@ public final class StoredTable {
                     one.path("bytes").asLong() < 0
                             ? "?"
                             : CatalogTable.size(one.path("bytes").asLong()),
-                    one.path("first").asText(),
-                    one.path("last").asText(),
+                    Times.of(one.path("first")),
+                    Times.of(one.path("last")),
                     one.has("retentionSeconds")
                             ? retention(one.path("retentionSeconds").asLong())
                             : "-",

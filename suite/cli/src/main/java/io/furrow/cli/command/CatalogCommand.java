@@ -4,7 +4,6 @@ import java.io.IOException;
 import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.List;
-import java.util.Locale;
 import java.util.concurrent.Callable;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -22,6 +21,7 @@ import io.furrow.cli.catalog.StoredTable;
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.cli.option.KafkaClient;
+import io.furrow.cli.option.OutputOptions;
 import io.furrow.flink.job.FileSystemOptions;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
@@ -34,17 +34,6 @@ import io.furrow.model.text.FailureText;
                 + "attributes with type, unit, range and rate, first and last time, sizes, images; and what is stored: "
                 + "missions with --mongo, images with --images.")
 public final class CatalogCommand implements Callable<Integer> {
-    private enum Output {
-        TABLE,
-        JSON;
-
-        /** As it is written on the command line. */
-        @Override
-        public String toString() {
-            return name().toLowerCase(Locale.ROOT);
-        }
-    }
-
     @Spec
     private CommandSpec spec;
 
@@ -73,12 +62,8 @@ public final class CatalogCommand implements Callable<Integer> {
     @Mixin
     private final FileSystemOptions fileSystems = new FileSystemOptions();
 
-    @Option(
-            names = "--output",
-            paramLabel = "FORM",
-            defaultValue = "table",
-            description = "table or json. Default: ${DEFAULT-VALUE}.")
-    private Output output;
+    @Mixin
+    private final OutputOptions output = new OutputOptions();
 
     @Option(names = "--domain", paramLabel = "NAME", description = "Only this domain.")
     private String domain;
@@ -104,19 +89,19 @@ public final class CatalogCommand implements Callable<Integer> {
         List<JsonNode> missions = mongo == null ? null : entries(StoredAssets.missions(mongo));
         List<JsonNode> stored = images == null ? null : entries(storedImages());
         PrintWriter out = spec.commandLine().getOut();
-        if (output == Output.JSON) {
+        if (!output.isForPeople()) {
             ObjectNode all = NgsiJson.mapper().createObjectNode();
             put(all, "types", types);
             put(all, "missions", missions);
             put(all, "images", stored);
-            out.println(NgsiJson.mapper().writerWithDefaultPrettyPrinter().writeValueAsString(all));
+            out.println(output.text(all));
         } else {
-            CatalogTable.lines(types).forEach(out::println);
+            output.table(CatalogTable.lines(types)).forEach(out::println);
             if (missions != null) {
-                StoredTable.missions(missions).forEach(out::println);
+                output.table(StoredTable.missions(missions)).forEach(out::println);
             }
             if (stored != null) {
-                StoredTable.images(stored).forEach(out::println);
+                output.table(StoredTable.images(stored)).forEach(out::println);
             }
         }
         out.flush();

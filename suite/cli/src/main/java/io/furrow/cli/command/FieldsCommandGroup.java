@@ -1,19 +1,15 @@
 package io.furrow.cli.command;
 
 import java.io.IOException;
-import java.time.DateTimeException;
 import java.time.Instant;
-import java.time.OffsetDateTime;
 import java.time.temporal.ChronoUnit;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import picocli.CommandLine.Command;
-import picocli.CommandLine.ITypeConverter;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
-import picocli.CommandLine.TypeConversionException;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
@@ -45,7 +41,6 @@ public final class FieldsCommandGroup extends CommandGroup {
             @Option(
                             names = "--at",
                             paramLabel = "TIME",
-                            converter = TimeConverter.class,
                             description = "Event time, for instance 2026-03-01T00:00:00Z. Default: now.")
                     Instant at,
             @Option(names = "--versions", description = "All versions of all times, including ends.")
@@ -88,7 +83,6 @@ public final class FieldsCommandGroup extends CommandGroup {
             @Option(
                             names = "--at",
                             paramLabel = "TIME",
-                            converter = TimeConverter.class,
                             description = "Event time of its end, for instance 2026-10-01T00:00:00Z. Default: now.")
                     Instant at) {
         String time =
@@ -118,18 +112,5 @@ public final class FieldsCommandGroup extends CommandGroup {
 
     private static String path(String id) {
         return FIELDS + ControlApi.part(id);
-    }
-
-    /** ISO 8601 with an offset. */
-    static final class TimeConverter implements ITypeConverter<Instant> {
-        @Override
-        public Instant convert(String value) {
-            try {
-                return OffsetDateTime.parse(value).toInstant();
-            } catch (DateTimeException e) {
-                throw new TypeConversionException(
-                        "'" + value + "' is not a time; write for instance 2026-03-01T00:00:00Z");
-            }
-        }
     }
 }

@@ -67,7 +67,6 @@ final class FieldsImportCommand implements Callable<Integer> {
     @Option(
             names = "--valid-from",
             paramLabel = "TIME",
-            converter = FieldsCommandGroup.TimeConverter.class,
             description =
                     "Event time from which the fields are valid, for instance 2026-03-01T00:00:00Z. Default: now.")
     private Instant validFrom = Instant.now().truncatedTo(ChronoUnit.MILLIS);

@@ -4,13 +4,13 @@ import java.io.IOException;
 import java.io.PrintWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.time.Instant;
 import java.util.List;
 import java.util.Locale;
 import java.util.OptionalLong;
 import java.util.Properties;
 import java.util.concurrent.Callable;
 
-import com.fasterxml.jackson.databind.node.TextNode;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
@@ -20,8 +20,8 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.KafkaClient;
+import io.furrow.cli.time.TimeConverter;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.time.Instants;
 
 /** {@code ./furrow replay compare}. */
 @Command(
@@ -69,15 +69,15 @@ public final class CompareCommand implements Callable<Integer> {
     @Option(
             names = "--from",
             paramLabel = "TIME",
-            description =
-                    "Only results at or after this original event time, ISO 8601 or epoch ms. Required with live.")
-    private String from;
+            description = "Only results at or after this original event time, " + TimeConverter.FORMS
+                    + " Required with live.")
+    private Instant from;
 
     @Option(
             names = "--to",
             paramLabel = "TIME",
             description = "Only results before this original event time. Required with live.")
-    private String to;
+    private Instant to;
 
     @Option(
             names = "--epoch-a",
@@ -100,7 +100,7 @@ public final class CompareCommand implements Callable<Integer> {
     private String mission;
 
     @Option(
-            names = "--format",
+            names = {"-o", "--output", "--format"},
             paramLabel = "FORM",
             defaultValue = "table",
             description = "table or json. Default: ${DEFAULT-VALUE}.")
@@ -183,18 +183,12 @@ public final class CompareCommand implements Callable<Integer> {
             throw refused("A and B are the same; name two of them, or two epochs with --epoch-a and --epoch-b");
         }
         TimeRange range = new TimeRange(
-                from == null ? TimeRange.ALL.from() : time("--from", from),
-                to == null ? TimeRange.ALL.to() : time("--to", to));
+                from == null ? TimeRange.ALL.from() : from.toEpochMilli(),
+                to == null ? TimeRange.ALL.to() : to.toEpochMilli());
         if (range.from() >= range.to()) {
             throw refused("--to must be after --from");
         }
         return range;
-    }
-
-    private long time(String option, String text) {
-        return Instants.of(TextNode.valueOf(text))
-                .orElseThrow(() -> refused(option + " '" + text + "' is not a time: give ISO 8601 or epoch ms"))
-                .toEpochMilli();
     }
 
     private ParameterException refused(String reason) {

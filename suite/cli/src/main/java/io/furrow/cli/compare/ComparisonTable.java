@@ -6,6 +6,7 @@ import java.util.Locale;
 import java.util.stream.Collectors;
 
 import io.furrow.cli.compare.ResultMatch.Verdict;
+import io.furrow.cli.time.Times;
 
 /** Writes a comparison as lines of text: the number of equal results of each kind, and a line for each difference. */
 final class ComparisonTable {
@@ -69,7 +70,7 @@ final class ComparisonTable {
                         Locale.ROOT,
                         ROW,
                         match.verdict().code(),
-                        ComparisonText.time(match.either().start()),
+                        Times.of(match.either().start()),
                         ComparisonText.length(match.either()),
                         name + " ".repeat(width - name.length()),
                         ComparisonText.what(match))

@@ -1,7 +1,6 @@
 package io.furrow.cli.compare;
 
 import java.time.Duration;
-import java.time.Instant;
 import java.util.Collection;
 import java.util.Locale;
 import java.util.TreeSet;
@@ -9,15 +8,11 @@ import java.util.stream.Collectors;
 
 import io.furrow.cli.compare.AnalyticsResult.Average;
 import io.furrow.cli.compare.AnalyticsResult.Encounter;
+import io.furrow.cli.time.Times;
 
 /** Formats values of results for display. */
 final class ComparisonText {
     private ComparisonText() {}
-
-    /** To the second in UTC, for instance {@code 2026-05-01T06:30:00Z}. */
-    static String time(long millis) {
-        return Instant.ofEpochMilli(millis).toString().replaceFirst("\\.\\d+Z$", "Z");
-    }
 
     /** For instance {@code 4.5 s}, {@code 3 min 05 s}, {@code 2 h 10 min}. */
     static String duration(long millis) {
@@ -61,7 +56,7 @@ final class ComparisonText {
         String what = what(match);
         return "%s, %s, %s%s"
                 .formatted(
-                        time(match.either().start()),
+                        Times.of(match.either().start()),
                         length(match.either()),
                         match.verdict().code(),
                         what.isEmpty() ? "" : ": " + what);

@@ -1,5 +1,6 @@
 package io.furrow.cli.control;
 
+import java.time.Duration;
 import java.util.LinkedHashMap;
 import java.util.Locale;
 import java.util.Map;
@@ -78,13 +79,9 @@ public final class AlarmCommandGroup extends CommandGroup {
             if (more) {
                 ((ArrayNode) alarms).remove(limit);
             }
-            if (control.isJson()) {
-                control.print(alarms);
-                return;
-            }
-            TABLE.lines(alarms).forEach(control.out()::println);
+            control.print(alarms, TABLE);
             if (more) {
-                control.out().printf("There are more than %d; --limit shows more of them.%n", limit);
+                control.remark("There are more than %d; --limit shows more of them.".formatted(limit));
             }
         });
     }
@@ -106,10 +103,10 @@ public final class AlarmCommandGroup extends CommandGroup {
             @Option(
                             names = "--for",
                             paramLabel = "DURATION",
-                            defaultValue = "PT1H",
-                            description = "ISO 8601. Default: PT1H.")
-                    String duration) {
-        return post(control, alarm, "mute", duration);
+                            defaultValue = "1h",
+                            description = "How long, as 30m, 8h or 2d. Default: 1h.")
+                    Duration duration) {
+        return post(control, alarm, "mute", duration.toString());
     }
 
     @Command(name = "unmute", description = "Unmutes an alarm: the webhook gets it again.")

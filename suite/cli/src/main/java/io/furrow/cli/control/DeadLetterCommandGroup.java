@@ -2,7 +2,7 @@ package io.furrow.cli.control;
 
 import java.net.URLEncoder;
 import java.nio.charset.StandardCharsets;
-import java.util.ArrayList;
+import java.time.Instant;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
@@ -18,6 +18,7 @@ import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.DeadLetterTable;
 import io.furrow.cli.option.CommandGroup;
+import io.furrow.cli.time.TimeConverter;
 
 /** {@code ./furrow dead-letters}. */
 @Command(
@@ -50,13 +51,13 @@ public final class DeadLetterCommandGroup extends CommandGroup {
             @Option(
                             names = "--from",
                             paramLabel = "TIME",
-                            description = "Only those not before this time, ISO 8601 or epoch ms.")
-                    String from,
+                            description = "Only those not before this time, " + TimeConverter.FORMS)
+                    Instant from,
             @Option(
                             names = "--to",
                             paramLabel = "TIME",
-                            description = "Only those before this time, ISO 8601 or epoch ms.")
-                    String to,
+                            description = "Only those before this time, " + TimeConverter.FORMS)
+                    Instant to,
             @Option(
                             names = "--limit",
                             paramLabel = "N",
@@ -66,27 +67,29 @@ public final class DeadLetterCommandGroup extends CommandGroup {
         if (limit < 1 || limit > MAX_LISTED) {
             throw control.refused("--limit is 1 to %d, not %d".formatted(MAX_LISTED, limit));
         }
-        Map<String, String> query = new LinkedHashMap<>();
+        Map<String, Object> query = new LinkedHashMap<>();
         query.put("topic", topic);
         query.put("reason", reason);
         query.put("stage", stage);
         query.put("from", from);
         query.put("to", to);
-        return control.showPage(PATH + query(limit, query), letters -> {
-            List<String> lines = new ArrayList<>(DeadLetterTable.lines(letters));
-            if (letters.size() == limit) {
-                lines.add("There may be more than %d; --limit, --from and --to show others.".formatted(limit));
+        return control.run(api -> {
+            ControlApi.Page letters = api.list(PATH + query(limit, query), limit);
+            if (!letters.elements().isEmpty() || !letters.hasMore()) {
+                control.print(letters.elements(), DeadLetterTable::lines, DeadLetterTable::names);
             }
-            return lines;
+            if (letters.hasMore()) {
+                control.remark("There may be more; --limit, --from and --to show others.");
+            }
         });
     }
 
-    private static String query(int limit, Map<String, String> others) {
+    private static String query(int limit, Map<String, ?> others) {
         return "?limit=" + limit
                 + others.entrySet().stream()
                         .filter(each -> each.getValue() != null)
-                        .map(each ->
-                                "&" + each.getKey() + "=" + URLEncoder.encode(each.getValue(), StandardCharsets.UTF_8))
+                        .map(each -> "&" + each.getKey() + "="
+                                + URLEncoder.encode(each.getValue().toString(), StandardCharsets.UTF_8))
                         .collect(Collectors.joining());
     }
 

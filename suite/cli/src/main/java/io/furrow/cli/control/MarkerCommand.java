@@ -1,5 +1,6 @@
 package io.furrow.cli.control;
 
+import java.time.Instant;
 import java.util.LinkedHashMap;
 import java.util.Map;
 
@@ -10,6 +11,7 @@ import picocli.CommandLine.Parameters;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
+import io.furrow.cli.time.TimeConverter;
 
 /** {@code ./furrow mission marker}; its help is that of {@code mission}. */
 @Command(
@@ -34,8 +36,8 @@ public final class MarkerCommand {
     int add(
             @Mixin ControlOptions control,
             @Parameters(index = "0", paramLabel = "MISSION", description = MISSION) String mission,
-            @Parameters(index = "1", paramLabel = "TIME", description = "Event time, " + ReplayArguments.TIME)
-                    String time,
+            @Parameters(index = "1", paramLabel = "TIME", description = "Event time, " + TimeConverter.FORMS)
+                    Instant time,
             @Parameters(index = "2", paramLabel = "NOTE", description = "Text of the marker.") String note) {
         return control.command("POST", path(mission), ControlOptions.object(body(time, note)));
     }
@@ -52,9 +54,9 @@ public final class MarkerCommand {
         return "/api/missions" + ControlApi.part(mission) + "/markers";
     }
 
-    private static Map<String, Object> body(String time, String note) {
+    private static Map<String, Object> body(Instant time, String note) {
         Map<String, Object> body = new LinkedHashMap<>();
-        body.put("time", ReplayArguments.time(time));
+        body.put("time", time.toEpochMilli());
         body.put("note", note);
         return body;
     }

@@ -2,11 +2,13 @@ package io.furrow.cli.control;
 
 import java.io.IOException;
 import java.nio.file.Path;
+import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.fasterxml.jackson.databind.node.TextNode;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
@@ -19,6 +21,8 @@ import io.furrow.cli.control.table.DeviceListParts;
 import io.furrow.cli.control.table.JsonFile;
 import io.furrow.cli.control.table.MissionPage;
 import io.furrow.cli.option.CommandGroup;
+import io.furrow.cli.time.TimeConverter;
+import io.furrow.cli.time.Times;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** The commands of {@code ./furrow mission} that use the control plane. */
@@ -71,6 +75,7 @@ public class MissionControl extends CommandGroup {
                         .text("UP", MissionControl::up)
                         .text("DEVICES", "/deviceCount")
                         .time("SINCE", "/status/since")
+                        .text("NEXT", MissionControl::next)
                         .text("REASON", "/status/reason"));
     }
 
@@ -78,6 +83,12 @@ public class MissionControl extends CommandGroup {
     private static JsonNode up(JsonNode mission) {
         String state = mission.at("/status/state").asText();
         return mission.at(state.equals("starting") || state.equals("running") ? "/status/confirmed" : "/none");
+    }
+
+    private static JsonNode next(JsonNode mission) {
+        boolean waits = mission.at("/status/state").asText().equals("created");
+        JsonNode time = mission.at(waits ? "/status/due" : "/status/ends");
+        return time.isNumber() ? TextNode.valueOf((waits ? "starts " : "ends ") + Times.of(time)) : time;
     }
 
     @Command(name = "show", description = "Shows one mission: its state, missing devices and why they are missing.")
@@ -145,17 +156,21 @@ public class MissionControl extends CommandGroup {
         @Option(names = "--domain", paramLabel = "DOMAIN", description = "Its domain; required for a new mission.")
         private String domain;
 
-        @Option(names = "--at", paramLabel = "TIME", description = "When: ISO 8601 or epoch ms. Default: now.")
-        private String at;
+        @Option(
+                names = "--at",
+                paramLabel = "TIME",
+                converter = TimeConverter.Next.class,
+                description = "When, as 06:00, +2h or 2026-05-01T06:00:00. Default: now.")
+        private Instant at;
 
-        @Option(names = "--duration", paramLabel = "DURATION", description = "Stopped after this: ISO 8601, as PT2H.")
-        private String duration;
+        @Option(names = "--duration", paramLabel = "DURATION", description = "Stopped after this, as 2h or 1h30m.")
+        private Duration duration;
 
         ObjectNode in(ObjectNode json) {
             if (at != null) {
-                json.set("start", NgsiJson.mapper().valueToTree(ReplayArguments.time(at)));
+                json.put("start", at.toEpochMilli());
             }
-            return duration == null ? json : json.put("duration", duration);
+            return duration == null ? json : json.put("duration", duration.toString());
         }
     }
 

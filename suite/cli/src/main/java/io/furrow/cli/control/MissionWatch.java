@@ -1,13 +1,13 @@
 package io.furrow.cli.control;
 
 import java.io.IOException;
-import java.time.Instant;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
+import io.furrow.cli.time.Times;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** Follows a mission: prints a line for every change of its state, its progress or its missing devices. */
@@ -39,7 +39,8 @@ final class MissionWatch implements ControlOptions.Work {
             JsonNode mission = api.get(path);
             JsonNode status = mission.path("status");
             state = status.path("state").asText();
-            String line = control.isJson() ? NgsiJson.mapper().writeValueAsString(mission) : line(status);
+            String line =
+                    control.isForPeople() ? line(status) : NgsiJson.mapper().writeValueAsString(mission);
             if (!line.equals(shown)) {
                 control.out().println(line);
                 control.out().flush();
@@ -59,9 +60,7 @@ final class MissionWatch implements ControlOptions.Work {
         int full = devices == 0 ? 0 : BAR * confirmed / devices;
         StringBuilder line = new StringBuilder("%s  %-8s  [%s%s] %d/%d devices"
                 .formatted(
-                        Instant.ofEpochMilli(status.path("since").asLong())
-                                .toString()
-                                .replaceFirst("\\.\\d+Z$", "Z"),
+                        Times.of(status.path("since").asLong()),
                         status.path("state").asText(),
                         "#".repeat(full),
                         "·".repeat(BAR - full),

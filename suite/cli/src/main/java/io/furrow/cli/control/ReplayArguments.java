@@ -1,14 +1,32 @@
 package io.furrow.cli.control;
 
-/** Converts times and speeds of a command line for requests; the control plane rejects invalid ones. */
-final class ReplayArguments {
-    static final String TIME = "ISO 8601 or epoch ms.";
+import java.util.LinkedHashMap;
+import java.util.Map;
 
+import picocli.CommandLine.TypeConversionException;
+
+import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.time.TimeConverter;
+
+/** Converts arguments of a command line for requests; the control plane rejects invalid speeds. */
+final class ReplayArguments {
     private ReplayArguments() {}
 
-    /** A number if it is epoch ms; null if absent. */
-    static Object time(String time) {
-        return time != null && time.matches("[0-9]{1,15}") ? Long.valueOf(time) : time;
+    /** Returns a time in epoch ms. */
+    static long time(ControlOptions control, String time) {
+        try {
+            return new TimeConverter().convert(time).toEpochMilli();
+        } catch (TypeConversionException e) {
+            throw control.refused(e.getMessage());
+        }
+    }
+
+    /** Returns the members of a range of event times. */
+    static Map<String, Long> range(ControlOptions control, String from, String to) {
+        Map<String, Long> range = new LinkedHashMap<>();
+        range.put("from", time(control, from));
+        range.put("to", time(control, to));
+        return range;
     }
 
     /** A number if it can be parsed as one. */

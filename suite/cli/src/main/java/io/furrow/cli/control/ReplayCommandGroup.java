@@ -14,6 +14,7 @@ import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.option.CommandGroup;
+import io.furrow.cli.time.TimeConverter;
 
 /** {@code ./furrow replay}. */
 @Command(
@@ -65,7 +66,7 @@ public final class ReplayCommandGroup extends CommandGroup {
             JsonNode answer = api.send("POST", REPLAYS, body);
             control.answered(answer);
             List<String> commands = start.commands(answer);
-            if (!control.isJson() && !commands.isEmpty()) {
+            if (control.isForPeople() && !commands.isEmpty()) {
                 control.out()
                         .println(
                                 "Analytics run by themselves beside ./furrow demo, up and replay analytics. On another Flink:");
@@ -107,10 +108,10 @@ public final class ReplayCommandGroup extends CommandGroup {
         return steer(control, target, "resume", Map.of());
     }
 
-    @Command(name = "seek", description = "Jumps to an event time, " + ReplayArguments.TIME)
+    @Command(name = "seek", description = "Jumps to an event time, " + TimeConverter.FORMS)
     int seek(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
         String to = target.arguments(control, 1, 1, "TIME").get(0);
-        return steer(control, target, "seek", Map.of("to", ReplayArguments.time(to)));
+        return steer(control, target, "seek", Map.of("to", ReplayArguments.time(control, to)));
     }
 
     @Command(name = "speed", description = "Changes the speed: 0.1 to 1000, or max.")
@@ -140,16 +141,10 @@ public final class ReplayCommandGroup extends CommandGroup {
                 control,
                 target,
                 "loop",
-                off
-                        ? Map.of()
-                        : Map.of(
-                                "from",
-                                ReplayArguments.time(arguments.get(0)),
-                                "to",
-                                ReplayArguments.time(arguments.get(1))));
+                off ? Map.of() : ReplayArguments.range(control, arguments.get(0), arguments.get(1)));
     }
 
     private static int steer(ControlOptions control, ReplayTarget target, String verb, Map<String, ?> body) {
-        return control.command("POST", target.path(control) + "/" + verb, ControlOptions.object(body));
+        return control.commandEchoed("POST", target.path(control) + "/" + verb, ControlOptions.object(body));
     }
 }

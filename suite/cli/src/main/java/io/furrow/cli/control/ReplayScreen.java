@@ -1,7 +1,6 @@
 package io.furrow.cli.control;
 
 import java.time.Duration;
-import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
@@ -10,6 +9,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.TextNode;
 
 import io.furrow.cli.control.table.ControlTable;
+import io.furrow.cli.time.Times;
 import io.furrow.model.text.Counts;
 
 /** Formats a replay as lines of text, none wider than the terminal. */
@@ -66,8 +66,8 @@ final class ReplayScreen {
         String range = replay.hasNonNull("range")
                 ? "  loops from %s to %s"
                         .formatted(
-                                time(replay.at("/range/from").asLong()),
-                                time(replay.at("/range/to").asLong()))
+                                Times.of(replay.at("/range/from").asLong()),
+                                Times.of(replay.at("/range/to").asLong()))
                 : "";
         String atSpeed = speed.isMissingNode() // of a replay that the manager has deleted
                 ? ""
@@ -95,7 +95,8 @@ final class ReplayScreen {
         }
         PlayedRange part = PlayedRange.of(replay);
         long position = progress.path("position").asLong();
-        return "%s  %s / %s".formatted(time(position), clock(position - part.from()), clock(part.to() - part.from()));
+        return "%s  %s / %s"
+                .formatted(Times.of(position), clock(position - part.from()), clock(part.to() - part.from()));
     }
 
     private static String counts(JsonNode progress) {
@@ -112,10 +113,6 @@ final class ReplayScreen {
     private static String reason(JsonNode replay) {
         String waiting = replay.at("/status/progress/waiting").asText("");
         return waiting.isEmpty() ? replay.at("/status/reason").asText("") : "waits: " + waiting;
-    }
-
-    private static String time(long millis) {
-        return Instant.ofEpochMilli(millis).toString().replaceFirst("\\.\\d+Z$", "Z");
     }
 
     private static String clock(long millis) {

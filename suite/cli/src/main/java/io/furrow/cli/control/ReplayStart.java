@@ -1,6 +1,7 @@
 package io.furrow.cli.control;
 
 import java.time.Duration;
+import java.time.Instant;
 import java.util.ArrayList;
 import java.util.LinkedHashMap;
 import java.util.List;
@@ -12,6 +13,7 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
 
 import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.time.TimeConverter;
 import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.topic.Topics;
 
@@ -41,14 +43,14 @@ final class ReplayStart {
     @Option(
             names = "--from",
             paramLabel = "TIME",
-            description = "Event time of the first event: " + ReplayArguments.TIME)
-    private String from;
+            description = "Event time of the first event: " + TimeConverter.FORMS)
+    private Instant from;
 
     @Option(
             names = "--to",
             paramLabel = "TIME",
-            description = "Event time after the last event: " + ReplayArguments.TIME)
-    private String to;
+            description = "Event time after the last event: " + TimeConverter.FORMS)
+    private Instant to;
 
     @Option(names = "--speed", paramLabel = "X", description = "0.1 to 1000, or max. Default: 1.")
     private String speed;
@@ -82,8 +84,9 @@ final class ReplayStart {
     @Option(
             names = "--start-at",
             paramLabel = "TIME",
-            description = "Wall-clock time of the first event. Default: at once.")
-    private String startAt;
+            converter = TimeConverter.Next.class,
+            description = "Wall-clock time of the first event, as 06:00 or +2h. Default: at once.")
+    private Instant startAt;
 
     @Option(
             names = "--analytics",
@@ -125,15 +128,15 @@ final class ReplayStart {
         Map<String, Object> members = new LinkedHashMap<>();
         members.put(all.size() == 1 ? "mission" : "missions", all.size() == 1 ? all.get(0) : all);
         members.put("topic", topic);
-        members.put("from", ReplayArguments.time(from));
-        members.put("to", ReplayArguments.time(to));
+        members.put("from", millis(from));
+        members.put("to", millis(to));
         members.put("speed", speed == null ? null : ReplayArguments.speed(speed));
         members.put("loop", loop ? true : null);
         members.put("range", range == null ? null : range(control));
         members.put("devices", devices);
         members.put("maxGap", maxGap == null ? null : maxGap.toString());
         members.put("stamps", stamps);
-        members.put("startAt", ReplayArguments.time(startAt));
+        members.put("startAt", millis(startAt));
         members.put("analytics", analytics);
         if (sourceTopic != null || sourceFile != null) {
             members.put("source", sourceTopic == null ? Map.of("file", sourceFile) : Map.of("topic", sourceTopic));
@@ -141,12 +144,16 @@ final class ReplayStart {
         return ControlOptions.object(members);
     }
 
-    private Map<String, Object> range(ControlOptions control) {
+    private Map<String, Long> range(ControlOptions control) {
         String[] ends = range.split("\\.\\.", -1);
         if (ends.length != 2 || ends[0].isBlank() || ends[1].isBlank()) {
             throw control.refused("--range '%s' is not A..B, two event times".formatted(range));
         }
-        return Map.of("from", ReplayArguments.time(ends[0]), "to", ReplayArguments.time(ends[1]));
+        return ReplayArguments.range(control, ends[0], ends[1]);
+    }
+
+    private static Long millis(Instant time) {
+        return time == null ? null : Long.valueOf(time.toEpochMilli());
     }
 
     /**

@@ -84,9 +84,9 @@ final class ReplayWatch implements ControlOptions.Work {
 
     private void line(ReplayEvents events) throws IOException {
         String lost = events.isConnected() || events.isOver() ? "" : "  (connection lost)";
-        String line = control.isJson()
-                ? NgsiJson.mapper().writeValueAsString(events.newest())
-                : ReplayScreen.line(events.newest()) + lost;
+        String line = control.isForPeople()
+                ? ReplayScreen.line(events.newest()) + lost
+                : NgsiJson.mapper().writeValueAsString(events.newest());
         if (!line.equals(printed)) {
             printed = line;
             control.out().println(line);

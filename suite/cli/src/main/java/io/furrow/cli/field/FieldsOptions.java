@@ -1,32 +1,22 @@
 package io.furrow.cli.field;
 
 import java.io.IOException;
+import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.List;
-import java.util.Locale;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Spec;
 
 import io.furrow.cli.option.KafkaClient;
+import io.furrow.cli.option.OutputOptions;
 import io.furrow.kafka.field.FieldsTopic;
-import io.furrow.model.ngsi.NgsiJson;
 
 /** Options for commands that read or write the topic of fields directly, and their output format. */
 public final class FieldsOptions {
-    private enum Output {
-        TABLE,
-        JSON;
-
-        /** As it is written on the command line. */
-        @Override
-        public String toString() {
-            return name().toLowerCase(Locale.ROOT);
-        }
-    }
-
     @Spec(Spec.Target.MIXEE)
     private CommandSpec spec;
 
@@ -42,26 +32,23 @@ public final class FieldsOptions {
             description = "Properties for the Kafka clients, for instance security settings.")
     private Path kafkaProperties;
 
-    @Option(
-            names = "--output",
-            paramLabel = "FORM",
-            defaultValue = "table",
-            description = "table or json. Default: ${DEFAULT-VALUE}.")
-    private Output output;
+    @Mixin
+    private final OutputOptions output = new OutputOptions();
 
     public FieldsTopic topic() {
         return new FieldsTopic(KafkaClient.settings(kafka, kafkaProperties));
     }
 
-    /** Prints lines or JSON, depending on the option. */
+    /** Prints lines, ids, JSON or YAML, depending on the option. */
     public void print(List<String> lines, JsonNode json) throws IOException {
-        if (output == Output.JSON) {
-            spec.commandLine()
-                    .getOut()
-                    .println(NgsiJson.mapper().writerWithDefaultPrettyPrinter().writeValueAsString(json));
+        PrintWriter out = spec.commandLine().getOut();
+        if (output.isName()) {
+            json.path("features").forEach(field -> out.println(field.path("id").asText()));
+        } else if (output.isForPeople()) {
+            output.table(lines).forEach(out::println);
         } else {
-            lines.forEach(spec.commandLine().getOut()::println);
+            out.println(output.text(json));
         }
-        spec.commandLine().getOut().flush();
+        out.flush();
     }
 }

@@ -95,6 +95,8 @@ class ControlCommandsIT {
         assertThat(run("domain", "delete", "north"))
                 .contains("deleted: domain north; missions deleted: none; fields ended: none");
         assertThat(refused("domain", "delete", "north")).contains("there is no domain 'north'", "unknown-domain");
+        await().untilAsserted(() -> assertThat(run("audit", "--user", "ann").lines())
+                .anyMatch(line -> line.matches(".*Z +ann +service.domainmanager +delete +deleted +domain north.*")));
     }
 
     /** One of many ways to the manager: the others are tested without a control plane. */
@@ -255,14 +257,16 @@ class ControlCommandsIT {
         }
 
         assertThat(run("dead-letters", "list", "--topic", "sown.dead").lines())
-                .allSatisfy(line -> assertThat(line).hasSizeLessThanOrEqualTo(80))
                 .satisfiesExactly(
                         line -> assertThat(line).containsPattern("sown.dead-0@1  20\\S+Z  not-json  ngsi-source"),
-                        line -> assertThat(line).startsWith("  no JSON: xxx").endsWith("x…"),
+                        line -> assertThat(line).isEqualTo("  " + message),
                         line -> assertThat(line).containsPattern("sown.dead-0@0  20\\S+Z  not-json  ingest"),
                         line -> assertThat(line).startsWith("  no JSON"));
         assertThat(run("dead-letters", "list", "--stage", "ingest", "--limit", "1"))
-                .contains("sown.dead-0@0", "There may be more than 1;");
+                .contains("sown.dead-0@0")
+                .doesNotContain("There may be more");
+        assertThat(run("dead-letters", "list", "--topic", "sown.dead", "--limit", "1"))
+                .contains("sown.dead-0@1", "There may be more;");
         assertThat(run("dead-letters", "show", "sown.dead-0@0"))
                 .contains("source   sown-0@7", "  dead-stage: ingest", "value, as text", "{\"id\":");
         assertThat(json("dead-letters", "show", "sown.dead-0@1").path("stage").asText())

@@ -40,7 +40,7 @@ class ReplayCommandGroupTest {
             pause m.0a1b2c3d                  | POST /api/replays/m.0a1b2c3d/pause {}
             resume --group 0a1b2c3d           | POST /api/replays/groups/0a1b2c3d/resume {}
             seek m.0a1b2c3d 1777600000000     | POST /api/replays/m.0a1b2c3d/seek {"to":1777600000000}
-            seek --group 0a1b2c3d 2026-05-01T00:00:00Z | POST /api/replays/groups/0a1b2c3d/seek {"to":"2026-05-01T00:00:00Z"}
+            seek --group 0a1b2c3d 2026-05-01T00:00:00Z | POST /api/replays/groups/0a1b2c3d/seek {"to":1777593600000}
             speed m.0a1b2c3d 2                | POST /api/replays/m.0a1b2c3d/speed {"speed":2.0}
             speed --group 0a1b2c3d max        | POST /api/replays/groups/0a1b2c3d/speed {"speed":"max"}
             step m.0a1b2c3d                   | POST /api/replays/m.0a1b2c3d/step {"count":1}
@@ -86,11 +86,28 @@ class ReplayCommandGroupTest {
         assertThat(output.toString()).isEqualToIgnoringNewLines("stopped: replay m.0a1b2c3d");
     }
 
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+            seek m.0a1b2c3d 1777600000000 | paused: replay m.0a1b2c3d, to 2026-05-01T01:46:40Z
+            speed m.0a1b2c3d 2            | paused: replay m.0a1b2c3d, speed 2.0
+            pause m.0a1b2c3d              | paused: replay m.0a1b2c3d
+            """)
+    void reportsWhatWasChanged(String arguments, String sentence) {
+        answer = "{\"type\":\"response\",\"status\":\"paused\",\"replay\":\"m.0a1b2c3d\"}";
+
+        run(("replay " + arguments).split(" "));
+
+        assertThat(output.toString()).isEqualToIgnoringNewLines(sentence);
+    }
+
     @Test
     void loopsBetweenTwoTimes() {
         run("replay", "loop", "m.0a1b2c3d", "2026-05-01T00:00:00Z", "1777600000000");
 
-        assertThat(requested).singleElement().asString().contains("/loop {", "\"from\":\"2026", "\"to\":1777600000000");
+        assertThat(requested)
+                .singleElement()
+                .asString()
+                .contains("/loop {", "{\"from\":1777593600000,\"to\":1777600000000}");
     }
 
     @ParameterizedTest
@@ -101,6 +118,8 @@ class ReplayCommandGroupTest {
             step m.0a1b2c3d -x        | '-x' is not a number of events
             step --nothing            | Name a replay
             loop m.0a1b2c3d 5         | comes A B
+            seek m.0a1b2c3d soon      | 'soon' is not a time
+            start m --from soon       | Invalid value for option '--from': 'soon' is not a time
             start                     | Name a mission
             start m --range 1         | is not A..B
             start m --source-topic data.t --source-file f | one of --source-topic and --source-file
@@ -122,7 +141,7 @@ class ReplayCommandGroupTest {
         assertThat(requested)
                 .containsExactly(
                         "POST /api/replays {\"mission\":\"m\",\"topic\":\"data.m.replay.0a1b2c3d\",\"from\":5,"
-                                + "\"to\":\"2026-05-01T00:00:00Z\",\"speed\":\"max\",\"loop\":true,\"devices\":[\"a\",\"b\"],\"maxGap\":\"PT30S\","
+                                + "\"to\":1777593600000,\"speed\":\"max\",\"loop\":true,\"devices\":[\"a\",\"b\"],\"maxGap\":\"PT30S\","
                                 + "\"stamps\":\"now\",\"startAt\":7,\"analytics\":[\"collision\",\"presence\"],\"source\":{\"file\":\"f.jsonl\"}}");
         assertThat(output.toString())
                 .contains(
@@ -167,6 +186,19 @@ class ReplayCommandGroupTest {
                 .isZero();
 
         assertThat(requested).containsExactly(request);
+    }
+
+    @Test
+    void marksWhatHappenedSomeTimeAgo() {
+        long before = System.currentTimeMillis();
+
+        run("mission", "marker", "add", "m", "-5m", "hail");
+
+        assertThat(requested).singleElement().satisfies(request -> {
+            assertThat(request).matches("POST /api/missions/m/markers \\{\"time\":\\d+,\"note\":\"hail\"}");
+            assertThat(Long.parseLong(request.replaceAll(".*:(\\d+),.*", "$1")))
+                    .isBetween(before - 300_000, System.currentTimeMillis() - 300_000);
+        });
     }
 
     @Test

@@ -55,6 +55,7 @@ class CommandLineTest {
         "template import --help, FILE",
         "device list --help, --mission",
         "alarm mute --help, --for",
+        "audit --help, --since",
         "replay start --help, --speed",
         "replay compare --help, Exit code",
         "replay analytics --help, --flink-url",

@@ -13,6 +13,8 @@ import java.net.UnknownHostException;
 import java.util.Objects;
 import java.util.UUID;
 import java.util.concurrent.TimeUnit;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
 import java.util.stream.Stream;
 import javax.net.ssl.HttpsURLConnection;
 import javax.net.ssl.SSLContext;
@@ -20,6 +22,7 @@ import javax.net.ssl.SSLException;
 import javax.net.ssl.SSLSocketFactory;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.MissingNode;
 
 import io.furrow.model.ngsi.NgsiJson;
@@ -37,6 +40,8 @@ public final class ControlApi {
     private static final int NO_TOKEN = 401;
     private static final int UNKNOWN = 404;
     private static final int AFTER_SECONDS = 1;
+    private static final int MAX_PAGES = 20;
+    private static final Pattern NEXT = Pattern.compile("<(\\?[^>]*)>; ?rel=\"next\"");
 
     static {
         // A command without an answer is repeated by its idempotency key only.
@@ -48,7 +53,11 @@ public final class ControlApi {
     /** One for all connections, for only those of the same factory are kept; null for that of Java. */
     private final SSLSocketFactory sockets;
 
-    private record Answer(int status, String retryAfter, byte[] body) {}
+    /** @param link to further pages; may be empty */
+    private record Answer(int status, String retryAfter, String link, byte[] body) {}
+
+    /** Elements of a list. @param hasMore whether there are, or may be, others */
+    public record Page(ArrayNode elements, boolean hasMore) {}
 
     /**
      * @param base as in {@code http://127.0.0.1:8085}
@@ -92,6 +101,28 @@ public final class ControlApi {
         return new String(answer("GET", path, null, type).body(), UTF_8);
     }
 
+    /**
+     * Gets a list, following its links to further pages: one of them may hold few elements, or none.
+     *
+     * @param limit how many elements to return at most
+     * @throws ControlPlaneException if it is unavailable or refuses
+     */
+    public Page list(String path, int limit) {
+        ArrayNode elements = NgsiJson.array();
+        String next = path;
+        for (int page = 0; next != null && elements.size() < limit && page < MAX_PAGES; page++) {
+            Answer answer = answer("GET", next, null, "application/json");
+            read(answer).forEach(elements::add);
+            Matcher link = NEXT.matcher(answer.link());
+            next = link.find() ? path.replaceFirst("\\?.*", "") + link.group(1) : null;
+        }
+        boolean tooMany = elements.size() > limit;
+        while (elements.size() > limit) {
+            elements.remove(limit);
+        }
+        return new Page(elements, tooMany || next != null);
+    }
+
     private Answer answer(String method, String path, JsonNode body, String accept) {
         String key = method.equals("GET") ? null : UUID.randomUUID().toString();
         Answer answer = exchange(method, path, body, accept, key);
@@ -111,7 +142,9 @@ public final class ControlApi {
         }
         String code = json.path("error").asText();
         throw new ControlPlaneException(
-                code.isEmpty() ? reason : reason + " (" + code + ")", answer.status() == UNKNOWN);
+                code.isEmpty() ? reason : reason + " (" + code + ")",
+                answer.status() == UNKNOWN,
+                json.isObject() ? json : null);
     }
 
     /**
@@ -126,7 +159,9 @@ public final class ControlApi {
             if (status / 100 != 2) {
                 connection.disconnect();
                 throw new ControlPlaneException(
-                        "The control plane at %s answers %d to %s".formatted(base, status, path), status == UNKNOWN);
+                        "The control plane at %s answers %d to %s".formatted(base, status, path),
+                        status == UNKNOWN,
+                        null);
             }
             return new BufferedReader(new InputStreamReader(connection.getInputStream(), UTF_8))
                     .lines()
@@ -152,7 +187,8 @@ public final class ControlApi {
             int status = connection.getResponseCode();
             try (InputStream answer = status < 400 ? connection.getInputStream() : connection.getErrorStream()) {
                 String retryAfter = Objects.requireNonNullElse(connection.getHeaderField("Retry-After"), "");
-                return new Answer(status, retryAfter, answer == null ? new byte[0] : answer.readAllBytes());
+                String link = Objects.requireNonNullElse(connection.getHeaderField("Link"), "");
+                return new Answer(status, retryAfter, link, answer == null ? new byte[0] : answer.readAllBytes());
             }
         } catch (IOException e) {
             throw failure(e);

@@ -2,6 +2,7 @@ package io.furrow.cli.control.client;
 
 import java.io.IOException;
 import java.io.PrintWriter;
+import java.io.UncheckedIOException;
 import java.net.URI;
 import java.nio.file.Path;
 import java.util.List;
@@ -10,38 +11,27 @@ import java.util.Map;
 import java.util.function.Function;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
-import java.util.stream.Collectors;
 import javax.net.ssl.SSLContext;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 
+import io.furrow.cli.control.table.AnswerText;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.CredentialList;
 import io.furrow.cli.option.HttpUriConverter;
+import io.furrow.cli.option.OutputOptions;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
 /** Common options of the commands that use the control plane: its address, the credentials, and the format of the output. */
 public final class ControlOptions {
-    private enum Output {
-        TABLE,
-        JSON,
-        CSV,
-        ENV;
-
-        /** As it is written on the command line. */
-        @Override
-        public String toString() {
-            return name().toLowerCase(Locale.ROOT);
-        }
-    }
-
     private static final Pattern MEMBER = Pattern.compile("(?:\\ba member |^)'(\\w+)'");
 
     @Spec(Spec.Target.MIXEE)
@@ -73,12 +63,8 @@ public final class ControlOptions {
                             + "$FURROW_API_CA, else those that Java trusts.")
     private Path ca;
 
-    @Option(
-            names = "--output",
-            paramLabel = "FORM",
-            defaultValue = "table",
-            description = "table or json; of credentials also csv and env. Default: ${DEFAULT-VALUE}.")
-    private Output output;
+    @Mixin
+    private final OutputOptions output = new OutputOptions();
 
     /** A use of the API. */
     public interface Work {
@@ -87,12 +73,27 @@ public final class ControlOptions {
 
     /** Prints the content of a path as rows of a table; one object is one row. */
     public int show(String path, ControlTable table) {
-        return showPage(path, answer -> table.lines(rows(answer)));
+        return run(api -> print(api.get(path), table));
+    }
+
+    /** Prints the rows of a table. */
+    public void print(JsonNode answer, ControlTable table) throws IOException {
+        print(answer, all -> table.lines(rows(all)), all -> table.names(rows(all)));
+    }
+
+    /** Prints a list by its lines, which are as wide as the terminal, or its names. */
+    public void print(JsonNode answer, Function<JsonNode, List<String>> lines, Function<JsonNode, List<String>> names)
+            throws IOException {
+        if (output.isName()) {
+            names.apply(answer).forEach(out()::println);
+        } else {
+            print(answer, all -> output.table(lines.apply(all)));
+        }
     }
 
     /** Prints the object at a path, a member per line. */
     public int showOne(String path) {
-        return showPage(path, ControlOptions::members);
+        return showPage(path, AnswerText::members);
     }
 
     /** Prints the object at a path as a page. */
@@ -103,7 +104,7 @@ public final class ControlOptions {
     /** Prints the credentials at a path, of one device or of many. */
     public int showCredentials(String path) {
         return runWith(api -> {
-            if (output == Output.CSV) {
+            if (output.isCsv()) {
                 out().print(api.text(path, "text/csv"));
                 return;
             }
@@ -111,10 +112,10 @@ public final class ControlOptions {
             JsonNode devices = answer.isArray()
                     ? answer
                     : JsonNodeFactory.instance.arrayNode().add(answer);
-            if (output == Output.ENV) {
+            if (output.isEnv()) {
                 CredentialList.env(devices).forEach(out()::println);
             } else {
-                print(answer, answer.isArray() ? CredentialList.table()::lines : ControlOptions::members);
+                print(answer, answer.isArray() ? CredentialList.table()::lines : AnswerText::members);
             }
         });
     }
@@ -124,22 +125,34 @@ public final class ControlOptions {
         return run(api -> answered(api.send(method, path, body)));
     }
 
+    /** Sends a command and prints the answer, and the members of the command. */
+    public int commandEchoed(String method, String path, ObjectNode body) {
+        return run(api -> {
+            JsonNode answer = api.send(method, path, body);
+            String members = AnswerText.sentence(body);
+            answered(
+                    answer,
+                    answer.path("status").asText("done") + ": " + AnswerText.sentence(answer)
+                            + (members.isEmpty() ? "" : ", " + members));
+        });
+    }
+
     /** Sends a command and prints the answer. @param done a sentence about the effect */
     public int commandDone(String method, String path, String done) {
         return run(api -> {
             JsonNode answer = api.send(method, path, null);
-            answered(answer, done + ": " + message(answer));
+            answered(answer, done + ": " + AnswerText.sentence(answer));
         });
     }
 
     /** Sends a command and prints the object in the answer, a member per line. */
     public int commandShown(String method, String path) {
-        return run(api -> print(api.send(method, path, null), ControlOptions::members));
+        return run(api -> print(api.send(method, path, null), AnswerText::members));
     }
 
     /** Prints the answer to a command. */
     public void answered(JsonNode answer) throws IOException {
-        answered(answer, answer.path("status").asText("done") + ": " + message(answer));
+        answered(answer, answer.path("status").asText("done") + ": " + AnswerText.sentence(answer));
     }
 
     /** Prints the answer to a command. @param sentence about the effect */
@@ -148,26 +161,19 @@ public final class ControlOptions {
     }
 
     private void print(JsonNode answer, Function<JsonNode, List<String>> page) throws IOException {
-        if (isJson()) {
-            print(answer);
-        } else {
+        if (output.isForPeople()) {
             page.apply(answer).forEach(out()::println);
+        } else if (output.isName()) {
+            rows(answer).forEach(row -> out().println(AnswerText.name(row)));
+        } else {
+            print(answer);
         }
-    }
-
-    private static String message(JsonNode answer) {
-        return answer.properties().stream()
-                .filter(each -> !each.getKey().equals("type")
-                        && !each.getKey().equals("status")
-                        && !each.getKey().equals("requestId"))
-                .map(each -> each.getKey() + " " + ControlTable.textOf(each.getValue()))
-                .collect(Collectors.joining(", "));
     }
 
     /** Runs it and prints a sentence if it fails. @return the exit code */
     public int run(Work work) {
-        if (output == Output.CSV || output == Output.ENV) {
-            throw refused("--output csv and env are for 'device credentials'; use table or json");
+        if (output.isCsv() || output.isEnv()) {
+            throw refused("--output csv and env are for 'device credentials'; use table, wide, json, yaml or name");
         }
         return runWith(work);
     }
@@ -178,11 +184,21 @@ public final class ControlOptions {
             out().flush();
             return 0;
         } catch (ControlPlaneException e) {
-            spec.commandLine().getErr().println(inOptions(e.getMessage()));
+            spec.commandLine().getErr().println(reason(e));
         } catch (IOException e) {
             spec.commandLine().getErr().println("cannot read or write: " + FailureText.of(e));
         }
         return spec.commandLine().getCommandSpec().exitCodeOnExecutionException();
+    }
+
+    private String reason(ControlPlaneException rejection) {
+        try {
+            return output.isForPeople() || output.isName() || rejection.problem() == null
+                    ? inOptions(rejection.getMessage())
+                    : output.text(rejection.problem());
+        } catch (IOException e) { // it was read from JSON
+            throw new UncheckedIOException(e);
+        }
     }
 
     /** Names the option where the control plane names the member of the request that was made of it. */
@@ -198,12 +214,18 @@ public final class ControlOptions {
         return new ParameterException(spec.commandLine(), reason);
     }
 
-    public boolean isJson() {
-        return output == Output.JSON;
+    /** Prints a sentence below an answer, or beside it where that is for programs. */
+    public void remark(String sentence) {
+        (isForPeople() ? out() : spec.commandLine().getErr()).println(sentence);
     }
 
-    public void print(JsonNode json) throws IOException {
-        out().println(pretty(json));
+    public boolean isForPeople() {
+        return output.isForPeople();
+    }
+
+    /** Prints an answer in YAML if that is the form, else in JSON. */
+    public void print(JsonNode answer) throws IOException {
+        out().println(output.text(answer));
     }
 
     public static String pretty(JsonNode json) throws IOException {
@@ -223,18 +245,6 @@ public final class ControlOptions {
             }
         });
         return json;
-    }
-
-    private static List<String> members(JsonNode object) {
-        int width = object.properties().stream()
-                .mapToInt(each -> each.getKey().length())
-                .max()
-                .orElse(0);
-        return object.properties().stream()
-                .map(each -> each.getKey()
-                        + " ".repeat(width - each.getKey().length() + 2)
-                        + ControlTable.textOf(each.getValue()))
-                .toList();
     }
 
     /** A list may be the answer itself, or the only list of an object. */

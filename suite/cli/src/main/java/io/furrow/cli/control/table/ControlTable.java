@@ -2,7 +2,6 @@ package io.furrow.cli.control.table;
 
 import java.time.Clock;
 import java.time.Duration;
-import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Function;
@@ -11,6 +10,8 @@ import java.util.stream.Stream;
 import com.fasterxml.jackson.core.JsonPointer;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.MissingNode;
+
+import io.furrow.cli.time.Times;
 
 /** Prints objects as a table, each column as wide as its widest cell. */
 public final class ControlTable {
@@ -49,7 +50,7 @@ public final class ControlTable {
         return this;
     }
 
-    /** A time, epoch ms or ISO 8601, shown to the second in UTC. */
+    /** A time, epoch ms or ISO 8601, shown as {@link Times} does. */
     public ControlTable time(String title, String... places) {
         return column(title, Kind.TIME, places);
     }
@@ -88,6 +89,13 @@ public final class ControlTable {
         return cells.stream().map(line -> line(line, widths)).toList();
     }
 
+    /** The first cell of each object. */
+    public List<String> names(JsonNode rows) {
+        List<String> names = new ArrayList<>();
+        rows.forEach(row -> names.add(cell(columns.get(0), row)));
+        return names;
+    }
+
     private static String line(List<String> cells, int[] widths) {
         StringBuilder line = new StringBuilder();
         for (int i = 0; i < widths.length; i++) {
@@ -109,24 +117,11 @@ public final class ControlTable {
                 .orElse(MissingNode.getInstance());
     }
 
-    static String age(Duration age) {
-        if (age.compareTo(Duration.ofMinutes(2)) < 0) {
-            return Math.max(0, age.toSeconds()) + "s";
-        } else if (age.compareTo(Duration.ofHours(2)) < 0) {
-            return age.toMinutes() + "m";
-        }
-        return age.compareTo(Duration.ofDays(2)) < 0 ? age.toHours() + "h" : age.toDays() + "d";
-    }
-
     private String cell(Kind kind, JsonNode value) {
         return switch (kind) {
             case COUNT -> Integer.toString(value.size());
-            case TIME ->
-                (value.isIntegralNumber()
-                                ? Instant.ofEpochMilli(value.longValue()).toString()
-                                : printable(value.asText()))
-                        .replaceFirst("\\.\\d+Z$", "Z");
-            case AGE -> age(Duration.ofMillis(clock.millis() - value.asLong()));
+            case TIME -> printable(Times.of(value));
+            case AGE -> Times.age(Duration.ofMillis(clock.millis() - value.asLong()));
             case TEXT -> printable(textOf(value));
         };
     }

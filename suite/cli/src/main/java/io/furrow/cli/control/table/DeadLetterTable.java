@@ -1,7 +1,6 @@
 package io.furrow.cli.control.table;
 
 import java.io.UncheckedIOException;
-import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.StringJoiner;
@@ -9,12 +8,12 @@ import java.util.StringJoiner;
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
 
+import io.furrow.cli.time.Times;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.Counts;
 
 /** Prints dead letters: two lines for each in a list, because topics and messages are long, and a page for one. */
 public final class DeadLetterTable {
-    private static final int WIDTH = 80;
     private static final List<String> MEMBERS = List.of("reason", "stage", "message", "source", "key", "size");
 
     private DeadLetterTable() {}
@@ -28,13 +27,16 @@ public final class DeadLetterTable {
         for (JsonNode letter : letters) {
             lines.add("%s  %s  %s  %s"
                     .formatted(place(letter), time(letter), text(letter, "reason"), text(letter, "stage")));
-            lines.add(cut("  " + text(letter, "message")));
+            lines.add("  " + text(letter, "message"));
         }
         return lines;
     }
 
-    private static String cut(String line) {
-        return line.length() <= WIDTH ? line : line.substring(0, WIDTH - 1) + "…";
+    /** The place of each letter, as show takes it. */
+    public static List<String> names(JsonNode letters) {
+        List<String> names = new ArrayList<>();
+        letters.forEach(letter -> names.add(place(letter)));
+        return names;
     }
 
     private static String place(JsonNode letter) {
@@ -46,7 +48,7 @@ public final class DeadLetterTable {
     }
 
     private static String time(JsonNode letter) {
-        return Instant.ofEpochMilli(letter.path("time").asLong()).toString().replaceFirst("\\.\\d+Z$", "Z");
+        return Times.of(letter.path("time").asLong());
     }
 
     private static String text(JsonNode letter, String member) {

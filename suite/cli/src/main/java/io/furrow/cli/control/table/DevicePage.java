@@ -6,6 +6,7 @@ import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
+import io.furrow.cli.time.Times;
 import io.furrow.model.text.Counts;
 
 /** Prints a device as lines {@code label: value}: its properties, its last contact, and why it is silent. */
@@ -67,7 +68,7 @@ public final class DevicePage {
         }
         add(
                 "Last report",
-                "of %s, received %s".formatted(PageLines.time(report.path("time")), page.ago(report.path("received"))));
+                "of %s, received %s".formatted(Times.of(report.path("time")), page.ago(report.path("received"))));
         Duration offset = Duration.ofMillis(report.path("offset").longValue());
         add(
                 "Clock",
@@ -82,7 +83,7 @@ public final class DevicePage {
         if (connection.hasNonNull("loggedIn")) {
             add("Last login", page.ago(connection.path("loggedIn")));
         } else if (!since.isMissingNode()) {
-            add("Last login", "none since " + PageLines.time(since));
+            add("Last login", "none since " + Times.of(since));
         }
     }
 

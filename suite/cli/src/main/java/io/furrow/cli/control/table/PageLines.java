@@ -1,11 +1,12 @@
 package io.furrow.cli.control.table;
 
-import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.cli.time.Times;
 
 /** Lines {@code label: value} of a page. */
 final class PageLines {
@@ -28,12 +29,7 @@ final class PageLines {
 
     /** A time with its distance from now. */
     String ago(JsonNode time) {
-        Duration ago = Duration.between(Instant.ofEpochMilli(time.longValue()), now);
-        return (ago.isNegative() ? "%s (in %s)" : "%s (%s ago)").formatted(time(time), ControlTable.age(ago.abs()));
-    }
-
-    static String time(JsonNode time) {
-        return Instant.ofEpochMilli(time.longValue()).toString().replaceFirst("\\.\\d+Z$", "Z");
+        return Times.ago(time.longValue(), now);
     }
 
     static String reason(JsonNode reason) {

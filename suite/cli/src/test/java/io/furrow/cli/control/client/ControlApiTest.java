@@ -51,6 +51,36 @@ class ControlApiTest {
         assertThat(failure(URI.create("http://127.0.0.1:1"))).startsWith("No control plane answers at ");
     }
 
+    /** A request reads a part of a topic only, in which there may be no element. */
+    @Test
+    void followsTheLinksToFurtherPages() {
+        List<String> requested = new CopyOnWriteArrayList<>();
+        List<String> pages = List.of("[]", "[1,2]", "[3,4]");
+        try (StubServer server = new StubServer(exchange -> {
+            requested.add(exchange.getRequestURI().toString());
+            int page = requested.size() - 1;
+            if (page < 2) {
+                exchange.getResponseHeaders().add("Link", "<?limit=3&before=%d>; rel=\"next\"".formatted(page));
+            }
+            StubServer.answer(exchange, 200, pages.get(page));
+        })) {
+            ControlApi.Page three = new ControlApi(server.uri(""), null).list("/api/dead-letters?limit=3", 3);
+
+            assertThat(three.elements()).hasToString("[1,2,3]");
+            assertThat(three.hasMore()).isTrue();
+            assertThat(requested)
+                    .containsExactly(
+                            "/api/dead-letters?limit=3",
+                            "/api/dead-letters?limit=3&before=0",
+                            "/api/dead-letters?limit=3&before=1");
+
+            requested.remove(2);
+            ControlApi.Page all = new ControlApi(server.uri(""), null).list("/api/dead-letters?limit=3", 3);
+            assertThat(all.elements()).hasToString("[3,4]");
+            assertThat(all.hasMore()).isFalse();
+        }
+    }
+
     private static String failure(URI api) {
         return catchThrowable(() -> new ControlApi(api, null).send("POST", "/api/missions/m/stop", null))
                 .getMessage();

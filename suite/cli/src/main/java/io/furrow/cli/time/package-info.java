@@ -1,0 +1,2 @@
+/** Times on the command line. */
+package io.furrow.cli.time;
