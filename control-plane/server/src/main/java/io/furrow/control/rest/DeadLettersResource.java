@@ -37,6 +37,7 @@ import io.furrow.control.letter.Redrive;
 import io.furrow.control.letter.StoredLetter;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.access.RequestContext;
+import io.furrow.control.rest.description.ParameterValues;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;

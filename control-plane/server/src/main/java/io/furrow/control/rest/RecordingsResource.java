@@ -15,6 +15,7 @@ import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.control.rest.description.ParameterValues;
 import io.furrow.control.rest.view.EventTiles;
 import io.furrow.control.rest.view.MissionTimeline;
 import io.furrow.control.rest.view.StateView;

@@ -38,6 +38,7 @@ import io.furrow.control.rest.access.RoleFilter;
 import io.furrow.control.rest.access.TlsListener;
 import io.furrow.control.rest.access.TokenFilter;
 import io.furrow.control.rest.access.VersionFilter;
+import io.furrow.control.rest.description.ApiDescription;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.EventTiles;
 import io.furrow.control.rest.view.MarkerStore;

@@ -1,4 +1,4 @@
-package io.furrow.control.rest;
+package io.furrow.control.rest.description;
 
 import java.io.IOException;
 import java.io.InputStream;
@@ -15,11 +15,13 @@ import java.util.stream.Stream;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.dataformat.yaml.YAMLMapper;
 import jakarta.ws.rs.container.ContainerRequestContext;
+import org.glassfish.jersey.server.ExtendedUriInfo;
+import org.glassfish.jersey.uri.UriTemplate;
 
 import io.furrow.model.ngsi.NgsiJson;
 
 /** Reads the description of the API, {@code openapi.yaml}, which has the names that requests may use. */
-final class ApiDescription {
+public final class ApiDescription {
     private final JsonNode json;
     /** By method and declared path. */
     private final Map<List<String>, Optional<Operation>> operations = new ConcurrentHashMap<>();
@@ -28,13 +30,13 @@ final class ApiDescription {
         this.json = json;
     }
 
-    static ApiDescription read() throws IOException {
-        try (InputStream yaml = ApiDescription.class.getResourceAsStream("openapi.yaml")) {
+    public static ApiDescription read() throws IOException {
+        try (InputStream yaml = ApiDescription.class.getResourceAsStream("/io/furrow/control/rest/openapi.yaml")) {
             return new ApiDescription(new YAMLMapper().readTree(yaml));
         }
     }
 
-    byte[] toBytes() {
+    public byte[] toBytes() {
         return NgsiJson.write(json);
     }
 
@@ -45,13 +47,24 @@ final class ApiDescription {
      * @param headers of a request
      * @param body of a request in JSON
      */
-    record Operation(Map<String, JsonNode> parameters, Set<String> headers, MemberNames body) {}
+    public record Operation(Map<String, JsonNode> parameters, Set<String> headers, MemberNames body) {}
 
     /** Returns the operation of a request, as {@link #operation(String, String)}. */
-    Optional<Operation> operation(ContainerRequestContext request) {
-        String path = RestMetrics.path(request).replaceAll("\\{([a-z]+):[^}]*}", "{$1}");
+    public Optional<Operation> operation(ContainerRequestContext request) {
+        String path = path(request).replaceAll("\\{([a-z]+):[^}]*}", "{$1}");
         return operations.computeIfAbsent(
                 List.of(request.getMethod(), path), key -> operation(request.getMethod(), path));
+    }
+
+    /** Returns the declared path, so that names do not become labels. */
+    public static String path(ContainerRequestContext request) {
+        StringBuilder path = new StringBuilder();
+        if (request.getUriInfo() instanceof ExtendedUriInfo matched) {
+            for (UriTemplate template : matched.getMatchedTemplates()) {
+                path.insert(0, template.getTemplate());
+            }
+        }
+        return path.isEmpty() ? "none" : path.toString().replace("//", "/");
     }
 
     /**
@@ -59,7 +72,7 @@ final class ApiDescription {
      *
      * @param path as declared, for instance {@code /api/domains/{domain}}
      */
-    Optional<Operation> operation(String method, String path) {
+    public Optional<Operation> operation(String method, String path) {
         JsonNode methods = json.path("paths").path(path);
         JsonNode described = methods.path(method.toLowerCase(Locale.ROOT));
         JsonNode operation = described.isMissingNode() && "HEAD".equals(method) ? methods.path("get") : described;
