@@ -41,6 +41,7 @@ import io.furrow.control.rest.access.VersionFilter;
 import io.furrow.control.rest.description.ApiDescription;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.EventTiles;
+import io.furrow.control.rest.view.KafkaReads;
 import io.furrow.control.rest.view.MarkerStore;
 import io.furrow.control.rest.view.PendingReplies;
 import io.furrow.control.rest.view.ReplayStatusView;
@@ -62,6 +63,7 @@ import io.furrow.model.text.FailureText;
 public final class RestApi implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(RestApi.class);
     private static final int THREADS = 32;
+    private static final int MAX_READERS = 2;
     private static final long STOP_TIMEOUT_MS = 2000;
     private static final int MIN_COMPRESSED_BYTES = 1024;
 
@@ -148,6 +150,7 @@ public final class RestApi implements AutoCloseable {
                 new DevicesResource.Dependencies(control.missions().scope(), commands, credentials);
         ApiDescription description = ApiDescription.read();
         StateWait waits = new StateWait(threads);
+        KafkaReads reads = new KafkaReads(MAX_READERS);
         ResourceConfig config = new ResourceConfig();
         config.property(ServerProperties.WADL_FEATURE_DISABLE, true);
         config.property(ServerProperties.LOCATION_HEADER_RELATIVE_URI_RESOLUTION_DISABLED, true);
@@ -163,7 +166,8 @@ public final class RestApi implements AutoCloseable {
                 new MarkersResource(markers, managers),
                 new AlarmsResource(view, managers),
                 new FieldsResource(control.client(), managers, fields),
-                new DeadLettersResource(control.client(), managers),
+                new DeadLettersResource(control.client(), managers, reads),
+                new TopicsResource(control.client(), reads),
                 new AuditResource(view, control.client()),
                 new CallerResource(),
                 new HealthResource(readiness, metrics, description));

@@ -67,6 +67,10 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
         assertThat(client.get("/api/dead-letters")).isEmpty();
         running.rejects("GET", "/api/dead-letters/none.dead/0/0", null, 404, "unknown-dead-letter");
         running.rejects("POST", "/api/dead-letters/redrive", "{\"topic\":\"none.dead\"}", 404, "unknown-topic");
+        assertThat(client.get("/api/topics").findValuesAsText("topic")).contains("service.missions");
+        assertThat(client.status("GET", "/api/topics/service.missions/records", null))
+                .isEqualTo(200);
+        running.rejects("GET", "/api/topics/service.missions/records/99/0", null, 404, "unknown-record");
     }
 
     @Test
