@@ -39,6 +39,7 @@ import io.furrow.control.rest.access.TlsListener;
 import io.furrow.control.rest.access.TokenFilter;
 import io.furrow.control.rest.access.VersionFilter;
 import io.furrow.control.rest.description.ApiDescription;
+import io.furrow.control.rest.description.IsoTimeFilter;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.EventTiles;
 import io.furrow.control.rest.view.KafkaReads;
@@ -160,8 +161,8 @@ public final class RestApi implements AutoCloseable {
                 new TemplatesResource(view, managers),
                 new DevicesResource(view, managers, dependencies),
                 new ReplaysResource(replays, managers, waits),
-                new ReplayFeedResource(replays, feeds),
-                new EventsResource(view, feeds),
+                new ReplayFeedResource(replays, feeds, description),
+                new EventsResource(view, feeds, description),
                 new RecordingsResource(view, events, threads),
                 new MarkersResource(markers, managers),
                 new AlarmsResource(view, managers),
@@ -178,6 +179,7 @@ public final class RestApi implements AutoCloseable {
         config.register(new PatchOverrideFilter());
         config.register(new UnknownNameFilter(description));
         config.register(new PageFilter(description));
+        config.register(new IsoTimeFilter(description));
         config.register(new JsonBodyReader.Drain());
         config.register(new JsonExceptionMapper());
         if (tokens != null) {

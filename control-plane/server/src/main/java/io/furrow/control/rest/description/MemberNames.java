@@ -46,6 +46,12 @@ public record MemberNames(JsonNode document, List<JsonNode> schemas) {
                 .anyMatch(schema -> schema.path("additionalProperties").asBoolean(isFreeByDefault));
     }
 
+    /** Whether it is a time in ms since the epoch. */
+    boolean isTime() {
+        return schemas.stream()
+                .anyMatch(schema -> schema.path("format").asText().equals(ApiDescription.EPOCH_MS));
+    }
+
     public MemberNames ofMember(String name) {
         return inner(schema -> schema.path("properties").path(name));
     }
