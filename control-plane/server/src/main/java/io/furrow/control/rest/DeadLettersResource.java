@@ -27,7 +27,6 @@ import jakarta.ws.rs.core.Response;
 import jakarta.ws.rs.core.UriInfo;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 
-import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.letter.RecordPositions;
 import io.furrow.control.letter.RecordReader;
 import io.furrow.control.letter.Redrive;
@@ -217,15 +216,6 @@ public final class DeadLettersResource {
 
     /** @param problem null if there is none */
     private void audit(RequestContext caller, ObjectNode about, String result, ProblemException problem) {
-        managers.audit(new AuditEntry(
-                System.currentTimeMillis(),
-                caller.user(),
-                "dead-letters",
-                "redrive",
-                about,
-                result,
-                problem == null ? null : problem.error(),
-                problem == null ? null : problem.getMessage(),
-                caller.requestId()));
+        managers.audit(caller, "dead-letters", "redrive", about, result, problem);
     }
 }

@@ -163,7 +163,7 @@ public final class RestApi implements AutoCloseable {
                 new ReplaysResource(replays, managers, waits),
                 new ReplayFeedResource(replays, feeds, description),
                 new EventsResource(view, feeds, description),
-                new RecordingsResource(view, events, threads),
+                new RecordingsResource(view, events, markers, managers, threads),
                 new MarkersResource(markers, managers),
                 new AlarmsResource(view, managers),
                 new FieldsResource(control.client(), managers, fields),

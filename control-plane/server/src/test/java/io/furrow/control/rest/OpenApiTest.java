@@ -163,6 +163,7 @@ class OpenApiTest {
                 .containsExactlyInAnyOrder(
                         "DELETE /api/domains/{domain}",
                         "DELETE /api/fields/{field}",
+                        "DELETE /api/recordings/{mission}",
                         "DELETE /api/templates/{template}",
                         "POST /api/devices/{device}/credentials");
         assertThat(AdminCommands.contains(Topics.DOMAIN_MANAGER, "delete")).isTrue();
