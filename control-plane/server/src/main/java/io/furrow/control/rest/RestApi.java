@@ -33,6 +33,7 @@ import io.furrow.control.ServiceTopics;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.device.DeviceCredentials;
 import io.furrow.control.rest.access.FileWarnings;
+import io.furrow.control.rest.access.PatchOverrideFilter;
 import io.furrow.control.rest.access.ProblemDetails;
 import io.furrow.control.rest.access.RoleFilter;
 import io.furrow.control.rest.access.TlsListener;
@@ -169,6 +170,7 @@ public final class RestApi implements AutoCloseable {
                 new FieldsResource(control.client(), managers, fields),
                 new DeadLettersResource(control.client(), managers, reads),
                 new TopicsResource(control.client(), reads),
+                new CatalogResource(control.client(), reads),
                 new AuditResource(view, control.client()),
                 new CallerResource(),
                 new HealthResource(readiness, metrics, description));

@@ -160,6 +160,24 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
         running.rejects("GET", "/api/missions?page=1&page=2", null, 400, "wrong-member");
     }
 
+    @Test
+    void listsTheCatalog() throws Exception {
+        for (String mission : List.of("c1", "c2", "c3")) {
+            running.write("data.catalog", "|north|%s|T".formatted(mission), """
+                    {"domain":"%s","mission":"%s","type":"T","events":3,"first":"2023-11-14T22:13:20Z"}""".formatted(
+                            mission.equals("c1") ? "south" : "north", mission)
+                    .getBytes(UTF_8));
+        }
+        running.write("data.catalog", "|north|c3|T", null);
+        await().until(() -> running.get("/api/catalog?mission=c3").isEmpty());
+
+        assertThat(missionsOf(client.send("GET", "/api/catalog", null))).containsExactlyInAnyOrder("c1", "c2");
+        assertThat(missionsOf(client.send("GET", "/api/catalog?domain=north", null)))
+                .containsExactly("c2");
+        assertThat(missionsOf(client.send("GET", "/api/v1/catalog?limit=1&page=2", null)))
+                .hasSize(1);
+    }
+
     /** Each answer is as described: with the times of /api it would not be. */
     @Test
     void answersTimesOfVersion1InIso8601() throws Exception {
