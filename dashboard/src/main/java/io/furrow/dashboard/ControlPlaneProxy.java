@@ -3,6 +3,8 @@ package io.furrow.dashboard;
 import java.net.URI;
 import java.time.Duration;
 import java.util.concurrent.TimeUnit;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
 
 import org.eclipse.jetty.client.HttpClient;
 import org.eclipse.jetty.http.HttpHeader;
@@ -17,6 +19,7 @@ import org.eclipse.jetty.util.Callback;
 
 import io.furrow.dashboard.http.Problem;
 import io.furrow.model.text.FailureText;
+import io.furrow.model.topic.TopicRules;
 
 /**
  * Forwards requests to the control plane, and answers 502 if it does not respond. A server may close a connection just
@@ -30,13 +33,29 @@ final class ControlPlaneProxy extends ProxyHandler.Reverse {
     private static final Duration IDLE_REQUEST = Duration.ofSeconds(60);
     private static final String RETRIED = ControlPlaneProxy.class.getName() + ".retried";
 
-    private final URI controlPlane;
+    /** Records of a topic, under any name of the path that the control plane may take for it. */
+    private static final Pattern RECORDS = Pattern.compile("/+api/+(?:v1/+)?topics/+([^/]+).*");
 
-    ControlPlaneProxy(URI controlPlane) {
+    private final URI controlPlane;
+    private final TopicRules rules;
+
+    ControlPlaneProxy(URI controlPlane, TopicRules rules) {
         super(request -> HttpURI.build(controlPlane + request.getHttpURI().getPathQuery())
                 .asImmutable());
         this.controlPlane = controlPlane;
+        this.rules = rules;
         setProxyToServerHost(controlPlane.getAuthority());
+    }
+
+    @Override
+    public boolean handle(Request request, Response response, Callback callback) {
+        Matcher records = RECORDS.matcher(request.getHttpURI().getDecodedPath());
+        if (records.matches() && !rules.mayRead(records.group(1))) {
+            new Problem(403, "topic-not-allowed", "'%s' may not be read here".formatted(records.group(1)))
+                    .answer(response, callback);
+            return true;
+        }
+        return super.handle(request, response, callback);
     }
 
     @Override

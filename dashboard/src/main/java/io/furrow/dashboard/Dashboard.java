@@ -129,7 +129,8 @@ public final class Dashboard implements AutoCloseable {
         for (String path : OWN_PATHS) {
             paths.addMapping(new ServletPathSpec(path), servlets);
         }
-        paths.addMapping(new ServletPathSpec("/api/*"), new ControlPlaneProxy(settings.controlPlane()));
+        paths.addMapping(
+                new ServletPathSpec("/api/*"), new ControlPlaneProxy(settings.controlPlane(), settings.rules()));
         Handler status = new StatusPages(readiness, streams);
         STATUS.forEach(path -> paths.addMapping(new ServletPathSpec(path), status));
         if (settings.page().tileFile() != null) {

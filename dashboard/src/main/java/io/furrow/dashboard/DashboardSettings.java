@@ -5,9 +5,9 @@ import java.util.Properties;
 
 import io.furrow.dashboard.auth.TrustedProxy;
 import io.furrow.dashboard.feed.StreamLimits;
-import io.furrow.dashboard.feed.TopicRules;
 import io.furrow.dashboard.page.PageSettings;
 import io.furrow.http.AllowedNames;
+import io.furrow.model.topic.TopicRules;
 
 /**
  * Settings of the dashboard.

@@ -23,6 +23,8 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.model.topic.TopicRules;
+
 import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -40,7 +42,7 @@ class ControlPlaneProxyTest {
         new Thread(this::accept, "upstream").start();
         connector.setHost("127.0.0.1");
         server.addConnector(connector);
-        proxy = new ControlPlaneProxy(URI.create("http://127.0.0.1:" + upstream.getLocalPort()));
+        proxy = new ControlPlaneProxy(URI.create("http://127.0.0.1:" + upstream.getLocalPort()), TopicRules.DEFAULT);
         server.setHandler(proxy);
         server.start();
     }

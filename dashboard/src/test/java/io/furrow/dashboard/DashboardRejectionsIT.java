@@ -21,8 +21,8 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.dashboard.feed.StreamLimits;
-import io.furrow.dashboard.feed.TopicRules;
 import io.furrow.http.AllowedNames;
+import io.furrow.model.topic.TopicRules;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -42,6 +42,10 @@ class DashboardRejectionsIT extends DashboardFixture {
         assertThat(error("/api/register/service.audit", OLGA)).isEqualTo("403 topic-not-allowed");
         assertThat(error("/api/stream/service.audit", OLGA)).isEqualTo("403 topic-not-allowed");
         assertThat(error("/api/register/data.raw.dead", OLGA)).isEqualTo("403 topic-not-allowed");
+        for (String records : List.of("topics/service.audit", "v1/topics/service.audit", "%74opics/service%2eaudit")) {
+            assertThat(error("/api/" + records + "/records", OLGA)).isEqualTo("403 topic-not-allowed");
+        }
+        assertThat(get("/api/topics/" + TOPIC + "/records", VERA).statusCode()).isEqualTo(200);
         assertThat(error("/api/register/data.nosuch", OLGA)).isEqualTo("404 unknown-topic");
         assertThat(error("/api/register/", OLGA)).isEqualTo("400 illegal-topic");
         assertThat(error("/api/register/" + TOPIC + "?mode=some", OLGA)).isEqualTo("400 wrong-parameter");

@@ -5,8 +5,8 @@ import java.util.regex.Pattern;
 
 import jakarta.servlet.http.HttpServletRequest;
 
-import io.furrow.dashboard.feed.TopicRules;
 import io.furrow.dashboard.http.Problem;
+import io.furrow.model.topic.TopicRules;
 
 /**
  * A client's request for a stream.

@@ -22,10 +22,10 @@ import io.furrow.dashboard.feed.StateBudget;
 import io.furrow.dashboard.feed.StreamCounters;
 import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.dashboard.feed.TopicFeeds;
-import io.furrow.dashboard.feed.TopicRules;
 import io.furrow.dashboard.http.Problem;
 import io.furrow.kafka.DaemonThreads;
 import io.furrow.model.text.FailureText;
+import io.furrow.model.topic.TopicRules;
 
 /** Manages all streams, over sockets and as events: begins and ends them, pings them, and checks their users. */
 public final class TopicStreams implements AutoCloseable {

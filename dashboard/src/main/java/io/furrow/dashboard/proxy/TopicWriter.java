@@ -15,13 +15,13 @@ import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import io.furrow.dashboard.auth.User;
-import io.furrow.dashboard.feed.TopicRules;
 import io.furrow.dashboard.http.Problem;
 import io.furrow.model.control.AdminCommands;
 import io.furrow.model.control.Role;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
+import io.furrow.model.topic.TopicRules;
 
 /** Writes messages of sockets to topics, in the name of their user. */
 final class TopicWriter implements AutoCloseable {

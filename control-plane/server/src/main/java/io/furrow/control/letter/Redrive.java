@@ -146,9 +146,9 @@ public final class Redrive {
     }
 
     private void assign(KafkaConsumer<byte[], byte[]> consumer) {
-        consumer.assign(DeadLetterReader.partitions(
+        consumer.assign(RecordReader.partitions(
                 consumer, request.from(), "'./furrow dead-letters list' shows those that have letters"));
-        DeadLetterReader.partitions(consumer, request.target(), "name another as 'to', which gets the letters");
+        RecordReader.partitions(consumer, request.target(), "name another as 'to', which gets the letters");
         consumer.seekToBeginning(consumer.assignment());
     }
 
@@ -255,7 +255,7 @@ public final class Redrive {
     }
 
     private KafkaConsumer<byte[], byte[]> consumer() {
-        return DeadLetterReader.consumer(kafka);
+        return RecordReader.consumer(kafka);
     }
 
     private KafkaProducer<byte[], byte[]> producer() {

@@ -1,2 +1,2 @@
-/** Lists, reads and redrives dead letters. */
+/** Reads records of topics, and lists and redrives dead letters. */
 package io.furrow.control.letter;

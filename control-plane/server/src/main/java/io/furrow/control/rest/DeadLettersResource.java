@@ -3,7 +3,6 @@ package io.furrow.control.rest;
 import java.io.IOException;
 import java.io.InputStream;
 import java.util.List;
-import java.util.Optional;
 import java.util.Properties;
 import java.util.Set;
 import java.util.concurrent.Semaphore;
@@ -26,25 +25,21 @@ import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 import jakarta.ws.rs.core.UriInfo;
-import org.apache.kafka.common.KafkaException;
-import org.apache.kafka.common.errors.InvalidTopicException;
-import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
 
-import io.furrow.control.audit.AuditEntry;
-import io.furrow.control.letter.DeadLetterReader;
-import io.furrow.control.letter.LetterPositions;
+import io.furrow.control.letter.RecordPositions;
+import io.furrow.control.letter.RecordReader;
 import io.furrow.control.letter.Redrive;
-import io.furrow.control.letter.StoredLetter;
+import io.furrow.control.letter.StoredRecord;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.view.CommandClient;
+import io.furrow.control.rest.view.KafkaReads;
 import io.furrow.model.control.CommandResult;
-import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.JsonObjectReader;
 import io.furrow.model.control.RejectedException;
 import io.furrow.model.control.Role;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -55,9 +50,6 @@ import io.furrow.model.topic.Topics;
 @Consumes(MediaType.APPLICATION_JSON)
 @Produces(MediaType.APPLICATION_JSON)
 public final class DeadLettersResource {
-    private static final int MAX_READERS = 2;
-    private static final Pattern NUMBER = Pattern.compile("[0-9]{1,9}");
-    private static final Pattern LONG_NUMBER = Pattern.compile("[0-9]{1,18}");
     /** What the names of the topics begin with that may be named as the target. */
     private static final List<String> TARGETS = List.of("data.", "ngsi.");
 
@@ -65,15 +57,16 @@ public final class DeadLettersResource {
 
     private final Properties client;
     private final CommandClient managers;
-    private final DeadLetterReader reader;
-    private final Semaphore readers = new Semaphore(MAX_READERS);
+    private final RecordReader reader;
+    private final KafkaReads reads;
     private final Semaphore redrivePermit = new Semaphore(1);
 
     /** @param client settings of a Kafka client */
-    DeadLettersResource(Properties client, CommandClient managers) {
+    DeadLettersResource(Properties client, CommandClient managers, KafkaReads reads) {
         this.client = client;
         this.managers = managers;
-        this.reader = new DeadLetterReader(client);
+        this.reader = new RecordReader(client);
+        this.reads = reads;
     }
 
     /**
@@ -87,32 +80,20 @@ public final class DeadLettersResource {
             @QueryParam("limit") @DefaultValue("50") int limit,
             @QueryParam("before") String before,
             @QueryParam("topic") String topic) {
-        LetterPositions positions = before == null
-                ? null
-                : LetterPositions.of(before)
-                        .orElseThrow(() -> new ProblemException(
-                                ErrorCode.WRONG_MEMBER,
-                                "'before' must be that of the Link of the previous page; without it the newest come"));
-        DeadLetterReader.Page page = read(topic, () -> reader.read(topic, positions, limit, desired(uri)));
-        ArrayNode letters = NgsiJson.array();
-        page.letters().forEach(letter -> letters.add(letter.json()));
-        Response.ResponseBuilder answer = JsonResponses.json(200, letters);
-        if (!page.next().isEmpty()) {
-            answer.header("Link", AuditResource.next(uri, page.next()));
-        }
-        return answer.build();
+        RecordPositions positions = RecordPages.positions(before);
+        checkTopic(topic);
+        RecordReader.Query query = RecordPages.query(uri, desired(uri), limit, false);
+        return RecordPages.answer(uri, reads.run(() -> reader.read(topic, positions, query)), StoredRecord::json);
     }
 
-    private static Predicate<StoredLetter> desired(UriInfo uri) {
-        var query = uri.getQueryParameters();
-        String reason = query.getFirst("reason");
-        String stage = query.getFirst("stage");
-        long from = ParameterValues.time("from", query.getOrDefault("from", List.of()), Long.MIN_VALUE);
-        long to = ParameterValues.time("to", query.getOrDefault("to", List.of()), Long.MAX_VALUE);
-        return letter -> (reason == null || reason.equals(letter.reason()))
-                && (stage == null || stage.equals(letter.stage()))
-                && letter.time() >= from
-                && letter.time() < to;
+    private static Predicate<ConsumerRecord<byte[], byte[]>> desired(UriInfo uri) {
+        String reason = uri.getQueryParameters().getFirst("reason");
+        String stage = uri.getQueryParameters().getFirst("stage");
+        return record -> {
+            StoredRecord letter = StoredRecord.of(record, false);
+            return (reason == null || reason.equals(letter.reason()))
+                    && (stage == null || stage.equals(letter.stage()));
+        };
     }
 
     /** Returns a letter with its headers and value. */
@@ -123,34 +104,13 @@ public final class DeadLettersResource {
             @PathParam("topic") String topic,
             @PathParam("partition") String partition,
             @PathParam("offset") String offset) {
-        boolean isPlace = NUMBER.matcher(partition).matches()
-                && LONG_NUMBER.matcher(offset).matches();
-        return JsonResponses.ok(read(
-                        topic,
-                        () -> isPlace
-                                ? reader.find(topic, Integer.parseInt(partition), Long.parseLong(offset))
-                                : Optional.<ObjectNode>empty())
+        checkTopic(topic);
+        return JsonResponses.ok(RecordPages.find(reads, reader, topic, partition, offset)
                 .orElseThrow(() -> new ProblemException(
                         404,
                         "unknown-dead-letter",
                         "'%s' has no dead letter at partition '%s' and offset '%s', or has it no longer; GET /api/dead-letters lists those that there are"
                                 .formatted(topic, partition, offset))));
-    }
-
-    private interface Work<T> {
-        T run() throws IOException;
-    }
-
-    private <T> T read(String topic, Work<T> work) {
-        checkTopic(topic);
-        if (!readers.tryAcquire()) {
-            throw ProblemException.overloaded();
-        }
-        try {
-            return run(work);
-        } finally {
-            readers.release();
-        }
     }
 
     private static void checkTopic(String topic) {
@@ -160,20 +120,6 @@ public final class DeadLettersResource {
                     "unknown-topic",
                     "'%s' is no topic of dead letters; those of a topic are on '%s'"
                             .formatted(topic, Topics.dead("<topic>")));
-        }
-    }
-
-    private static <T> T run(Work<T> work) {
-        try {
-            return work.run();
-        } catch (UnknownTopicOrPartitionException | InvalidTopicException e) {
-            throw new ProblemException(404, "unknown-topic", e.getMessage());
-        } catch (IOException | KafkaException e) {
-            throw new ProblemException(
-                    503,
-                    "kafka-away",
-                    "Kafka does not answer or refuses (%s); check that it runs, and what the control plane may do there"
-                            .formatted(FailureText.of(e)));
         }
     }
 
@@ -247,7 +193,7 @@ public final class DeadLettersResource {
                     409, "redrive-running", "another redrive is running; ask again when it has ended, in some seconds");
         }
         try {
-            return run(() -> new Redrive(client, desired).run());
+            return KafkaReads.unlimited(() -> new Redrive(client, desired).run());
         } finally {
             redrivePermit.release();
         }
@@ -270,15 +216,6 @@ public final class DeadLettersResource {
 
     /** @param problem null if there is none */
     private void audit(RequestContext caller, ObjectNode about, String result, ProblemException problem) {
-        managers.audit(new AuditEntry(
-                System.currentTimeMillis(),
-                caller.user(),
-                "dead-letters",
-                "redrive",
-                about,
-                result,
-                problem == null ? null : problem.error(),
-                problem == null ? null : problem.getMessage(),
-                caller.requestId()));
+        managers.audit(caller, "dead-letters", "redrive", about, result, problem);
     }
 }

@@ -29,7 +29,6 @@ import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.MultivaluedMap;
 import jakarta.ws.rs.core.Response;
 
-import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.view.CommandClient;
@@ -296,15 +295,6 @@ public final class FieldsResource {
     /** @param problem null if there is none */
     private void audit(
             RequestContext caller, String command, ObjectNode about, String result, ProblemException problem) {
-        managers.audit(new AuditEntry(
-                System.currentTimeMillis(),
-                caller.user(),
-                Topics.FIELDS,
-                command,
-                about,
-                problem == null ? result : CommandResult.ERROR,
-                problem == null ? null : problem.error(),
-                problem == null ? null : problem.getMessage(),
-                caller.requestId()));
+        managers.audit(caller, Topics.FIELDS, command, about, result, problem);
     }
 }

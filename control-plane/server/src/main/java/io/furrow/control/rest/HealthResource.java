@@ -7,6 +7,7 @@ import jakarta.ws.rs.Produces;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
+import io.furrow.control.rest.description.ApiDescription;
 import io.furrow.http.prometheus.MetricsPage;
 import io.furrow.kafka.Readiness;
 

@@ -23,7 +23,6 @@ import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
-import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.view.CommandClient;
@@ -122,20 +121,10 @@ public final class MarkersResource {
     /** Audits a change and throws its failure. @param failure null if there is none */
     private void audit(Change change, String result, Throwable failure) {
         Throwable cause = FailureText.unwrap(failure);
-        ProblemException problem = cause instanceof ProblemException existing ? existing : null;
         ObjectNode about = NgsiJson.object().put(MISSION, change.mission()).put(MARKER, change.marker());
-        managers.audit(new AuditEntry(
-                System.currentTimeMillis(),
-                change.caller().user(),
-                MARKER,
-                change.command(),
-                about,
-                failure == null ? result : CommandResult.ERROR,
-                failure == null ? null : problem == null ? "internal-error" : problem.error(),
-                failure == null ? null : cause.getMessage(),
-                change.caller().requestId()));
+        managers.audit(change.caller(), MARKER, change.command(), about, result, cause);
         if (failure != null) {
-            throw problem == null ? new CompletionException(cause) : problem;
+            throw cause instanceof ProblemException problem ? problem : new CompletionException(cause);
         }
     }
 

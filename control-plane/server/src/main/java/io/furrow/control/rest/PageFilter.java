@@ -13,6 +13,7 @@ import jakarta.ws.rs.core.Link;
 import jakarta.ws.rs.core.MultivaluedMap;
 import jakarta.ws.rs.core.UriInfo;
 
+import io.furrow.control.rest.description.ApiDescription;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**

@@ -33,13 +33,17 @@ import io.furrow.control.ServiceTopics;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.device.DeviceCredentials;
 import io.furrow.control.rest.access.FileWarnings;
+import io.furrow.control.rest.access.PatchOverrideFilter;
 import io.furrow.control.rest.access.ProblemDetails;
 import io.furrow.control.rest.access.RoleFilter;
 import io.furrow.control.rest.access.TlsListener;
 import io.furrow.control.rest.access.TokenFilter;
 import io.furrow.control.rest.access.VersionFilter;
+import io.furrow.control.rest.description.ApiDescription;
+import io.furrow.control.rest.description.IsoTimeFilter;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.EventTiles;
+import io.furrow.control.rest.view.KafkaReads;
 import io.furrow.control.rest.view.MarkerStore;
 import io.furrow.control.rest.view.PendingReplies;
 import io.furrow.control.rest.view.ReplayStatusView;
@@ -61,6 +65,7 @@ import io.furrow.model.text.FailureText;
 public final class RestApi implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(RestApi.class);
     private static final int THREADS = 32;
+    private static final int MAX_READERS = 2;
     private static final long STOP_TIMEOUT_MS = 2000;
     private static final int MIN_COMPRESSED_BYTES = 1024;
 
@@ -147,6 +152,7 @@ public final class RestApi implements AutoCloseable {
                 new DevicesResource.Dependencies(control.missions().scope(), commands, credentials);
         ApiDescription description = ApiDescription.read();
         StateWait waits = new StateWait(threads);
+        KafkaReads reads = new KafkaReads(MAX_READERS);
         ResourceConfig config = new ResourceConfig();
         config.property(ServerProperties.WADL_FEATURE_DISABLE, true);
         config.property(ServerProperties.LOCATION_HEADER_RELATIVE_URI_RESOLUTION_DISABLED, true);
@@ -156,13 +162,15 @@ public final class RestApi implements AutoCloseable {
                 new TemplatesResource(view, managers),
                 new DevicesResource(view, managers, dependencies),
                 new ReplaysResource(replays, managers, waits),
-                new ReplayFeedResource(replays, feeds),
-                new EventsResource(view, feeds),
-                new RecordingsResource(view, events, threads),
+                new ReplayFeedResource(replays, feeds, description),
+                new EventsResource(view, feeds, description),
+                new RecordingsResource(view, events, markers, managers, threads),
                 new MarkersResource(markers, managers),
                 new AlarmsResource(view, managers),
                 new FieldsResource(control.client(), managers, fields),
-                new DeadLettersResource(control.client(), managers),
+                new DeadLettersResource(control.client(), managers, reads),
+                new TopicsResource(control.client(), reads),
+                new CatalogResource(control.client(), reads),
                 new AuditResource(view, control.client()),
                 new CallerResource(),
                 new HealthResource(readiness, metrics, description));
@@ -173,6 +181,7 @@ public final class RestApi implements AutoCloseable {
         config.register(new PatchOverrideFilter());
         config.register(new UnknownNameFilter(description));
         config.register(new PageFilter(description));
+        config.register(new IsoTimeFilter(description));
         config.register(new JsonBodyReader.Drain());
         config.register(new JsonExceptionMapper());
         if (tokens != null) {

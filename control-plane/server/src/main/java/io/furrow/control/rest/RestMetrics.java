@@ -13,9 +13,8 @@ import jakarta.ws.rs.container.ContainerRequestFilter;
 import jakarta.ws.rs.container.ContainerResponseContext;
 import jakarta.ws.rs.container.ContainerResponseFilter;
 import jakarta.ws.rs.container.PreMatching;
-import org.glassfish.jersey.server.ExtendedUriInfo;
-import org.glassfish.jersey.uri.UriTemplate;
 
+import io.furrow.control.rest.description.ApiDescription;
 import io.furrow.control.rest.view.PendingReplies;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.http.prometheus.MetricsPage;
@@ -54,23 +53,12 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
     @Override
     public void filter(ContainerRequestContext request, ContainerResponseContext response) {
         String method = METHODS.contains(request.getMethod()) ? request.getMethod() : "other";
-        Route route = new Route(method, path(request), response.getStatus());
+        Route route = new Route(method, ApiDescription.path(request), response.getStatus());
         Count count = counts.computeIfAbsent(route, any -> new Count(new LongAdder(), new LongAdder()));
         count.requests().increment();
         if (request.getProperty(STARTED) instanceof Long started) {
             count.nanos().add(System.nanoTime() - started);
         }
-    }
-
-    /** Returns the declared path, so that names do not become labels. */
-    static String path(ContainerRequestContext request) {
-        StringBuilder path = new StringBuilder();
-        if (request.getUriInfo() instanceof ExtendedUriInfo matched) {
-            for (UriTemplate template : matched.getMatchedTemplates()) {
-                path.insert(0, template.getTemplate());
-            }
-        }
-        return path.isEmpty() ? "none" : path.toString().replace("//", "/");
     }
 
     byte[] page() {

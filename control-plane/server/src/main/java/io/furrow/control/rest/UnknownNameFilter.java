@@ -17,6 +17,10 @@ import jakarta.ws.rs.container.ContainerRequestFilter;
 import jakarta.ws.rs.core.HttpHeaders;
 
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.control.rest.description.ApiDescription;
+import io.furrow.control.rest.description.MemberNames;
+import io.furrow.control.rest.description.NearestName;
+import io.furrow.control.rest.description.ParameterValues;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 

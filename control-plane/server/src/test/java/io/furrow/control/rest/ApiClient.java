@@ -29,6 +29,7 @@ public final class ApiClient {
     private final HttpClient http =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
     private final OpenApiDocument description = OpenApiDocument.read();
+    private final OpenApiDocument version1 = OpenApiDocument.version1();
     private final URI base;
     private final String token;
 
@@ -94,7 +95,8 @@ public final class ApiClient {
                         : HttpResponse.BodySubscribers.ofByteArray());
         if (described) {
             String type = answer.headers().firstValue("Content-Type").orElse("").replaceFirst(";.*", "");
-            REQUESTED.add(description.check(
+            OpenApiDocument document = request.uri().getPath().startsWith("/api/v1/") ? version1 : description;
+            REQUESTED.add(document.check(
                     request.method(), request.uri().getPath(), answer.statusCode(), type, answer.body()));
         }
         return answer;

@@ -5,6 +5,7 @@ import java.nio.file.Path;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 import java.util.stream.IntStream;
@@ -17,7 +18,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.control.letter.StoredLetter;
+import io.furrow.control.letter.StoredRecord;
 
 import static io.furrow.control.rest.DeadLetterTopics.TIME;
 import static java.nio.charset.StandardCharsets.UTF_8;
@@ -83,7 +84,7 @@ class DeadLettersIT {
 
     @Test
     void showsTheValueAsWhatItIs() throws Exception {
-        byte[] large = ("a" + "é".repeat(StoredLetter.MAX_SHOWN_BYTES)).getBytes(UTF_8); // is cut within a character
+        byte[] large = ("a" + "é".repeat(StoredRecord.MAX_SHOWN_BYTES)).getBytes(UTF_8); // is cut within a character
 
         JsonNode json = shown("{\"id\":\"r\",\"x\":1.50}".getBytes(UTF_8));
         assertThat(json.path("encoding").asText()).isEqualTo("json");
@@ -100,12 +101,81 @@ class DeadLettersIT {
         assertThat(cut.path("encoding").asText()).isEqualTo("text");
         assertThat(cut.path("cut").asBoolean()).isTrue();
         assertThat(cut.path("size").asInt()).isEqualTo(large.length);
-        assertThat(cut.path("value").asText().getBytes(UTF_8)).hasSize(StoredLetter.MAX_SHOWN_BYTES - 1);
+        assertThat(cut.path("value").asText().getBytes(UTF_8)).hasSize(StoredRecord.MAX_SHOWN_BYTES - 1);
         assertThat(shown(null).has("value")).isFalse();
 
         running.rejects("GET", "/api/dead-letters/shown.dead/0/999", null, 404, "unknown-dead-letter");
         running.rejects("GET", "/api/dead-letters/shown.dead/0/one", null, 404, "unknown-dead-letter");
         running.rejects("GET", "/api/dead-letters/shown/0/0", null, 404, "unknown-topic");
+    }
+
+    /** Another topic's records are no part of it, and large values end a page early. */
+    @Test
+    void listsAndShowsRecordsOfATopic() throws Exception {
+        for (int i = 0; i < 9; i++) {
+            byte[] value = "{\"id\":\"r-%d\",\"fill\":\"%s\"}"
+                    .formatted(i, "x".repeat(90_000))
+                    .getBytes(UTF_8);
+            topics.deadLetter("data.read", TIME + i, i % 2 == 0 ? "even" : "odd", value, Map.of("service", "farm"));
+        }
+
+        assertThat(read("limit=4")).containsExactly(8L, 7L, 6L, 5L);
+        assertThat(read("key=odd")).containsExactly(7L, 5L, 3L, 1L);
+        assertThat(read("text=r-3")).containsExactly(3L);
+        assertThat(read("from=%d&to=%s".formatted(TIME + 4, Instant.ofEpochMilli(TIME + 6))))
+                .containsExactly(5L, 4L);
+        HttpResponse<byte[]> page =
+                running.client().send("GET", "/api/topics/data.read/records?key=even&limit=2", null);
+        Matcher next = NEXT.matcher(page.headers().firstValue("Link").orElse(""));
+        assertThat(next.matches()).isTrue();
+        assertThat(ask("GET", "/api/topics/data.read/records" + next.group(1), null))
+                .extracting(record -> record.path("time").asLong() - TIME)
+                .containsExactly(4L, 2L);
+
+        JsonNode whole = ask("GET", "/api/topics/data.read/records?values=true&limit=1", null)
+                .get(0);
+        assertThat(whole.at("/headers/service").asText()).isEqualTo("farm");
+        assertThat(whole.path("cut").asBoolean()).isTrue();
+        assertThat(whole.path("value").asText()).startsWith("{\"id\":\"r-8\"").hasSize(StoredRecord.MAX_SHOWN_BYTES);
+        assertThat(whole)
+                .isEqualTo(ask(
+                        "GET",
+                        "/api/topics/data.read/records/%s/%s".formatted(whole.path("partition"), whole.path("offset")),
+                        null));
+        assertThat(ask("GET", "/api/topics/data.read/records?limit=1", null)
+                        .get(0)
+                        .has("value"))
+                .isFalse();
+        assertThat(ask("GET", "/api/topics", null).toString())
+                .containsPattern("\"topic\":\"data.read\",\"partitions\":[0-9]+,\"records\":9[^0-9]");
+        running.rejects("GET", "/api/topics/data.read/records?values=true&limit=101", null, 400, "wrong-member");
+        running.rejects("GET", "/api/topics/data.read/records?before=noon", null, 400, "wrong-member");
+        running.rejects("GET", "/api/topics/data.read/records/0/999", null, 404, "unknown-record");
+        for (String topic : List.of("shown.dead", "__consumer_offsets", "data.nosuch")) {
+            running.rejects("GET", "/api/topics/" + topic + "/records", null, 404, "unknown-topic");
+        }
+    }
+
+    @Test
+    void endsAPageOfLargeValuesAndContinues() throws Exception {
+        for (int i = 0; i < 80; i++) {
+            topics.deadLetter("data.large", TIME, "k", new byte[70_000], Map.of());
+        }
+        HttpResponse<byte[]> page =
+                running.client().send("GET", "/api/topics/data.large/records?values=true&limit=100", null);
+
+        assertThat(running.client().json(page)).hasSize((4 << 20) / StoredRecord.MAX_SHOWN_BYTES);
+        Matcher next = NEXT.matcher(page.headers().firstValue("Link").orElse(""));
+        assertThat(next.matches()).isTrue();
+        assertThat(ask("GET", "/api/topics/data.large/records" + next.group(1), null))
+                .hasSize(80 - (4 << 20) / StoredRecord.MAX_SHOWN_BYTES);
+    }
+
+    private static List<Long> read(String query) {
+        return ask("GET", "/api/topics/data.read/records?" + query, null)
+                .valueStream()
+                .map(record -> record.path("time").asLong() - TIME)
+                .toList();
     }
 
     private static JsonNode shown(byte[] value) {

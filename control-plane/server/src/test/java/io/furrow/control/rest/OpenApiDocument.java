@@ -12,6 +12,7 @@ import com.fasterxml.jackson.dataformat.yaml.YAMLMapper;
 import com.networknt.schema.JsonSchemaFactory;
 import com.networknt.schema.SpecVersion;
 
+import io.furrow.control.rest.description.ApiDescription;
 import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -24,6 +25,12 @@ record OpenApiDocument(ObjectNode json) {
         try (InputStream in = RestApi.class.getResourceAsStream("openapi.yaml")) {
             return new OpenApiDocument((ObjectNode) new YAMLMapper().readTree(in));
         }
+    }
+
+    /** The description as it is served, of version 1. */
+    static OpenApiDocument version1() throws IOException {
+        return new OpenApiDocument(
+                (ObjectNode) new YAMLMapper().readTree(ApiDescription.read().toBytes()));
     }
 
     /** For instance {@code GET /api/domains}. */

@@ -92,6 +92,39 @@ class OpenApiTest {
         assertThat(paths.path("/api/domains").toString()).contains("IdempotencyKey");
     }
 
+    @Test
+    void servesVersion1WithTimesInIso8601() throws Exception {
+        JsonNode served = OpenApiDocument.version1().json();
+
+        assertThat(served.path("paths").properties())
+                .extracting(Map.Entry::getKey)
+                .contains("/api/v1/domains", "/health")
+                .noneMatch(path -> path.matches("/api/(?!v1/).*"));
+        assertThat(served.toString()).doesNotContain("epoch-ms");
+        assertThat(served.at("/components/schemas/Domain/properties/created").toString())
+                .isEqualTo("{\"type\":\"string\",\"format\":\"date-time\",\"description\":\"When\"}");
+    }
+
+    /** A time of an answer that is not marked stays as it is in version 1. */
+    @Test
+    void marksEachTime() throws Exception {
+        OpenApiDocument.read()
+                .json()
+                .at("/components/schemas")
+                .findParents("description")
+                .forEach(schema -> {
+                    if (schema.path("type").asText().equals("integer")
+                            && schema.path("description")
+                                    .asText()
+                                    .toLowerCase(java.util.Locale.ROOT)
+                                    .contains("epoch ms")) {
+                        assertThat(schema.path("format").asText())
+                                .as("%s", schema)
+                                .isEqualTo("epoch-ms");
+                    }
+                });
+    }
+
     /** Public operations have no role. */
     @Test
     void describesTheRequiredRoles() throws Exception {
@@ -130,6 +163,7 @@ class OpenApiTest {
                 .containsExactlyInAnyOrder(
                         "DELETE /api/domains/{domain}",
                         "DELETE /api/fields/{field}",
+                        "DELETE /api/recordings/{mission}",
                         "DELETE /api/templates/{template}",
                         "POST /api/devices/{device}/credentials");
         assertThat(AdminCommands.contains(Topics.DOMAIN_MANAGER, "delete")).isTrue();

@@ -4,6 +4,7 @@ import java.net.http.HttpResponse;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
+import java.time.Instant;
 import java.util.List;
 import java.util.stream.Collectors;
 import java.util.stream.IntStream;
@@ -64,9 +65,14 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
         assertThat(client.status("HEAD", "/api/replays/none.1/events", null))
                 .isEqualTo(200); // HEAD does not look the replay up
         running.rejects("GET", "/api/recordings/none/timeline", null, 501, "no-mongodb");
+        running.rejects("DELETE", "/api/recordings/none", null, 501, "no-mongodb");
         assertThat(client.get("/api/dead-letters")).isEmpty();
         running.rejects("GET", "/api/dead-letters/none.dead/0/0", null, 404, "unknown-dead-letter");
         running.rejects("POST", "/api/dead-letters/redrive", "{\"topic\":\"none.dead\"}", 404, "unknown-topic");
+        assertThat(client.get("/api/topics").findValuesAsText("topic")).contains("service.missions");
+        assertThat(client.status("GET", "/api/topics/service.missions/records", null))
+                .isEqualTo(200);
+        running.rejects("GET", "/api/topics/service.missions/records/99/0", null, 404, "unknown-record");
     }
 
     @Test
@@ -142,7 +148,7 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
             client.send("POST", "/api/missions", "{\"mission\":\"%s\",\"domain\":\"paged\"}".formatted(mission));
         }
 
-        HttpResponse<byte[]> first = client.send("GET", "/api/v1/missions?domain=paged&limit=2", null, false);
+        HttpResponse<byte[]> first = client.send("GET", "/api/v1/missions?domain=paged&limit=2", null);
         assertThat(missionsOf(first)).containsExactly("p1", "p2");
         assertThat(first.headers().allValues("Link")).containsExactly("<?domain=paged&limit=2&page=2>; rel=\"next\"");
         HttpResponse<byte[]> second = client.send("GET", "/api/missions?domain=paged&limit=2&page=2", null);
@@ -152,6 +158,51 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
                 .isEmpty();
         running.rejects("GET", "/api/missions?limit=0", null, 400, "wrong-member");
         running.rejects("GET", "/api/missions?page=1&page=2", null, 400, "wrong-member");
+    }
+
+    @Test
+    void listsTheCatalog() throws Exception {
+        for (String mission : List.of("c1", "c2", "c3")) {
+            running.write("data.catalog", "|north|%s|T".formatted(mission), """
+                    {"domain":"%s","mission":"%s","type":"T","events":3,"first":"2023-11-14T22:13:20Z"}""".formatted(
+                            mission.equals("c1") ? "south" : "north", mission)
+                    .getBytes(UTF_8));
+        }
+        running.write("data.catalog", "|north|c3|T", null);
+        await().until(() -> running.get("/api/catalog?mission=c3").isEmpty());
+
+        assertThat(missionsOf(client.send("GET", "/api/catalog", null))).containsExactlyInAnyOrder("c1", "c2");
+        assertThat(missionsOf(client.send("GET", "/api/catalog?domain=north", null)))
+                .containsExactly("c2");
+        assertThat(missionsOf(client.send("GET", "/api/v1/catalog?limit=1&page=2", null)))
+                .hasSize(1);
+    }
+
+    /** Each answer is as described: with the times of /api it would not be. */
+    @Test
+    void answersTimesOfVersion1InIso8601() throws Exception {
+        client.send("POST", "/api/v1/domains", "{\"domain\":\"timed\"}");
+        String start = "2999-01-01T00:00:00Z";
+        JsonNode scheduled = client.ask(
+                "POST",
+                "/api/v1/missions/timed/start",
+                "{\"domain\":\"timed\",\"devices\":[\"urn:timed\"],\"start\":\"%s\"}".formatted(start));
+        assertThat(scheduled.path("start").asText()).isEqualTo(start);
+        JsonNode mission = client.get("/api/v1/missions/timed");
+        assertThat(mission.path("start").asText()).isEqualTo(start);
+        assertThat(Instant.parse(mission.at("/status/since").asText()).toEpochMilli())
+                .isEqualTo(
+                        running.get("/api/missions/timed").at("/status/since").asLong());
+        String replay = client.ask("POST", "/api/v1/replays", """
+                        {"mission":"timed","from":"%s","to":"3000-01-01T00:00:00Z"}""".formatted(start))
+                .path("replay")
+                .asText();
+        assertThat(client.get("/api/v1/replays/" + replay).path("from").asText())
+                .isEqualTo(start);
+        for (String list : List.of("domains", "missions", "devices", "replays", "alarms", "recordings", "audit")) {
+            assertThat(client.status("GET", "/api/v1/" + list, null)).as(list).isEqualTo(200);
+        }
+        running.rejects("GET", "/api/v1/missions/nosuch", null, 404, "unknown-mission");
     }
 
     private List<String> missionsOf(HttpResponse<byte[]> list) throws Exception {
@@ -320,7 +371,8 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
         client.send("POST", "/api/domains", "{\"domain\":\"counted\"}");
         client.send("POST", "/api/domains?dryRun=true", "{\"domain\":\"not-counted\"}");
         assertThat(running.get("/openapi.json"))
-                .isEqualTo(NgsiJson.read(NgsiJson.write(OpenApiDocument.read().json())));
+                .isEqualTo(
+                        NgsiJson.read(NgsiJson.write(OpenApiDocument.version1().json())));
         assertThat(running.get("/api/alarms?state=open")).isEmpty();
         assertThat(running.get("/api/audit").size()).isLessThanOrEqualTo(100);
         assertThat(new String(client.send("GET", "/metrics", null).body()))

@@ -111,6 +111,46 @@ class TimelineIT {
         assertRejected(TIMELINE + "?buckets=7", "503 mongodb-away");
     }
 
+    @Test
+    void deletesAMissionWithItsMarkersUnlessItIsInUse() throws Exception {
+        String path = "/api/recordings/hoeing";
+        client.send("POST", "/api/missions/hoeing/markers", "{\"time\":5,\"note\":\"n\"}");
+        client.send("POST", "/api/missions/sowing/markers", "{\"time\":5,\"note\":\"n\"}");
+        counts("?buckets=10");
+        JsonNode dry = client.ask("DELETE", path + "?dryRun=true", null);
+        assertThat(dry.path("events").asInt()).isEqualTo(4);
+        assertThat(dry.path("markers").asInt()).isEqualTo(1);
+        assertThat(client.get("/api/missions/hoeing/markers")).hasSize(1);
+
+        client.send("POST", "/api/domains", "{\"domain\":\"west\"}");
+        client.send("POST", "/api/missions/hoeing/start", "{\"domain\":\"west\",\"devices\":[\"urn:x\"]}");
+        await().until(() -> client.get("/api/missions/hoeing?wait=running&wait=starting")
+                .at("/status/state")
+                .asText()
+                .matches("starting|running"));
+        assertThat(client.error("DELETE", path, null)).isEqualTo("409 mission-running");
+        client.send("POST", "/api/missions/hoeing/stop", null);
+        await().until(() ->
+                client.get("/api/missions/hoeing").at("/status/state").asText().equals("stopped"));
+        String replay = client.ask("POST", "/api/replays", "{\"mission\":\"hoeing\"}")
+                .path("replay")
+                .asText();
+        assertThat(client.error("DELETE", path, null)).isEqualTo("409 replay-running");
+        assertThat(client.status("DELETE", "/api/replays/" + replay, null)).isEqualTo(200);
+        await().until(() -> client.get("/api/replays").isEmpty());
+
+        assertThat(client.ask("DELETE", path, null).toString())
+                .isEqualTo(
+                        "{\"type\":\"response\",\"status\":\"purged\",\"mission\":\"hoeing\",\"events\":4,\"markers\":1}");
+        assertThat(client.get("/api/missions/hoeing/markers")).isEmpty();
+        assertThat(client.get("/api/missions/sowing/markers")).hasSize(1);
+        assertRejected("/api/recordings/hoeing/timeline", "404 unknown-mission");
+        assertThat(client.error("DELETE", path, null)).isEqualTo("404 unknown-mission");
+        await().until(() -> client.get("/api/audit?mission=hoeing")
+                .findValuesAsText("result")
+                .contains("purged"));
+    }
+
     private void assertRejected(String path, String error) throws Exception {
         await().untilAsserted(() -> assertThat(client.error("GET", path, null)).isEqualTo(error));
     }

@@ -23,6 +23,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import io.furrow.control.rest.description.ApiDescription;
 import io.furrow.model.ngsi.NgsiJson;
 
 import static java.nio.charset.StandardCharsets.UTF_8;

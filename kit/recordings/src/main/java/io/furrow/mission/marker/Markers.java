@@ -161,6 +161,19 @@ public final class Markers extends StoredDatabase {
                         > 0);
     }
 
+    /**
+     * Removes all markers of a mission; returns how many it had. Called before its events are deleted, by which it is found.
+     *
+     * @throws RecordingException if MongoDB is unavailable
+     */
+    public long removeAll(String mission) throws RecordingException {
+        return run(
+                unreachable(mission),
+                () -> collection
+                        .deleteMany(Filters.eq(MISSION, missionOf(mission)))
+                        .getDeletedCount());
+    }
+
     /** @param requestedMission its name, used if the document is of that mission */
     private static Marker read(Document found, String requestedMission, String key) {
         String mission = text(found, MISSION);

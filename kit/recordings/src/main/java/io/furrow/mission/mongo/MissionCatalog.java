@@ -4,6 +4,7 @@ import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Optional;
+import java.util.OptionalLong;
 import java.util.function.Supplier;
 
 import com.mongodb.client.MongoCollection;
@@ -12,7 +13,7 @@ import org.bson.RawBsonDocument;
 
 import io.furrow.mission.RecordingException;
 
-/** Lists the missions in MongoDB by the names of collections and the ends of their index on event time. */
+/** Lists and deletes the missions in MongoDB, by the names of collections and the ends of their index on event time. */
 public final class MissionCatalog extends StoredDatabase {
     MissionCatalog(MongoRecordings recordings) {
         super(recordings);
@@ -81,6 +82,31 @@ public final class MissionCatalog extends StoredDatabase {
      */
     boolean has(String mission) throws RecordingException {
         return run(() -> MongoRecordings.collectionOf(database(), mission).isPresent());
+    }
+
+    /**
+     * Returns how many events a mission has, as the server remembers it; empty if it is not stored.
+     *
+     * @throws RecordingException if MongoDB is unavailable
+     */
+    public OptionalLong events(String mission) throws RecordingException {
+        return run(() -> MongoRecordings.collectionOf(database(), mission).stream()
+                .mapToLong(name -> database().getCollection(name).estimatedDocumentCount())
+                .findFirst());
+    }
+
+    /**
+     * Deletes all events of a mission, if it is stored.
+     *
+     * @param mission its name or its encoded name
+     * @throws RecordingException if MongoDB is unavailable
+     */
+    public void delete(String mission) throws RecordingException {
+        run("Mission %s cannot be deleted from".formatted(mission), () -> {
+            MongoRecordings.collectionOf(database(), mission)
+                    .ifPresent(name -> database().getCollection(name).drop());
+            return mission;
+        });
     }
 
     private StoredMission describe(String name) {

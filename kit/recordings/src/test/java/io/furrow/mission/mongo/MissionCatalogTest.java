@@ -44,6 +44,21 @@ class MissionCatalogTest {
     }
 
     @Test
+    void deletesAMissionByEitherOfItsNames() throws Exception {
+        store("mission_weeding", 30, 10, 20);
+        store("mission__x-a-2Eb", 5);
+        store("mission__x-c-2Ed", 5);
+        try (MissionCatalog catalog = MissionCatalog.open(mongo.uri(), MongoAccess.DATABASE)) {
+            assertThat(catalog.events("weeding")).hasValue(3);
+            for (String name : List.of("weeding", "a.b", "_x-c-2Ed", "nosuch")) {
+                catalog.delete(name);
+                assertThat(catalog.events(name)).isEmpty();
+            }
+            assertThat(catalog.topicNames()).isEmpty();
+        }
+    }
+
+    @Test
     void listsMissionsByTheirNamesWithTheirSpans() throws Exception {
         store("mission_weeding", 30, 10, 20);
         store("mission__x-a-2Eb", 5);

@@ -1,2 +1,2 @@
-/** Reads and prints the data catalog. */
+/** Prints the data catalog, and reads what is stored elsewhere. */
 package io.furrow.cli.catalog;

@@ -14,7 +14,6 @@ import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.catalog.Catalog;
 import io.furrow.cli.catalog.CatalogTable;
 import io.furrow.cli.catalog.StoredAssets;
 import io.furrow.cli.catalog.StoredTable;
@@ -23,6 +22,7 @@ import io.furrow.cli.option.HelpOption;
 import io.furrow.cli.option.KafkaClient;
 import io.furrow.cli.option.OutputOptions;
 import io.furrow.flink.job.FileSystemOptions;
+import io.furrow.kafka.catalog.Catalog;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
@@ -115,11 +115,7 @@ public final class CatalogCommand implements Callable<Integer> {
     /** The entries that match the options; MongoDB has no domains. */
     private List<JsonNode> entries(List<JsonNode> all) {
         return all.stream()
-                .filter(entry -> domain == null
-                        || !entry.has("domain")
-                        || domain.equals(entry.path("domain").asText()))
-                .filter(entry ->
-                        mission == null || mission.equals(entry.path("mission").asText()))
+                .filter(entry -> Catalog.isOf(entry, domain, mission))
                 .toList();
     }
 

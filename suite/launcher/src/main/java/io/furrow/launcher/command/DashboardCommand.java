@@ -24,7 +24,7 @@ import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.cli.option.KafkaClient;
 import io.furrow.dashboard.Dashboard;
 import io.furrow.dashboard.DashboardSettings;
-import io.furrow.dashboard.feed.TopicRules;
+import io.furrow.model.topic.TopicRules;
 import io.furrow.dashboard.page.PageSettings;
 import io.furrow.launcher.option.AccessFlags;
 import io.furrow.launcher.option.TrustedProxyFlags;

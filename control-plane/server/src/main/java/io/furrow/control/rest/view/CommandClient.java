@@ -146,6 +146,28 @@ public final class CommandClient implements AutoCloseable {
                         .formatted(why, RequestContext.KEY, caller.requestId()));
     }
 
+    /**
+     * Audits a command that the API executes.
+     *
+     * @param about what it concerns, and its effects
+     * @param result what it did
+     * @param failure null if there is none
+     */
+    public void audit(
+            RequestContext caller, String target, String command, ObjectNode about, String result, Throwable failure) {
+        String error = failure instanceof ProblemException problem ? problem.error() : "internal-error";
+        audit(new AuditEntry(
+                System.currentTimeMillis(),
+                caller.user(),
+                target,
+                command,
+                about,
+                failure == null ? result : CommandResult.ERROR,
+                failure == null ? null : error,
+                failure == null ? null : failure.getMessage(),
+                caller.requestId()));
+    }
+
     /** Audits a command that no manager executes. */
     public void audit(AuditEntry entry) {
         try {

@@ -116,6 +116,13 @@ public final class EventTiles implements AutoCloseable {
         }
     }
 
+    /** Forgets all counts, because a mission was deleted. */
+    public void forget() {
+        synchronized (cached) {
+            cached.clear();
+        }
+    }
+
     private boolean isFresh(Tile tile, TileCounts existing, long last) {
         boolean complete = existing.last() == last || tile.to() <= existing.last() - LATENESS_MS;
         return complete && clock.millis() - existing.at() < FRESH_MS;

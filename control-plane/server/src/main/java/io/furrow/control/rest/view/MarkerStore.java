@@ -15,10 +15,11 @@ import io.furrow.kafka.DaemonThreads;
 import io.furrow.mission.RecordingException;
 import io.furrow.mission.marker.Markers;
 import io.furrow.mission.marker.RejectedMarkerException;
+import io.furrow.mission.mongo.MissionCatalog;
 import io.furrow.model.control.ErrorCode;
 
 /**
- * Accesses markers in MongoDB on its own thread, so that requests do not block threads of the API. At most
+ * Accesses markers in MongoDB, and deletes missions, on its own thread, so that requests do not block threads of the API. At most
  * {@value #MAX_WAITING} requests wait.
  */
 public final class MarkerStore implements AutoCloseable {
@@ -60,6 +61,29 @@ public final class MarkerStore implements AutoCloseable {
             throw ProblemException.overloaded();
         }
         return answer.whenCompleteAsync((result, failure) -> {}, resultExecutor);
+    }
+
+    /** What was deleted of a mission, or would be. @param events as the server remembers it */
+    public record Purge(long events, long markers) {}
+
+    /**
+     * Deletes the events and markers of a mission.
+     *
+     * @param dryRun whether they are only counted
+     * @return fails as {@link #request}, and with 404 if the mission is not stored
+     */
+    public CompletionStage<Purge> purge(String mission, boolean dryRun) {
+        return request(stored -> {
+            try (MissionCatalog catalog = MissionCatalog.open(settings.mongo(), settings.database())) {
+                long events = catalog.events(mission).orElseThrow(() -> EventTiles.unknown(mission));
+                if (dryRun) {
+                    return new Purge(events, stored.list(mission).size());
+                }
+                long removed = stored.removeAll(mission);
+                catalog.delete(mission);
+                return new Purge(events, removed);
+            }
+        });
     }
 
     private <T> void request(Query<T> query, CompletableFuture<T> answer) {

@@ -3,6 +3,7 @@ package io.furrow.control.rest.view;
 import java.util.List;
 import java.util.Optional;
 import java.util.function.Function;
+import java.util.function.UnaryOperator;
 import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -69,6 +70,11 @@ public record ResourceKind(
                 List.of(Topics.REPLAYS, Topics.REPLAYS_STATUS),
                 replay -> replays.withStatus(replay.value()),
                 key -> replays.withStatus(NgsiJson.object().put(ReplayStatusView.REPLAY, key)));
+    }
+
+    /** Returns the kind with resources in another form. @param change may change what it is given */
+    public ResourceKind in(UnaryOperator<ObjectNode> change) {
+        return new ResourceKind(view, topics, resource.andThen(change), identity.andThen(change));
     }
 
     /** Returns all resources in the order of their keys. @throws ProblemException if the topics were not read yet */

@@ -133,7 +133,7 @@ class ResourceFeedIT {
         client.send("POST", "/api/missions", "{\"mission\":\"later\",\"domain\":\"followed\"}");
         try (BufferedReader missions = events(open("/api/v1/events/missions", "Last-Event-ID", id))) {
             assertThat(until(missions, "event: ")).isEqualTo("event: status");
-            assertThat(until(missions, "data: ")).contains("\"mission\":\"later\"");
+            assertThat(until(missions, "data: ")).contains("\"mission\":\"later\"", "\"created\":\"20", "Z\"");
         }
     }
 

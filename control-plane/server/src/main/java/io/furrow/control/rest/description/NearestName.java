@@ -1,11 +1,11 @@
-package io.furrow.control.rest;
+package io.furrow.control.rest.description;
 
 import java.util.Comparator;
 import java.util.Optional;
 import java.util.Set;
 
 /** Finds the known name that a misspelled one probably means. */
-final class NearestName {
+public final class NearestName {
     private static final int MAX_LENGTH = 64;
     /** One edit per so many characters. */
     private static final int CHARACTERS_PER_EDIT = 3;
@@ -13,7 +13,7 @@ final class NearestName {
     private NearestName() {}
 
     /** Returns a known name within one edit per three characters, at least one; empty if there is none. */
-    static Optional<String> of(String name, Set<String> known) {
+    public static Optional<String> of(String name, Set<String> known) {
         if (name.length() > MAX_LENGTH) {
             return Optional.empty();
         }

@@ -1,4 +1,4 @@
-package io.furrow.cli.catalog;
+package io.furrow.kafka.catalog;
 
 import java.io.IOException;
 import java.time.Duration;
@@ -43,7 +43,7 @@ public final class Catalog {
             });
         } catch (KafkaException e) {
             throw new IOException(
-                    "Kafka at %s cannot be read (%s). Check the address given with --kafka."
+                    "Kafka at %s cannot be read (%s). Check its address, and that it runs."
                             .formatted(client.getProperty("bootstrap.servers"), FailureText.of(e)),
                     e);
         }
@@ -52,6 +52,14 @@ public final class Catalog {
             entries.add(entry(one.getKey(), one.getValue()));
         }
         return entries;
+    }
+
+    /** Returns whether an entry is of a domain and a mission; null for any. An entry without a domain is of each. */
+    public static boolean isOf(JsonNode entry, String domain, String mission) {
+        boolean isOfDomain =
+                domain == null || domain.equals(entry.path("domain").asText(domain));
+        return isOfDomain
+                && (mission == null || mission.equals(entry.path("mission").asText()));
     }
 
     private static JsonNode entry(String key, byte[] value) throws IOException {

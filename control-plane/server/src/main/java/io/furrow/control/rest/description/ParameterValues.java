@@ -1,4 +1,4 @@
-package io.furrow.control.rest;
+package io.furrow.control.rest.description;
 
 import java.time.DateTimeException;
 import java.time.Instant;
@@ -11,14 +11,14 @@ import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.control.ErrorCode;
 
 /** Checks values of query parameters: flags, whole numbers, one of several words, or given once. */
-final class ParameterValues {
+public final class ParameterValues {
     private static final Instant FIRST_TIME = Instant.parse("0000-01-01T00:00:00Z");
     private static final Instant LAST_TIME = Instant.parse("9999-12-31T23:59:59.999Z");
 
     private ParameterValues() {}
 
     /** @param schema of the parameter, as in the description of the API */
-    static void check(String name, List<String> values, JsonNode schema) {
+    public static void check(String name, List<String> values, JsonNode schema) {
         String type = schema.path("type").asText();
         if (type.equals("array")) {
             values.forEach(value -> check(name, List.of(value), schema.get("items")));
@@ -55,7 +55,7 @@ final class ParameterValues {
      * @param values at most one, ISO 8601 or epoch ms
      * @return epoch ms
      */
-    static long time(String name, List<String> values, long defaultTime) {
+    public static long time(String name, List<String> values, long defaultTime) {
         if (values.isEmpty()) {
             return defaultTime;
         }

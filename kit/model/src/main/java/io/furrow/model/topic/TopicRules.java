@@ -1,10 +1,8 @@
-package io.furrow.dashboard.feed;
+package io.furrow.model.topic;
 
 import java.util.List;
 import java.util.regex.Pattern;
 import java.util.stream.Collectors;
-
-import io.furrow.model.topic.Topics;
 
 /**
  * Decides which topics may be read and written.

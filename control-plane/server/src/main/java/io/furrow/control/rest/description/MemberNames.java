@@ -1,4 +1,4 @@
-package io.furrow.control.rest;
+package io.furrow.control.rest.description;
 
 import java.util.ArrayList;
 import java.util.List;
@@ -15,7 +15,7 @@ import com.fasterxml.jackson.databind.JsonNode;
  * @param document against which references are resolved
  * @param schemas all that apply, in full or as alternatives
  */
-record MemberNames(JsonNode document, List<JsonNode> schemas) {
+public record MemberNames(JsonNode document, List<JsonNode> schemas) {
     private static final List<String> COMPOSITIONS = List.of("allOf", "anyOf", "oneOf");
 
     static MemberNames of(JsonNode document, JsonNode schema) {
@@ -34,23 +34,29 @@ record MemberNames(JsonNode document, List<JsonNode> schemas) {
         return node.has("$ref") ? document.at(node.path("$ref").asText().substring(1)) : node;
     }
 
-    Set<String> names() {
+    public Set<String> names() {
         Set<String> names = new TreeSet<>();
         schemas.forEach(schema -> schema.path("properties").fieldNames().forEachRemaining(names::add));
         return names;
     }
 
-    boolean areFree() {
+    public boolean areFree() {
         boolean isFreeByDefault = names().isEmpty();
         return schemas.stream()
                 .anyMatch(schema -> schema.path("additionalProperties").asBoolean(isFreeByDefault));
     }
 
-    MemberNames ofMember(String name) {
+    /** Whether it is a time in ms since the epoch. */
+    boolean isTime() {
+        return schemas.stream()
+                .anyMatch(schema -> schema.path("format").asText().equals(ApiDescription.EPOCH_MS));
+    }
+
+    public MemberNames ofMember(String name) {
         return inner(schema -> schema.path("properties").path(name));
     }
 
-    MemberNames ofElement() {
+    public MemberNames ofElement() {
         return inner(schema -> schema.path("items"));
     }
 

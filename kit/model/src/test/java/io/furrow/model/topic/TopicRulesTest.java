@@ -1,4 +1,4 @@
-package io.furrow.dashboard.feed;
+package io.furrow.model.topic;
 
 import java.util.List;
 

@@ -5,6 +5,8 @@ import java.nio.charset.CharacterCodingException;
 import java.nio.charset.StandardCharsets;
 import java.util.Arrays;
 import java.util.Base64;
+import java.util.LinkedHashMap;
+import java.util.Map;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -20,13 +22,14 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * A record of a topic of dead letters, as the API shows it. Dead letters of Kafka Connect, which has headers of its own, are
- * shown alike.
+ * A record of a topic, as the API shows it, with what a dead letter says about its failure. Dead letters of Kafka Connect, which has
+ * headers of its own, are shown alike.
  *
  * @param time of the record, epoch ms
  * @param size of the value in bytes; negative if there is none
+ * @param contents null if it is not retained
  */
-public record StoredLetter(
+public record StoredRecord(
         String topic,
         int partition,
         long offset,
@@ -36,7 +39,8 @@ public record StoredLetter(
         String message,
         String source,
         String key,
-        int size) {
+        int size,
+        Contents contents) {
     /** Bytes of a value that are shown. */
     public static final int MAX_SHOWN_BYTES = 64 * 1024;
 
@@ -44,13 +48,29 @@ public record StoredLetter(
     private static final int MAX_HEADERS = 100;
     private static final String CONNECT = "__connect.errors.";
 
-    static StoredLetter of(ConsumerRecord<byte[], byte[]> letter) {
+    /** @param value its beginning; null if there is none */
+    public record Contents(Map<String, String> headers, byte[] value) {
+        static Contents of(ConsumerRecord<byte[], byte[]> record) {
+            Map<String, String> headers = new LinkedHashMap<>();
+            for (Header header : record.headers()) {
+                if (headers.size() < MAX_HEADERS) {
+                    headers.put(shortened(header.key()), text(record.headers(), header.key()));
+                }
+            }
+            byte[] value = record.value();
+            boolean isCut = value != null && value.length > MAX_SHOWN_BYTES;
+            return new Contents(headers, isCut ? Arrays.copyOf(value, MAX_SHOWN_BYTES) : value);
+        }
+    }
+
+    /** @param whole whether headers and value are retained */
+    public static StoredRecord of(ConsumerRecord<byte[], byte[]> letter, boolean whole) {
         Headers headers = letter.headers();
         String topic = text(headers, CONNECT + "topic");
         String connectSource = topic == null
                 ? null
                 : "%s-%s@%s".formatted(topic, text(headers, CONNECT + "partition"), text(headers, CONNECT + "offset"));
-        return new StoredLetter(
+        return new StoredRecord(
                 letter.topic(),
                 letter.partition(),
                 letter.offset(),
@@ -60,7 +80,8 @@ public record StoredLetter(
                 first(text(headers, DeadLetter.MESSAGE), text(headers, CONNECT + "exception.message")),
                 first(text(headers, DeadLetter.SOURCE), connectSource),
                 letter.key() == null ? null : shortened(new String(letter.key(), StandardCharsets.UTF_8)),
-                letter.value() == null ? -1 : letter.value().length);
+                letter.value() == null ? -1 : letter.value().length,
+                whole ? Contents.of(letter) : null);
     }
 
     private static String first(String text, String other) {
@@ -82,7 +103,7 @@ public record StoredLetter(
         return new String(shortened.getBytes(StandardCharsets.UTF_8), StandardCharsets.UTF_8);
     }
 
-    /** Returns the letter without its value. */
+    /** Returns the record, with its headers and the beginning of its value, as JSON, else as text, else in base64, if they are retained. */
     public ObjectNode json() {
         ObjectNode json = NgsiJson.object()
                 .put("topic", topic)
@@ -97,6 +118,13 @@ public record StoredLetter(
         if (size >= 0) {
             json.put("size", size);
         }
+        if (contents != null) {
+            ObjectNode headers = json.putObject("headers");
+            contents.headers().forEach(headers::put);
+            if (contents.value() != null) {
+                addValue(json, contents.value(), size > contents.value().length);
+            }
+        }
         return json;
     }
 
@@ -106,24 +134,7 @@ public record StoredLetter(
         }
     }
 
-    /** Returns a letter with its headers and the beginning of its value, as JSON, else as text, else in base64. */
-    static ObjectNode whole(ConsumerRecord<byte[], byte[]> letter) {
-        ObjectNode json = of(letter).json();
-        ObjectNode headers = json.putObject("headers");
-        for (Header header : letter.headers()) {
-            if (headers.size() < MAX_HEADERS) {
-                headers.put(shortened(header.key()), text(letter.headers(), header.key()));
-            }
-        }
-        if (letter.value() != null) {
-            addValue(json, letter.value());
-        }
-        return json;
-    }
-
-    private static void addValue(ObjectNode json, byte[] value) {
-        boolean isCut = value.length > MAX_SHOWN_BYTES;
-        byte[] shown = isCut ? Arrays.copyOf(value, MAX_SHOWN_BYTES) : value;
+    private static void addValue(ObjectNode json, byte[] shown, boolean isCut) {
         JsonNode parsed = isCut ? null : parsed(shown);
         if (parsed != null) {
             json.put("encoding", "json").set("value", parsed);

@@ -1,15 +1,13 @@
-package io.furrow.control.rest;
+package io.furrow.control.rest.access;
 
 import jakarta.ws.rs.HttpMethod;
 import jakarta.ws.rs.container.ContainerRequestContext;
 import jakarta.ws.rs.container.ContainerRequestFilter;
 import jakarta.ws.rs.container.PreMatching;
 
-import io.furrow.control.rest.access.ProblemException;
-
 /** Takes a POST with {@code X-HTTP-Method-Override: PATCH} for a PATCH, which some clients and proxies cannot send. */
 @PreMatching
-final class PatchOverrideFilter implements ContainerRequestFilter {
+public final class PatchOverrideFilter implements ContainerRequestFilter {
     static final String HEADER = "X-HTTP-Method-Override";
 
     @Override

@@ -1,0 +1,2 @@
+/** Reads the catalog, which ingest writes. */
+package io.furrow.kafka.catalog;
