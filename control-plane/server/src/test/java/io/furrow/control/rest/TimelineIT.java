@@ -22,6 +22,7 @@ import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.kafka.KafkaClients;
 import io.furrow.kafka.Readiness;
 import io.furrow.model.control.RecordedMission;
+import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -136,8 +137,9 @@ class TimelineIT {
                 .path("replay")
                 .asText();
         assertThat(client.error("DELETE", path, null)).isEqualTo("409 replay-running");
-        assertThat(client.status("DELETE", "/api/replays/" + replay, null)).isEqualTo(200);
-        await().until(() -> client.get("/api/replays").isEmpty());
+        byte[] stopped = new ReplayStatus(1, ReplayStatus.State.STOPPED, null, false, null).toBytes();
+        running.write(Topics.REPLAYS_STATUS, replay, stopped);
+        await().until(() -> client.status("DELETE", path + "?dryRun=true", null) == 200);
 
         assertThat(client.ask("DELETE", path, null).toString())
                 .isEqualTo(
