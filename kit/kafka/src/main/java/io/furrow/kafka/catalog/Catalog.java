@@ -9,12 +9,10 @@ import java.util.Properties;
 import java.util.TreeMap;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import org.apache.kafka.common.KafkaException;
 
 import io.furrow.kafka.CommittedReader;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
-import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /** Reads the topic {@code data.catalog} to its end. */
@@ -26,7 +24,8 @@ public final class Catalog {
     /**
      * The newest entry of each tenant, domain, mission and type, in this order; empty without the topic.
      *
-     * @throws IOException if Kafka does not answer, or the topic holds something else; the message says what to do
+     * @throws IOException if the topic holds something else; the message says what to do
+     * @throws org.apache.kafka.common.KafkaException if Kafka does not answer
      */
     public static List<JsonNode> read(Properties client) throws IOException {
         Properties properties = new Properties();
@@ -41,11 +40,6 @@ public final class Catalog {
                     newest.put(record.key(), record.value());
                 }
             });
-        } catch (KafkaException e) {
-            throw new IOException(
-                    "Kafka at %s cannot be read (%s). Check its address, and that it runs."
-                            .formatted(client.getProperty("bootstrap.servers"), FailureText.of(e)),
-                    e);
         }
         List<JsonNode> entries = new ArrayList<>();
         for (Map.Entry<String, byte[]> one : newest.entrySet()) {

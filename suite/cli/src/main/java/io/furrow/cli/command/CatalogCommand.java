@@ -8,6 +8,7 @@ import java.util.concurrent.Callable;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.apache.kafka.common.KafkaException;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
@@ -85,7 +86,7 @@ public final class CatalogCommand implements Callable<Integer> {
     }
 
     private void show() throws IOException {
-        List<JsonNode> types = entries(Catalog.read(KafkaClient.settings(kafka, kafkaProperties)));
+        List<JsonNode> types = entries(readCatalog());
         List<JsonNode> missions = mongo == null ? null : entries(StoredAssets.missions(mongo));
         List<JsonNode> stored = images == null ? null : entries(storedImages());
         PrintWriter out = spec.commandLine().getOut();
@@ -105,6 +106,17 @@ public final class CatalogCommand implements Callable<Integer> {
             }
         }
         out.flush();
+    }
+
+    private List<JsonNode> readCatalog() throws IOException {
+        try {
+            return Catalog.read(KafkaClient.settings(kafka, kafkaProperties));
+        } catch (KafkaException e) {
+            throw new IOException(
+                    "Kafka at %s cannot be read (%s). Check the address given with --kafka, and that it runs."
+                            .formatted(kafka, FailureText.of(e)),
+                    e);
+        }
     }
 
     private List<JsonNode> storedImages() throws IOException {

@@ -24,7 +24,6 @@ import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.cli.option.KafkaClient;
 import io.furrow.dashboard.Dashboard;
 import io.furrow.dashboard.DashboardSettings;
-import io.furrow.model.topic.TopicRules;
 import io.furrow.dashboard.page.PageSettings;
 import io.furrow.launcher.option.AccessFlags;
 import io.furrow.launcher.option.TrustedProxyFlags;
@@ -32,6 +31,7 @@ import io.furrow.launcher.process.ClockWatch;
 import io.furrow.launcher.process.LogFile;
 import io.furrow.launcher.suite.PortCheck;
 import io.furrow.launcher.suite.ServerCheck;
+import io.furrow.model.topic.TopicRules;
 
 /** {@code ./furrow dashboard}. */
 @Command(
