@@ -25,7 +25,7 @@ class FurrowPlatform extends HTMLElement {
     this.platform = resource('/api/platform', { interval: POLL_MILLIS });
     this.subscriptions = [this.platform.on(() => this.draw()), store.on('domains', () => this.subscribe())];
     this.ticking = setInterval(() => document.hidden || this.drawHops(), 1_000);
-    replace(this.wrong, h('div.skeleton', null, '…'));
+    [this.wrong, this.parts, this.groups, this.letters].forEach((each) => replace(each, h('div.skeleton', null, '…')));
     this.subscribe();
     this.drawHops();
   }
@@ -52,6 +52,7 @@ class FurrowPlatform extends HTMLElement {
     const { value, error } = this.platform;
     if (error) {
       this.drawIfChanged(error.message, () => [h('p.error-note', null, icon('warning'), error.message)]);
+      value || this.drawUnknown(['parts', 'groups', 'letters']);
       return;
     }
     const isKafkaDown = value.kafka?.state === 'away';
@@ -71,12 +72,15 @@ class FurrowPlatform extends HTMLElement {
       : [h('h2', null, t('platform.wrong')), h('ul.stack', null, faults.map((each) => h('li.error-note.warn-note', null, icon('warning', 18), each)))]));
     this.drawParts(parts);
     if (isKafkaDown) {
-      replace(this.groups, h('h2', null, t('platform.lag')), h('p.muted', null, t('platform.notKnown')));
-      replace(this.letters, h('h2', null, t('platform.letters')), h('p.muted', null, t('platform.notKnown')));
+      this.drawUnknown(['groups', 'letters']);
       return;
     }
     this.drawGroups(value.groups);
     this.drawLetters(value.deadLetters, letters);
+  }
+
+  drawUnknown(panels) {
+    panels.forEach((each) => replace(this[each], h('h2', null, t(`platform.${each === 'groups' ? 'lag' : each}`)), h('p.muted', null, t('platform.notKnown'))));
   }
 
   /** Redraws the live region only if its content changed. */

@@ -1,4 +1,5 @@
 /** Lists recorded missions for replays, and the replays that run. */
+import { absence } from '../core/absence.js';
 import { h, replace, setText } from '../core/dom.js';
 import { dateTime, duration, number } from '../core/format.js';
 import { linkTo, onRoute, route } from '../core/router.js';
@@ -23,7 +24,7 @@ class Replays extends HTMLElement {
     this.plan = new Plan();
     this.runningList = h('ul.running-list');
     this.runningTitle = h('h2.section-title', null, t('replays.running'), h('span.numbers'));
-    this.noRunning = h('div.empty', null, h('h3', null, t('replays.noRunning')), h('p.for-operators', null, t('replays.noRunningHint')));
+    this.noRunning = h('div');
     this.recordedTitle = h('h2.section-title', null, t('replays.recorded'), h('span.numbers'));
     this.body = h('tbody');
     this.table = h('div.table-frame', null, h('table.table.recordings', { 'aria-label': t('replays.recorded') },
@@ -47,13 +48,11 @@ class Replays extends HTMLElement {
     this.showRunning();
     this.showRecordings();
     this.openLink();
-    this.timer = setTimeout(() => { this.late = true; this.showRecordings(); }, 3_000);
   }
 
   disconnectedCallback() {
     this.subscriptions.forEach((unsubscribe) => unsubscribe());
     this.catalog.close();
-    clearTimeout(this.timer);
     clearTimeout(this.announceTimer);
     window.removeEventListener('schemechange', this.onScheme);
     this.rows.forEach((row) => row.preview.close());
@@ -88,7 +87,7 @@ class Replays extends HTMLElement {
     const entries = grouped(store.replays.values());
     drawRunning(this.runningList, this.runningDrawn, entries, (words) => this.announce(words));
     setText(this.runningTitle.lastChild, entries.length || '');
-    this.noRunning.hidden = entries.length > 0;
+    replace(this.noRunning, absence('replays', entries.length, () => h('div.empty', null, h('h3', null, t('replays.noRunning')), h('p.for-operators', null, t('replays.noRunningHint')))));
   }
 
   showRecordings() {
@@ -112,7 +111,7 @@ class Replays extends HTMLElement {
     setText(this.recordedTitle.lastChild, recordings.length || '');
     this.table.hidden = recordings.length === 0;
     this.plan.element.hidden = recordings.length === 0;
-    replace(this.state, recordings.length ? null : this.late ? this.emptyState() : skeleton());
+    replace(this.state, absence('recordings', recordings.length, () => this.emptyState()));
     if (this.linked && this.linked.missions.every((each) => store.recordings.has(each))) {
       this.chosen = new Set(this.linked.missions);
       this.at = this.linked.at;
@@ -183,10 +182,6 @@ class Replays extends HTMLElement {
     setText(this.announcement, words);
     this.announceTimer = setTimeout(() => setText(this.announcement, ''), ANNOUNCED_MILLIS);
   }
-}
-
-function skeleton() {
-  return h('div.stack', { 'aria-busy': 'true' }, [1, 2, 3].map(() => h('div.skeleton.recording-skeleton')));
 }
 
 customElements.define('furrow-replays', Replays);
