@@ -8,6 +8,7 @@ export const texts = {
     live: 'Live',
     replayOf: 'Replay of {mission} · {day}',
     toLive: 'Back to live',
+    liveView: 'This view is live. The map shows a replay of {mission}.', toReplay: 'To the replay',
     alarms: '{count} open alarms',
     places: 'Places',
     settings: 'Settings',
@@ -64,7 +65,7 @@ export const texts = {
 
   map: {
     label: 'Map of the farm. Arrow keys move it, plus and minus zoom; the table has the same in rows.',
-    controls: 'Map', zoomIn: 'Zoom in', zoomOut: 'Zoom out', fit: 'Show the whole farm', layers: 'What is shown', table: 'The map as a table', closeTable: 'Close the table',
+    controls: 'Map', zoomIn: 'Zoom in', zoomOut: 'Zoom out', fit: 'Show the whole farm', farms: 'Farms', layers: 'What is shown', table: 'The map as a table', closeTable: 'Close the table',
     tables: { devices: 'Devices', encounters: 'Encounters', fields: 'Fields' },
     options: { trails: 'Trails', labels: 'Names', rows: 'Rows of fields' },
     legend: 'Legend', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}', closest: 'closest {distance}',
@@ -81,7 +82,7 @@ export const texts = {
   // ------------------------------------------------------------------------------------------------------------------
 
   cards: {
-    title: 'Devices', count: '{count} · {reporting} reporting', filter: 'Show only', loading: 'Devices are being read',
+    title: 'Devices', silent: '{count device|devices} silent or off', count: '{count} · {reporting} reporting', filter: 'Show only', loading: 'Devices are being read',
     state: 'State', fieldMean: 'Field mean', suspect: 'suspect', noPosition: 'no position', details: 'All attributes of {name}',
     line: '{label}: now {now} {unit}, between {min} and {max} {unit}',
     lineConstant: '{label}: {now} {unit} all the time',
@@ -100,10 +101,15 @@ export const texts = {
     noMatch: 'No device matches', noMatchHint: 'Clear the search or the chips above to see all devices.',
   },
 
+  stopAll: {
+    title: 'Stop all robots', short: 'Stop all', again: 'Stop the others again', none: 'No robot that can be stopped is known.',
+    text: 'Sends Stop to each robot of all domains, whatever is searched or chosen; robots of stopped missions are off already.',
+  },
+
   // ------------------------------------------------------------------------------------------------------------------
 
   alarms: {
-    title: 'Alarms', reading: 'Alarms are being read …', open: '{count} open', none: 'No open alarms', noMatch: 'No open alarm matches the search.', quiet: '{count} acknowledged, muted or explained by another', liveInReplay: 'These alarms are live, not from the replay.',
+    title: 'Alarms', reading: 'Alarms are being read …', failed: 'The alarms cannot be read: {reason}', open: '{count} open', none: 'No open alarms', noMatch: 'No open alarm matches the search.', quiet: '{count} acknowledged, muted or explained by another', liveInReplay: 'Live, not from the replay: {count alarm|alarms}', further: 'Show {count} more',
     acknowledge: 'Acknowledge', more: 'Mute or close', mute10: 'Mute for 10 minutes', mute60: 'Mute for an hour', mute480: 'Mute for 8 hours', unmute: 'Unmute', close: 'Close',
     seen: '{count} times', affected: '{count} of {total}', by: 'acknowledged by {user}', mutedUntil: 'muted until {time}', inhibited: 'explained by another alarm',
     announced: 'New alarm, {severity}: {text}', notify: 'Tell me when this page is in the background', notification: 'Furrow: {severity} alarm',

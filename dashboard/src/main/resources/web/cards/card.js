@@ -1,13 +1,13 @@
 /** The card of one entity: attributes, series, image, commands and details. */
 import { api } from '../core/api.js';
-import { age, bytes, duration, temperature } from '../core/format.js';
+import { age, bytes, temperature } from '../core/format.js';
 import { h, replace, setText } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { allAttributes, lineOf, keyAttributes } from './attributes.js';
 import { sentencesOf } from './connection.js';
-import { commandsOf, infoOf, isPointless, outcomeOf } from './commands.js';
+import { commandsOf, deviceAt, isPointless, outcomeWords, sendCommand } from './commands.js';
 import { Picture } from './picture.js';
 import { Sparkline } from './sparkline.js';
 
@@ -63,8 +63,8 @@ export class Card {
 
   wordOf() {
     const { entity } = this;
-    if (entity.state === 'stale') {
-      return { text: t('states.stale'), className: 'muted' };
+    if (entity.state === 'stale' || entity.state === 'off') {
+      return { text: t(`states.${entity.state}`), className: 'muted' };
     }
     if (entity.suspect) {
       return { text: t('cards.suspect'), className: 'warn' };
@@ -120,38 +120,15 @@ export class Card {
   }
 
   drawOutcome(recorded) {
-    let [text, kind] = ['', ''];
-    if (recorded) {
-      text = t('cards.recorded');
-    } else if (this.sent) {
-      const { command, at, error } = this.sent;
-      const ago = t('format.ago', { duration: duration(Date.now() - at) });
-      if (error) {
-        [text, kind] = [t('cards.refused', { command, reason: error }), 'bad'];
-      } else {
-        const outcome = outcomeOf(this.entity, this.sent, Date.now());
-        kind = { ok: 'good', failed: 'bad', unanswered: 'warn', pending: '' }[outcome.state];
-        text = t(`cards.outcomes.${outcome.state}`, { command, ago, info: outcome.info ?? '' });
-      }
-    }
+    const { text, kind } = recorded ? { text: t('cards.recorded'), kind: '' } : this.sent ? outcomeWords(this.entity, this.sent) : { text: '', kind: '' };
     setText(this.outcome, text);
     this.outcome.className = `card-outcome small ${kind || 'muted'}`;
   }
 
   request(command) {
-    command.risky && !window.confirm(t('cards.confirm', { command: command.name, name: this.entity.name })) || this.send(command.name);
-  }
-
-  async send(command) {
-    const sent = (this.sent = { command, at: Date.now(), info: infoOf(this.entity, command), waiting: true });
-    this.drawCommands();
-    try {
-      await api.post(deviceAt(this.entity, '/commands'), { command, type: this.entity.type });
-    } catch (error) {
-      sent.error = error.message;
+    if (!command.risky || window.confirm(t('cards.confirm', { command: command.name, name: this.entity.name }))) {
+      sendCommand(this.entity, command.name, (sent) => { this.sent = sent; this.drawCommands(); });
     }
-    sent.waiting = false;
-    this.drawCommands();
   }
 
   // --- details -----------------------------------------------------------------------------------------------------
@@ -194,8 +171,3 @@ export class Card {
   }
 }
 Card.count = 0;
-
-/** The device of an entity in the REST API. */
-function deviceAt({ type, identity: { id, service, servicePath } }, command = '') {
-  return `/api/devices/${encodeURIComponent(id)}${command}?${new URLSearchParams({ service, servicePath, type })}`;
-}
