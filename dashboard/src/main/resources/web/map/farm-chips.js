@@ -2,7 +2,7 @@
 import { h, replace } from '../core/dom.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
-import { focusAct } from '../views/missions/redraw.js';
+import { focusAct } from '../core/redraw.js';
 import { farmsOf } from './farms.js';
 import { isOnMap, project } from './projection.js';
 

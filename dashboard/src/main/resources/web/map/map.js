@@ -83,7 +83,12 @@ class FurrowMap extends HTMLElement {
     this.target.addEventListener('pointerleave', () => this.leave());
     this.target.addEventListener('wheel', () => (this.moved = true), { passive: true });
     this.target.addEventListener('keydown', (event) => event.key.startsWith('Arrow') && (this.moved = true));
-    this.addEventListener('keydown', (event) => event.key === 'Escape' && (this.tooltip.hidden = true));
+    this.addEventListener('keydown', ({ key }) => {
+      if (key === 'Escape') {
+        this.tooltip.hidden = true;
+        this.table.element.hidden || this.toggleTable();
+      }
+    });
   }
 
   /** @returns {(function())[]} functions that unsubscribe */

@@ -11,6 +11,8 @@ import { HopDelays } from './platform/hops.js';
 const POLL_MILLIS = 3_000;
 /** Lag above which a group is reported as a problem, records. */
 const MAX_LAG = 1_000;
+/** Groups of jobs that compute for one replay; they are many, and outlive it. */
+const OF_REPLAY = /-of-.+\.[0-9a-f-]{8,}/;
 
 class FurrowPlatform extends HTMLElement {
   connectedCallback() {
@@ -98,12 +100,17 @@ class FurrowPlatform extends HTMLElement {
 
   drawGroups(groups) {
     const longest = Math.max(MAX_LAG, ...groups.map((each) => each.lag));
+    const row = (each) => {
+      const filled = h('span');
+      filled.style.width = `${100 * each.lag / longest}%`;
+      return h('li', null, h('span.cut', { title: each.group }, each.group), h('span.bar', { class: each.lag > MAX_LAG ? 'much' : '', 'aria-hidden': 'true' }, filled), h('span.numbers', null, number(each.lag)));
+    };
+    const isQuiet = (each) => OF_REPLAY.test(each.group) && each.lag <= MAX_LAG;
+    const quiet = groups.filter(isQuiet);
+    const open = this.groups.querySelector('details')?.open;
     replace(this.groups, h('h2', null, t('platform.lag')), h('p.small.muted', null, t('platform.lagHint')),
-      groups.length === 0 ? h('p.muted', null, t('platform.noGroups')) : h('ul.lags', null, groups.map((each) => {
-        const filled = h('span');
-        filled.style.width = `${100 * each.lag / longest}%`;
-        return h('li', null, h('span.cut', { title: each.group }, each.group), h('span.bar', { class: each.lag > MAX_LAG ? 'much' : '', 'aria-hidden': 'true' }, filled), h('span.numbers', null, number(each.lag)));
-      })));
+      groups.length === 0 ? h('p.muted', null, t('platform.noGroups')) : h('ul.lags', null, groups.filter((each) => !isQuiet(each)).map(row)),
+      quiet.length > 0 && h('details', { open }, h('summary.small.muted', null, t('platform.ofReplays', { count: quiet.length })), h('ul.lags', null, quiet.map(row))));
   }
 
   drawLetters(all, letters) {

@@ -6,10 +6,10 @@ import { icon } from '../../core/icons.js';
 import { navigate } from '../../core/router.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
-import { formRow, openDialog } from './dialog.js';
+import { formRow, openDialog } from '../../core/dialog.js';
 import { fieldTable } from './fields.js';
 import { importFields } from './import.js';
-import { redraw } from './redraw.js';
+import { redraw } from '../../core/redraw.js';
 
 export class Domains {
   constructor() {

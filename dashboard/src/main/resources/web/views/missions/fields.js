@@ -6,7 +6,7 @@ import { icon } from '../../core/icons.js';
 import { ofLocal } from '../../core/local-time.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
-import { formRow, openDialog } from './dialog.js';
+import { formRow, openDialog } from '../../core/dialog.js';
 
 /** @param {object[]} fields of the store, in the order of the rows */
 export function fieldTable(fields) {

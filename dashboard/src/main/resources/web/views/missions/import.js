@@ -4,7 +4,7 @@ import { h, replace } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
-import { formRow, openDialog } from './dialog.js';
+import { formRow, openDialog } from '../../core/dialog.js';
 
 const MAX_BYTES = 16 << 20;
 const GEOPACKAGE = /\.gpkg$/i;
@@ -63,7 +63,7 @@ async function previewOf(file) {
       return { bad: true, text: t('missions.noGeoJson') };
     }
     const areas = features.filter((each) => /Polygon$/.test(each?.geometry?.type ?? '')).length;
-    return { text: t(areas < features.length ? 'missions.previewSome' : 'missions.previewFields', { count: features.length, areas, others: features.length - areas }) };
+    return { bad: areas === 0, text: t(areas < features.length ? 'missions.previewSome' : 'missions.previewFields', { count: features.length, areas, others: features.length - areas }) };
   } catch {
     return { bad: true, text: t('missions.noGeoJson') };
   }
