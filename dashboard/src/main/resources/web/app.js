@@ -4,7 +4,7 @@ import { feeds, loadUser } from './core/feeds.js';
 import { clock, day, duration, zone } from './core/format.js';
 import { h, replace, setText } from './core/dom.js';
 import { icon } from './core/icons.js';
-import { linkTo, navigate, onRoute, route } from './core/router.js';
+import { keepInAddress, linkTo, navigate, onRoute, route } from './core/router.js';
 import { store } from './core/store.js';
 import { arrange } from './alarms/order.js';
 import { stopAllButton } from './cards/stop-all.js';
@@ -12,9 +12,7 @@ import { settingsMenu } from './settings.js';
 import { canSignOut, signIn, signInAgain, signOut, signedIn, readTokenFromLink } from './sign-in.js';
 import { t } from './texts.js';
 
-const PLACES = [
-  ['map', 'map'], ['missions', 'flag'], ['replays', 'history'], ['analyses', 'chart'], ['topics', 'list'], ['platform', 'server'],
-];
+const PLACES = [['map', 'map'], ['missions', 'flag'], ['replays', 'history'], ['analyses', 'chart'], ['topics', 'list'], ['platform', 'server']];
 const MODULES = {
   'furrow-map': './map/map.js',
   'furrow-alarms': './alarms/alarms.js',
@@ -28,10 +26,8 @@ const MODULES = {
 };
 /** Time for which a restored connection is reported, ms. */
 const RESTORED_SHOWN = 10_000;
-/** Views with the timeline below. */
+/** Views with the timeline below, which show a replay; all others are live, and say so. */
 const WITH_TIMELINE = new Set(['map', 'replays', 'analyses']);
-/** Views that show a replay instead of live data; all others are live, and say so. */
-const RECORDED = WITH_TIMELINE;
 
 class App extends HTMLElement {
   connectedCallback() {
@@ -52,7 +48,7 @@ class App extends HTMLElement {
     this.rail = h('nav.rail', { 'aria-label': t('app.places') }, PLACES.map(([name, symbol]) =>
       h('a', { href: linkTo(name), 'aria-label': t(`views.${name}`), data: { view: name } }, icon(symbol, 22), h('span', { 'aria-hidden': 'true' }, t(`views.${name}`)))));
     this.viewPlace = h('div.view-place', { hidden: true, tabindex: '0' });
-    this.notice = h('div.notice', { role: 'status', hidden: true });
+    this.notice = h('div.notice', { hidden: true });
     this.liveNote = h('p.live-note', { hidden: true }, icon('info', 16), h('span'), h('a', { href: linkTo('map') }, t('app.toReplay')));
     this.announcer = h('div.visually-hidden', { role: 'status', 'aria-live': 'polite' });
     this.map = this.load('furrow-map');
@@ -72,16 +68,12 @@ class App extends HTMLElement {
     this.subscriptions = [
       onRoute(() => this.show()),
       store.on('mode', () => this.showMode()),
-      store.on('clock', () => this.showTime()),
-      store.on('alarms', () => this.showAlarms()),
-      store.on('scope', () => this.showScope()),
-      store.on('connection', () => this.showConnection()),
+      store.on('clock', () => this.showTime()), store.on('connection', () => this.showConnection()),
+      store.on('alarms', () => this.showAlarms()), store.on('scope', () => this.showScope()),
       store.on('replays', () => this.followLink()),
     ];
     document.addEventListener('keydown', (event) => this.key(event));
     this.show();
-    this.showMode();
-    this.showTime();
     this.showAlarms();
     this.showScope();
   }
@@ -146,7 +138,7 @@ class App extends HTMLElement {
 
   /** Whether the view shows a replay: in a live view its clock and frame would be wrong. */
   get isRecorded() {
-    return store.isReplay && RECORDED.has(route.view);
+    return store.isReplay && WITH_TIMELINE.has(route.view);
   }
 
   showMode() {
@@ -156,10 +148,14 @@ class App extends HTMLElement {
     this.classList.toggle('replaying', recorded);
     document.documentElement.classList.toggle('replaying', recorded);
     const name = missions?.length > 1 ? missions.join(' + ') : mission;
-    replace(this.mode, recorded ? h('span.cut', null, aroundName(t('app.replayOf', { mission: name, day: day(position) }), name)) : t('app.live'));
+    replace(this.mode, recorded ? h('span.cut', null, aroundName(t('app.replayOf', { mission: name, day: day(position) }), name)) : t(store.connection.state === 'lost' ? 'app.notConnected' : 'app.live'));
     this.leave.hidden = !recorded;
     this.liveNote.hidden = recorded || !replaying;
     setText(this.liveNote.children[1], t('app.liveView', { mission: name }));
+    if (recorded && route.view !== 'replays' && (store.mode.replay !== this.kept || !route.query.replay)) {
+      this.kept = store.mode.replay;
+      this.kept === route.query.replay || keepInAddress({ ...route.query, at: null, replay: this.kept });
+    }
     if (this.wasReplaying !== undefined && this.wasReplaying !== replaying) {
       setText(this.announcer, replaying ? t('app.enteredReplay', { mission: name }) : t('app.enteredLive'));
       if (!replaying && route.query.replay) {
@@ -199,6 +195,11 @@ class App extends HTMLElement {
     const restored = state === 'open' && lostSince !== null && Date.now() - since < RESTORED_SHOWN;
     this.classList.toggle('lost', lost);
     this.notice.hidden = !lost && !restored;
+    if (lost !== this.wasLost) {
+      this.wasLost = lost;
+      this.showMode();
+      lost && this.announce(t('app.notConnected'));
+    }
     if (restored) {
       const words = [t('app.away', { from: clock(lostSince), to: clock(since) }), missed > 0 && t('app.gap', { count: missed })].filter(Boolean).join(' ');
       this.notice.textContent === words || replace(this.notice, icon('info'), words);
@@ -209,9 +210,7 @@ class App extends HTMLElement {
     }
   }
 
-  announce(text) {
-    setText(this.announcer, text);
-  }
+  announce(text) { setText(this.announcer, text); }
 
   findChanged() {
     clearTimeout(this.finding);

@@ -167,13 +167,14 @@ class Feeds {
     this.follow(record.key);
   }
 
-  /** Applies the state of a replay if it is the one that is shown. */
+  /** Applies the state of a replay if it is the one that is shown, or of its group. */
   follow(name) {
     const mode = store.mode;
-    if (mode.kind !== 'replay' || mode.replay !== name) {
+    const isMember = mode.group && store.replays.get(name)?.group === mode.group;
+    if (mode.kind !== 'replay' || (mode.replay !== name && !isMember)) {
       return;
     }
-    const replay = store.replays.get(name);
+    const replay = store.replays.get(mode.replay);
     const status = replay?.status;
     const progress = status?.progress ?? {};
     const { from, to } = spanOf(this.membersOf(replay?.group, replay));

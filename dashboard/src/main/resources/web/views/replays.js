@@ -64,11 +64,11 @@ class Replays extends HTMLElement {
     this.choose();
   }
 
-  /** Follows a link: `#/replays?mission=a,b&at=ISO`. */
+  /** Follows a link: `#/replays?mission=a,b&at=ISO`; without a mission it means those that were recorded then. */
   openLink() {
     const { mission, at } = route.query;
-    if (route.view === 'replays' && mission) {
-      this.linked = { missions: mission.split(','), at: at ? Date.parse(at) : undefined };
+    if (route.view === 'replays' && (mission || at)) {
+      this.linked = { missions: mission?.split(','), at: at ? Date.parse(at) : undefined };
       this.showRecordings();
     }
   }
@@ -112,8 +112,9 @@ class Replays extends HTMLElement {
     this.table.hidden = recordings.length === 0;
     this.plan.element.hidden = recordings.length === 0;
     replace(this.state, absence('recordings', recordings.length, () => this.emptyState()));
-    if (this.linked && this.linked.missions.every((each) => store.recordings.has(each))) {
-      this.chosen = new Set(this.linked.missions);
+    const linked = this.linked && (this.linked.missions ?? recordings.filter(({ first, last }) => first <= this.linked.at && this.linked.at <= last + RECORDING_TIMEOUT).map((each) => each.mission));
+    if (linked?.length && linked.every((each) => store.recordings.has(each))) {
+      this.chosen = new Set(linked);
       this.at = this.linked.at;
       this.linked = null;
     }
@@ -142,7 +143,7 @@ class Replays extends HTMLElement {
     const entities = [...(this.entities.get(mission)?.values() ?? [])].reduce((sum, each) => sum + each, 0);
     setText(cells.name, mission);
     setText(cells.domain, store.missions.get(mission)?.domain ?? '');
-    const isRecording = Date.now() - last < RECORDING_TIMEOUT;
+    const isRecording = Date.now() - last < RECORDING_TIMEOUT && Boolean(store.missions.get(mission)?.running);
     const words = dateTime(first);
     if (cells.when.dataset.words !== words + isRecording) {
       cells.when.dataset.words = words + isRecording;
