@@ -5,7 +5,7 @@ export const texts = {
     title: 'Furrow',
     skip: 'Skip to content',
     find: 'Find a device, field or alarm', findShort: 'Find …',
-    live: 'Live',
+    live: 'Live', notConnected: 'Not connected',
     replayOf: 'Replay of {mission} · {day}',
     toLive: 'Back to live',
     liveView: 'This view is live. The map shows a replay of {mission}.', toReplay: 'To the replay',
@@ -124,7 +124,7 @@ export const texts = {
     showOnly: 'Show only {name} on the map', showAll: 'Show everything on the map again',
     records: 'Records', noneChosen: 'No topic chosen', noneChosenHint: 'Choose one or several; their records appear here, newest first.',
     columns: { time: 'Time', topic: 'Topic', key: 'Key', value: 'Value' },
-    pause: 'Pause', goOn: 'Resume', paused: 'paused', findKey: 'Only keys with …', count: '{count} newest', gaps: '{count} missed', waiting: 'trying to connect',
+    pause: 'Pause', goOn: 'Resume', paused: 'paused', findKey: 'Only keys with …', count: '{count} newest', quiet: 'no record since the topic was chosen', noMatch: 'no key matches', gaps: '{count} missed', waiting: 'trying to connect',
     open: 'Record of {time}', cut: 'too large to show: {size}', deleted: 'deleted', shortened: 'shortened, {size} in all', where: 'Partition {partition}, offset {offset}, key {key}', headers: 'Headers',
   },
 
@@ -203,7 +203,7 @@ export const texts = {
 
   timeline: {
     position: 'Play head',
-    live: 'live',
+    live: 'live', lost: 'not connected',
     play: 'Play', pause: 'Pause', playHint: 'Play or pause (space)',
     stepBack: 'Step back', stepBackHint: 'One event back (←); 10 s with shift',
     stepForward: 'Step forward', stepForwardHint: 'One event forward (→); 10 s with shift',
@@ -219,7 +219,7 @@ export const texts = {
     valueLive: 'live',
     valueMoment: '{time}, chosen to replay from',
     replayMission: 'Replay {mission}',
-    replayFrom: 'Replay from {time}',
+    replayFrom: 'Replay from {time}', replayAny: 'Replay from {time} …',
     chooseReplay: 'Replays',
     startAgain: 'Start again',
     starting: 'The replay starts.',
@@ -259,7 +259,7 @@ export const texts = {
   platform: {
     well: 'Everything is working', wrong: 'Needs a look', partDown: '{part} is {state}. {detail}', behind: '{group} is {lag record|records} behind', hasLetters: 'Dead letters: {count}. They could not be processed and were set aside',
     parts: 'Parts', partNames: { api: 'REST API', iotAgent: 'IoT Agent', kafka: 'Kafka' }, states: { up: 'up', down: 'down', dead: 'dead' },
-    lag: 'Lag', lagHint: 'Records that a consumer group has not committed yet; jobs commit with each checkpoint.', noGroups: 'No consumer group has committed anything yet.',
+    lag: 'Lag', lagHint: 'Records that a consumer group has not committed yet; jobs commit with each checkpoint.', noGroups: 'No consumer group has committed anything yet.', ofReplays: '{count group|groups} of replays without a lag',
     letters: 'Dead letters', noLetters: 'None in {count topic|topics}', lettersHint: 'Their headers describe the error and its place. When it is fixed, redrive them:', lettersCommand: 'Commands that redrive dead letters', notKnown: 'Not known while it does not answer.',
     hops: 'How long a report takes', hop: 'Hop', samples: '{count report|reports} of the last minute', hopsWait: 'Waiting for reports …',
     hopNames: { device: 'Device to Kafka', source: 'Kafka to domain', page: 'Domain to this page', all: 'Together' },

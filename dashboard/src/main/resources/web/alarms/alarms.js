@@ -30,7 +30,7 @@ class FurrowAlarms extends HTMLElement {
     this.rows = new Map();
     this.list.addEventListener('pointerleave', () => this.draw());
     this.list.addEventListener('focusout', () => setTimeout(() => this.draw()));
-    this.fold.addEventListener('toggle', () => this.draw());
+    this.fold.addEventListener('toggle', () => { this.draw(); this.giveRoom(true); });
     this.subscriptions = [...['alarms', 'filter', 'fields'].map((name) => store.on(name, () => this.draw())), store.on('clock', () => this.drawAges()), store.on('mode', () => this.draw()), store.on('me', () => this.draw())];
     this.draw();
   }
@@ -66,12 +66,12 @@ class FurrowAlarms extends HTMLElement {
     this.announce(all.open);
   }
 
-  /** Sizes the region in steps, and not while a hand is on the panel, so that the cards below do not move under it. */
-  giveRoom() {
+  /** Sizes the region in two steps, and by itself not while a hand is on the panel, so that the cards below do not move under it. */
+  giveRoom(now = !this.dataset.room) {
     const [open, quiet] = this.counts;
     this.lastOpen = open > 0 ? Date.now() : store.isReplay ? -Infinity : this.lastOpen;
-    const room = open > 0 || (quiet > 0 && this.fold.open) || Date.now() - this.lastOpen < ROOM_MILLIS ? 'many' : quiet > 0 ? 'few' : 'none';
-    if (room !== this.dataset.room && (!this.dataset.room || this.fold.contains(document.activeElement) || !isHeld(this.parentElement))) {
+    const room = open > 0 || (quiet > 0 && this.fold.open) || Date.now() - this.lastOpen < ROOM_MILLIS ? 'many' : 'few';
+    if (room !== this.dataset.room && (now || !isHeld(this.parentElement))) {
       this.dataset.room = room;
     }
   }
@@ -110,6 +110,8 @@ class FurrowAlarms extends HTMLElement {
       row.alarm = alarm;
       element.className = `alarm ${alarm.severity} ${alarm.state}${isMuted(alarm, Date.now()) || alarm.inhibitedBy ? ' quieted' : ''}`;
       setText(text, textOf(alarm));
+      acknowledge.setAttribute('aria-label', `${t('alarms.acknowledge')}: ${textOf(alarm)}`);
+      more.setAttribute('aria-label', `${t('alarms.more')}: ${textOf(alarm)}`);
       setText(line, lineOf(alarm));
       actions.hidden = !store.may('operate');
       acknowledge.hidden = alarm.state !== 'open';
@@ -186,9 +188,10 @@ function isFound(alarm) {
 
 function lineOf(alarm) {
   const now = Date.now();
-  const parts = [label(alarm.kind.replaceAll('-', ' ')), age(now - alarm.raised)];
-  alarm.count > 1 && parts.splice(1, 0, t('alarms.seen', { count: alarm.count }));
-  alarm.affected > 1 && parts.splice(1, 0, t('alarms.affected', { count: alarm.affected, total: alarm.total ?? alarm.affected }));
+  const parts = [label(alarm.severity ?? ''), label(alarm.kind.replaceAll('-', ' '))].filter(Boolean);
+  alarm.affected > 1 && parts.push(t('alarms.affected', { count: alarm.affected, total: alarm.total ?? alarm.affected }));
+  alarm.count > 1 && parts.push(t('alarms.seen', { count: alarm.count }));
+  parts.push(age(now - alarm.raised));
   alarm.acknowledgedBy && parts.push(t('alarms.by', { user: alarm.acknowledgedBy }));
   parts.push(...new Set(entitiesOf(alarm).map(({ difference }) => difference).filter(Boolean)));
   isMuted(alarm, now) && parts.push(t('alarms.mutedUntil', { time: clock(alarm.mutedUntil) }));

@@ -29,7 +29,8 @@ export class Card {
     this.spark = new Sparkline();
     this.picture = new Picture();
     this.buttons = h('div.card-commands');
-    this.outcome = h('span.card-outcome.small', { role: 'status' });
+    this.outcome = h('span.card-outcome.small');
+    this.said = h('span.visually-hidden', { role: 'status' });
     this.details = h('div.card-details', { hidden: true, id: `details-${Card.count++}` });
     this.more = h('button.button.quiet.square.small', {
       type: 'button', 'aria-expanded': 'false', 'aria-controls': this.details.id, on: { click: () => this.toggle() },
@@ -38,7 +39,7 @@ export class Card {
       pointerenter: () => store.setHovered(entity.id), pointerleave: () => store.setHovered(null), focusin: () => store.setHovered(entity.id),
     } },
       h('div.card-head', null, h('h3.cut', null, this.name), this.mark, this.age, this.more),
-      this.facts, this.spark.element, this.picture.element, h('div.card-row', null, this.buttons, this.outcome), this.details);
+      this.facts, this.spark.element, this.picture.element, h('div.card-row', null, this.buttons, this.outcome, this.said), this.details);
     this.element.card = this;
   }
 
@@ -107,13 +108,13 @@ export class Card {
     const { entity } = this;
     const commands = store.may('operate') ? commandsOf(entity) : [];
     const recorded = store.isReplay;
-    const key = `${commands.map((each) => `${each.name}${each.primary}${isPointless(entity, each.name)}`).join()} ${recorded} ${this.sent?.waiting}`;
+    const key = `${entity.name} ${commands.map((each) => `${each.name}${each.primary}${isPointless(entity, each.name)}`).join()} ${recorded} ${this.sent?.waiting}`;
     if (key !== this.commandsKey) {
       this.commandsKey = key;
       replace(this.buttons, commands.map((command) => h('button.button.small', {
-        type: 'button', class: command.primary ? 'primary' : '', disabled: recorded || isPointless(entity, command.name) || Boolean(this.sent?.waiting),
+        type: 'button', class: command.primary ? 'primary' : '', 'aria-label': `${nameOf(command)}: ${entity.name}`, disabled: recorded || isPointless(entity, command.name) || Boolean(this.sent?.waiting),
         on: { click: () => this.request(command) },
-      }, command.name.charAt(0).toUpperCase() + command.name.slice(1))));
+      }, nameOf(command))));
       this.buttons.parentElement.hidden = commands.length === 0;
     }
     this.drawOutcome(recorded);
@@ -122,6 +123,10 @@ export class Card {
   drawOutcome(recorded) {
     const { text, kind } = recorded ? { text: t('cards.recorded'), kind: '' } : this.sent ? outcomeWords(this.entity, this.sent) : { text: '', kind: '' };
     setText(this.outcome, text);
+    // its age changes each second, and is not read out
+    const state = `${kind} ${this.sent?.at}`;
+    state === this.saidState || setText(this.said, this.sent && !recorded ? text : '');
+    this.saidState = state;
     this.outcome.className = `card-outcome small ${kind || 'muted'}`;
   }
 
@@ -171,3 +176,7 @@ export class Card {
   }
 }
 Card.count = 0;
+
+function nameOf({ name }) {
+  return name.charAt(0).toUpperCase() + name.slice(1);
+}

@@ -112,7 +112,9 @@ class FurrowCards extends HTMLElement {
     this.drawCounts();
     // the selected card stays where it is
     const moved = place === undefined ? 0 : (this.cards.get(store.selection)?.element.getBoundingClientRect().top ?? place) - place;
-    moved && (this.scrollTop += moved);
+    if (moved) {
+      (this.scrollHeight > this.clientHeight ? this : this.parentElement).scrollTop += moved;
+    }
     this.following && this.reveal('auto');
   }
 
@@ -217,7 +219,7 @@ class FurrowCards extends HTMLElement {
     this.drawEmpty(all);
     const chips = [['robot', 'kinds'], ['sensor', 'kinds'], ['camera', 'kinds'], ['other', 'kinds'], ['attention', 'states'], ['stale', 'states'], ['off', 'states']].filter(([key]) => counts.get(key) || key === this.kind);
     const key = `${this.kind} ${chips.map(([name]) => `${name}${counts.get(name)}`).join()}`;
-    if (key !== this.chipsKey) {
+    if (key !== this.chipsKey && !isHeld(this.list)) {
       this.chipsKey = key;
       const focused = this.chips.contains(document.activeElement) ? document.activeElement.dataset.key : null;
       replace(this.chips, chips.length > 1 && chips.map(([name, section]) => h('button.chip', {
@@ -234,7 +236,7 @@ class FurrowCards extends HTMLElement {
   }
 
   drawEmpty(all) {
-    const none = store.primed && this.cards.size === 0;
+    const none = store.primed && this.cards.size === 0 && this.fold.hidden;
     this.empty.hidden = !none;
     if (none) {
       const searched = store.filter || this.kind;

@@ -3,8 +3,8 @@ import { h, replace } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
-import { openDialog } from '../views/missions/dialog.js';
-import { commandsOf, outcomeWords, sendCommand } from './commands.js';
+import { openDialog } from '../core/dialog.js';
+import { commandsOf, outcomeOf, outcomeWords, sendCommand } from './commands.js';
 
 const COMMAND = 'Stop';
 
@@ -25,12 +25,12 @@ function robots() {
 function open() {
   store.leaveReplay(); // what it shows is recorded
   const outcomes = new Map();
-  const list = h('ul.stop-list', { 'aria-live': 'polite' });
+  const list = h('ul.stop-list', { tabindex: '0', 'aria-label': t('stopAll.title') });
   const { dialog, action, cancel } = openDialog({
     title: `${t('stopAll.title')}?`, submit: t('stopAll.short'), danger: true, body: [h('p', null, t('stopAll.text')), list],
     work: async () => {
-      const sent = robots().filter((each) => outcomes.get(each.id)?.state !== 'ok').map((each) => sendCommand(each, COMMAND, (state) => { outcomes.set(each.id, state); draw(); }));
-      await Promise.all(sent);
+      const others = robots().filter((each) => !outcomes.has(each.id) || outcomeOf(each, outcomes.get(each.id), Date.now()).state !== 'ok');
+      await Promise.all(others.map((each) => sendCommand(each, COMMAND, (sent) => { outcomes.set(each.id, sent); draw(); })));
       replace(action, t('stopAll.again'));
       replace(cancel, t('missions.close'));
       return true;

@@ -1,7 +1,7 @@
 /** Opens dialogs with a form, its failure and its buttons. */
-import { h, replace } from '../../core/dom.js';
-import { icon } from '../../core/icons.js';
-import { t } from '../../texts.js';
+import { h, replace } from './dom.js';
+import { icon } from './icons.js';
+import { t } from '../texts.js';
 import { focusAct } from './redraw.js';
 
 /**

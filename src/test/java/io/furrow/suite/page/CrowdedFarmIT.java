@@ -1,14 +1,18 @@
 package io.furrow.suite.page;
 
+import java.time.Instant;
 import java.util.List;
 import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
 import org.junit.jupiter.api.AutoClose;
+import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -17,13 +21,27 @@ import static org.assertj.core.api.Assertions.assertThat;
 class CrowdedFarmIT {
     private static final String ROBOT = "urn:ngsi-ld:Robot:";
     private static final long HOUR = 3_600_000;
+    private static final long MINUTE = 60_000;
+    /** Event time of replays. */
+    private static final long START = Instant.parse("2026-01-01T03:04:30Z").toEpochMilli();
+
+    private static final String LONGITUDE = "ol.proj.toLonLat(document.querySelector('furrow-map').view.getCenter())[0]";
+    private static final String RESOLUTION = "document.querySelector('furrow-map').view.getResolution()";
+
+    @AutoClose
+    private static Chromium chromium;
 
     @AutoClose
     private StubFarm farm;
 
+    @BeforeAll
+    static void launch() {
+        chromium = Chromium.start();
+    }
+
     @BeforeEach
     void start() throws Exception {
-        farm = new StubFarm().hasRobot(1).hasRobot(2).hasRobot(3);
+        farm = new StubFarm(chromium).hasRobot(1).hasRobot(2).hasRobot(3);
     }
 
     @Test
@@ -47,6 +65,7 @@ class CrowdedFarmIT {
         assertThat(page.find("furrow-alarms > .alarm-list > li.alarm")).hasCount(30);
     }
 
+    @Tag("full")
     @Test
     void leavesThePlaceOfAnAlarmEmptyWhileThePointerIsOnTheList() {
         for (int alarm = 1; alarm <= 3; alarm++) {
@@ -85,6 +104,7 @@ class CrowdedFarmIT {
         assertThat(farm.sent()).hasSize(3).allMatch(each -> each.endsWith("{\"command\":\"Stop\",\"type\":\"ROBOT\"}"));
     }
 
+    @Tag("full")
     @Test
     void showsDevicesThatWorkBeforeSilentOnesAndTheSelectedOneAlways() {
         for (int number = 10; number < 60; number++) {
@@ -125,6 +145,90 @@ class CrowdedFarmIT {
         assertThat(page.is("document.documentElement.scrollWidth <= innerWidth")).isTrue();
         page.go("Missions");
         assertThat(page.find("furrow-missions .empty .button")).isVisible();
+    }
+
+    @Test
+    void marksAReplayOnlyWhereItIsShown() {
+        farm.has("service.alarms", "a1", alarm(1, "warning", "open"));
+        farm.hasReplay("weeding", "", "paused", START, START + MINUTE, START + MINUTE / 2);
+        FarmPage page = farm.open("#/map?replay=weeding.1", 1440, 900);
+        assertThat(page.find(".mode")).containsText("Replay of weeding");
+        assertThat(page.find(".now")).containsText("04:05");
+        assertThat(page.find("furrow-alarms summary")).hasText("Live, not from the replay: 1 alarm");
+        assertThat(page.find("furrow-alarms > .alarm-list > li.alarm")).hasCount(0);
+
+        page.go("Missions");
+        assertThat(page.find(".mode")).hasText("Live");
+        assertThat(page.find("furrow-app")).not().hasClass(Pattern.compile("replaying"));
+        assertThat(page.find(".live-note")).containsText("This view is live. The map shows a replay of weeding.");
+        assertThat(page.find(".now")).not().containsText("04:05");
+        page.find(".live-note a").click();
+        assertThat(page.find("furrow-app")).hasClass(Pattern.compile("replaying"));
+        assertThat(page.find(".live-note")).isHidden();
+    }
+
+    @Test
+    void fitsTheFarmInScopeAndOffersTheOthers() {
+        farm.has("service.fields", "near@2020-01-01T00:00:00Z", field("farm", -3.4835, 40.3125))
+                .has("service.fields", "far@2020-01-01T00:00:00Z", field("alps", 10.2, 47.1));
+        FarmPage page = farm.open("", 1440, 900);
+        Locator chips = page.find(".map-farms .chip");
+        assertThat(chips).hasText(new String[] {"farm", "alps"});
+        assertThat(chips.first()).hasAttribute("aria-pressed", "true");
+        page.until(() -> Math.abs(page.number(LONGITUDE) + 3.48) < 0.01 && page.number(RESOLUTION) < 1);
+
+        chips.last().click();
+        page.until(() -> Math.abs(page.number(LONGITUDE) - 10.2) < 0.01);
+        page.store("store.setScope({ domain: 'farm' })");
+        page.until(() -> Math.abs(page.number(LONGITUDE) + 3.48) < 0.01);
+        assertThat(chips).hasCount(0);
+
+        page.page().setViewportSize(844, 390);
+        FarmPage fresh = farm.open("", 844, 390);
+        fresh.store("store.setScope({ domain: 'farm' })");
+        fresh.until(() -> fresh.number(RESOLUTION) < 1);
+        page.until(() -> page.number(RESOLUTION) == fresh.number(RESOLUTION));
+    }
+
+    /** Each of its replays has the devices of one mission: an encounter between them was found while they were recorded. */
+    @Tag("full")
+    @Test
+    void showsAGroupOfReplaysAsAGroup() {
+        farm.hasReplay("weeding", "g", "paused", START, START + MINUTE, START + MINUTE / 2);
+        farm.hasReplay("scouting", "g", "paused", START - MINUTE, START + 2 * MINUTE, START + MINUTE / 2);
+        farm.answers("/api/history/data.collision", """
+                {"since": 0, "records": [{"topic": "data.collision", "kind": "event", "key": "e", "time": %1$d, "headers": {}, "value": {"type": "Analytics:Collision",
+                  "encounter": {"value": "e"}, "phase": {"value": "ended"}, "startTime": {"value": %2$d}, "time": {"value": %1$d}, "minDistance": {"value": 3},
+                  "Device1_ID": {"value": "urn:ngsi-ld:Robot:1"}, "Device1_Mission": {"value": "weeding"},
+                  "Device2_ID": {"value": "urn:ngsi-ld:Robot:2"}, "Device2_Mission": {"value": "scouting"}}}]}""".formatted(START + 40_000, START + 20_000));
+        FarmPage page = farm.open("#/map?replay=weeding.1", 1440, 900);
+        page.untilStore("[...store.encounters.values()].some((each) => each.phase === 'ongoing' && each.minDistance === 3)");
+
+        page.go("Replays");
+        assertThat(page.find(".running")).containsText("1:30 of 3:00");
+        page.go("Analyses");
+        assertThat(page.find("furrow-analyses .encounters tbody tr")).hasCount(1);
+    }
+
+    /** With status 500, and without an answer. */
+    @Tag("full")
+    @ParameterizedTest
+    @ValueSource(strings = {"500", ""})
+    void saysThatNothingIsThereOnlyIfItIsKnown(String answer) {
+        List.of("/api/domains", "/api/recordings", "/api/register/service.fields", "/api/register/service.replays", "/api/register/service.alarms").forEach(each -> farm.answers(each, answer));
+        FarmPage page = farm.open("#/missions?tab=domains", 1440, 900).expectingError("status of 500");
+        assertThat(page.find("#missions-panel").locator(answer.isEmpty() ? ".list-skeleton" : ".error-note:visible")).hasCount(answer.isEmpty() ? 6 : 2);
+        assertThat(page.find("#missions-panel .empty")).hasCount(0);
+        page.go("Replays");
+        assertThat(page.find("furrow-replays").locator(answer.isEmpty() ? ".list-skeleton" : ".error-note:visible")).hasCount(answer.isEmpty() ? 6 : 2);
+        assertThat(page.find("furrow-replays .empty")).hasCount(0);
+        page.go("Map");
+        assertThat(page.find(".alarm-none")).containsText(answer.isEmpty() ? "being read" : "cannot be read: the stub rejects it");
+    }
+
+    private static String field(String domain, double longitude, double latitude) {
+        return """
+                {"properties": {"name": "Field", "Domain": "%s"}, "geometry": {"type": "Polygon", "coordinates": [[[%2$s, %4$s], [%3$s, %4$s], [%3$s, %5$s], [%2$s, %4$s]]]}}""".formatted(domain, longitude, longitude + 0.001, latitude, latitude + 0.001);
     }
 
     private static String alarm(int number, String severity, String state) {

@@ -19,10 +19,11 @@ import org.eclipse.jetty.server.ServerConnector;
 import io.furrow.dashboard.page.PageFiles;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
+import static org.assertj.core.api.Assertions.assertThat;
 
 /** The page in a real browser on a farm of stubs: its records and responses are those of the test. Starts in a second. */
 final class StubFarm implements AutoCloseable {
-    private final Chromium chromium = Chromium.start();
+    private final Chromium chromium;
     private final Server server = new Server();
     private final URI uri;
     private final Map<String, List<String>> initial = new HashMap<>();
@@ -31,7 +32,8 @@ final class StubFarm implements AutoCloseable {
     private final List<String> sent = new CopyOnWriteArrayList<>();
     private final List<FarmPage> pages = new ArrayList<>();
 
-    StubFarm() throws Exception {
+    StubFarm(Chromium chromium) throws Exception {
+        this.chromium = chromium;
         ServerConnector connector = new ServerConnector(server);
         connector.setHost("127.0.0.1");
         server.addConnector(connector);
@@ -61,7 +63,18 @@ final class StubFarm implements AutoCloseable {
                  "Latitude": {"value": %s}, "Longitude": {"value": -3.4822}, "speed": {"value": 1.5}, "cmd": {"value": ""}}""".formatted(number, state, 40.3125 + number * 1e-4);
     }
 
-    /** Answers a path with JSON; {@code 500}, for example, with that status; an empty text never. */
+    /** Adds a replay of a robot. @param group empty for a single replay @param times epoch ms: from, to and position */
+    StubFarm hasReplay(String mission, String group, String state, long... times) {
+        String topic = "data.farm.replay." + mission + ".1";
+        String member = group.isEmpty() ? "" : ", \"group\": \"" + group + "\"";
+        return has("service.replays", mission + ".1", """
+                        {"replay": "%1$s.1", "mission": "%1$s", "topic": "%2$s", "speed": 1, "analytics": ["collision"]%3$s}""".formatted(mission, topic, member))
+                .has("service.replays.status", mission + ".1", """
+                        {"state": "%s", "progress": {"from": %d, "to": %d, "position": %d}}""".formatted(state, times[0], times[1], times[2]))
+                .has(topic, "urn:ngsi-ld:Robot:1", robot(1, "Running"), times[2]);
+    }
+
+    /** Answers a path with JSON; {@code 409 reason}, for example, with that status; an empty text never. */
     StubFarm answers(String path, String answer) {
         answers.put(path, answer);
         return this;
@@ -77,7 +90,7 @@ final class StubFarm implements AutoCloseable {
                                 .setLocale("en-GB")
                                 .setTimezoneId("Europe/Madrid")));
         pages.add(page);
-        page.page().route("**/config.json", route -> json(route, "{\"analytics\": [\"collision\", \"temperature\"]}"));
+        page.page().route("**/config.json", route -> json(route, "{\"analytics\": [\"collision\", \"temperature\", \"presence\"]}"));
         page.page().route("**/api/**", this::answer);
         page.page().routeWebSocket("**/socket/*", socket -> {
             String topic = socket.url().substring(socket.url().lastIndexOf('/') + 1);
@@ -96,10 +109,12 @@ final class StubFarm implements AutoCloseable {
         String topic = path.substring(path.lastIndexOf('/') + 1);
         String answer = answers.getOrDefault(path, path.startsWith("/api/register/") ? "{\"socket\": \"/socket/" + topic + "\"}"
                 : path.startsWith("/api/history/") ? "{\"records\": [], \"since\": 0}"
+                : path.endsWith("/timeline") ? "{\"from\": 0, \"width\": 1, \"first\": 0, \"last\": 1, \"complete\": true, \"counts\": [1]}"
                 : path.startsWith("/api/density/") ? "{\"counts\": []}"
                 : path.equals("/api/me") ? "{\"user\": \"demo\", \"role\": \"admin\"}" : "[]");
-        if (answer.matches("\\d{3}")) {
-            route.fulfill(new Route.FulfillOptions().setStatus(Integer.parseInt(answer)).setBody("{\"reason\": \"the stub rejects it\"}"));
+        if (answer.matches("\\d{3}.*")) {
+            String reason = answer.length() > 3 ? answer.substring(4) : "the stub rejects it";
+            route.fulfill(new Route.FulfillOptions().setStatus(Integer.parseInt(answer.substring(0, 3))).setBody("{\"reason\": \"" + reason + "\"}"));
         } else if (!answer.isEmpty()) {
             json(route, answer);
         }
@@ -125,8 +140,9 @@ final class StubFarm implements AutoCloseable {
 
     @Override
     public void close() throws Exception {
+        List<String> errors = pages.stream().flatMap(page -> page.errors().stream()).toList();
         pages.forEach(FarmPage::close);
-        chromium.close();
         server.stop();
+        assertThat(errors).as("errors of the windows").isEmpty();
     }
 }
