@@ -161,7 +161,7 @@ export const texts = {
     fieldActs: { rename: 'Rename {field}', end: 'End {field}', delete: 'Delete {field}' }, rename: 'Rename', renameHint: 'The id stays. The next import names it as its file does.', end: 'End', endAt: 'When', endHint: 'Empty: now',
     endText: 'From then on it has no averages and stays. Earlier results are kept, and a replay of an earlier time uses the field as it was.',
     deleteFieldText: 'All its versions are deleted; this cannot be undone. Stored results are kept. To keep its history, end it instead.',
-    field: 'field', zone: 'zone without alarms', always: 'always', importFields: 'Import fields', import: 'Import', file: 'File', fileHint: 'GeoJSON with polygons, or a GeoPackage with one layer; at most 16 MiB. Shapefiles: ./furrow fields import.', asFeaturesSay: 'as given in each feature', close: 'Close',
+    lostDomain: '{domain} does not exist', field: 'field', zone: 'zone without alarms', always: 'always', importFields: 'Import fields', import: 'Import', file: 'File', fileHint: 'GeoJSON with polygons, or a GeoPackage with one layer; at most 16 MiB. Shapefiles: ./furrow fields import.', asFeaturesSay: 'as given in each feature', close: 'Close',
     previewFields: 'Areas in the file: {count}', previewSome: 'Areas in the file: {areas}. Other features, which will be rejected: {others}', previewGeoPackage: 'A GeoPackage is read by the server.', tooLarge: 'The file has {size} MiB; at most 16 are accepted.', imported: 'Imported: {imported}. Unchanged: {unchanged}', feature: 'Feature {number} {id}', noGeoJson: 'The file is not a GeoJSON.', refusedFields: '{count} refused', mendedFields: '{count} repaired',
   },
 
@@ -177,7 +177,7 @@ export const texts = {
     noneButton: 'To the missions',
     choose: 'Choose {mission}',
     choice: 'Mission', when: 'When', length: 'Length', devices: 'Devices', events: 'Events', density: 'Events over time',
-    now: 'being recorded',
+    now: 'being recorded', wrongClock: 'More than a year: the clock of a device was wrong.',
     chooseOne: 'Choose one mission, or several to play them with one clock.',
     plan: 'New replay',
     planOf: 'Replay of {missions}',

@@ -14,6 +14,8 @@ import { drawRunning, grouped } from './replays/running.js';
 /** A mission whose newest event is younger is still being recorded, ms. */
 const RECORDING_TIMEOUT = 90_000;
 const ANNOUNCED_MILLIS = 6_000;
+/** No mission is longer, ms: a report with a time far off is part of the recording. */
+const YEAR = 366 * 86_400_000;
 
 class Replays extends HTMLElement {
   connectedCallback() {
@@ -150,6 +152,9 @@ class Replays extends HTMLElement {
       replace(cells.when, words, isRecording && h('div.small.live-word', null, t('replays.now')));
     }
     setText(cells.length, duration(last - first));
+    const isWrong = last - first > YEAR;
+    cells.length.classList.toggle('warn', isWrong);
+    cells.length.title = isWrong ? t('replays.wrongClock') : '';
     setText(cells.devices, entities ? number(entities) : '–');
     setText(cells.events, preview.events === null ? '…' : number(preview.events));
     check.checked = this.chosen.has(mission);

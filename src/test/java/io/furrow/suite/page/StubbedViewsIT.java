@@ -95,6 +95,17 @@ class StubbedViewsIT {
     }
 
     @Test
+    void marksTheDomainOfAFieldThatDoesNotExist() {
+        String geometry = "\"geometry\": {\"type\": \"Polygon\", \"coordinates\": []}";
+        farm.answers("/api/domains", "[{\"domain\": \"farm\"}]")
+                .has("service.fields", "a@2020-01-01T00:00:00Z", "{\"properties\": {\"Domain\": \"farm\"}, " + geometry + "}")
+                .has("service.fields", "b@2020-01-01T00:00:00Z", "{\"properties\": {\"Domain\": \"barn\"}, " + geometry + "}");
+        FarmPage page = farm.open("#/missions?tab=domains", 1440, 900);
+
+        assertThat(page.find(".field-table td.warn")).hasText(new String[] {"barn does not exist"});
+    }
+
+    @Test
     void importsNoFileWithoutAreas() {
         FarmPage page = farm.open("#/missions?tab=domains", 1440, 900);
         page.button("Import fields").click();
