@@ -172,7 +172,7 @@ class FurrowAlarms extends HTMLElement {
 function leaveGap(row) {
   const gap = h('li.alarm-gap', { tabindex: '-1' });
   const focused = row.contains(document.activeElement);
-  gap.style.height = `${row.offsetHeight}px`;
+  gap.style.height = `${row.getBoundingClientRect().height}px`;
   row.replaceWith(gap);
   focused && gap.focus({ preventScroll: true });
 }

@@ -25,7 +25,8 @@ class CrowdedFarmIT {
     /** Event time of replays. */
     private static final long START = Instant.parse("2026-01-01T03:04:30Z").toEpochMilli();
 
-    private static final String LONGITUDE = "ol.proj.toLonLat(document.querySelector('furrow-map').view.getCenter())[0]";
+    private static final String LONGITUDE =
+            "ol.proj.toLonLat(document.querySelector('furrow-map').view.getCenter())[0]";
     private static final String RESOLUTION = "document.querySelector('furrow-map').view.getResolution()";
 
     @AutoClose
@@ -80,7 +81,11 @@ class CrowdedFarmIT {
         farm.send("service.alarms", "a1", alarm(1, "warning", "closed"));
 
         assertThat(page.find("furrow-alarms .alarm-gap")).hasCount(1);
-        assertThat(page.find("furrow-alarms li.alarm").filter(FarmPage.having(name)).boundingBox().y).isEqualTo(place);
+        assertThat(page.find("furrow-alarms li.alarm")
+                        .filter(FarmPage.having(name))
+                        .boundingBox()
+                        .y)
+                .isEqualTo(place);
         page.page().mouse().move(300, 300);
         assertThat(page.find("furrow-alarms li.alarm").first()).hasClass(Pattern.compile("critical"));
         assertThat(page.find("furrow-alarms .alarm-gap")).hasCount(0);
@@ -98,7 +103,10 @@ class CrowdedFarmIT {
         Locator rows = page.find(".stop-list li");
         assertThat(rows).hasCount(3);
         assertThat(rows.nth(1)).containsText("the stub rejects it");
-        farm.send("data.raw", ROBOT + 1, StubFarm.robot(1, "Stopped").replace("\"cmd\"", "\"cmd_status\": {\"value\": \"OK\"}, \"cmd\""));
+        farm.send(
+                "data.raw",
+                ROBOT + 1,
+                StubFarm.robot(1, "Stopped").replace("\"cmd\"", "\"cmd_status\": {\"value\": \"OK\"}, \"cmd\""));
         assertThat(rows.nth(0)).containsText("✓ Stop");
         assertThat(rows.nth(2)).containsText("no answer yet");
         assertThat(farm.sent()).hasSize(3).allMatch(each -> each.endsWith("{\"command\":\"Stop\",\"type\":\"ROBOT\"}"));
@@ -137,12 +145,16 @@ class CrowdedFarmIT {
         assertThat(page.find("furrow-cards li.card.device")).hasCount(3);
 
         for (String selector : List.of(
-                ".rail a[data-view=platform]", "furrow-alarms .button:text('Acknowledge') >> nth=-1", "furrow-cards .button.primary >> nth=-1",
-                ".stop-all", ".map-controls .button >> nth=-1")) {
+                ".rail a[data-view=platform]",
+                "furrow-alarms .button:text('Acknowledge') >> nth=-1",
+                "furrow-cards .button.primary >> nth=-1",
+                ".stop-all",
+                ".map-controls .button >> nth=-1")) {
             page.find(selector).click(new Locator.ClickOptions().setTrial(true));
             assertThat(page.find(selector)).isInViewport();
         }
-        assertThat(page.is("document.documentElement.scrollWidth <= innerWidth")).isTrue();
+        assertThat(page.is("document.documentElement.scrollWidth <= innerWidth"))
+                .isTrue();
         page.go("Missions");
         assertThat(page.find("furrow-missions .empty .button")).isVisible();
     }
@@ -202,7 +214,8 @@ class CrowdedFarmIT {
                   "Device1_ID": {"value": "urn:ngsi-ld:Robot:1"}, "Device1_Mission": {"value": "weeding"},
                   "Device2_ID": {"value": "urn:ngsi-ld:Robot:2"}, "Device2_Mission": {"value": "scouting"}}}]}""".formatted(START + 40_000, START + 20_000));
         FarmPage page = farm.open("#/map?replay=weeding.1", 1440, 900);
-        page.untilStore("[...store.encounters.values()].some((each) => each.phase === 'ongoing' && each.minDistance === 3)");
+        page.untilStore(
+                "[...store.encounters.values()].some((each) => each.phase === 'ongoing' && each.minDistance === 3)");
 
         page.go("Replays");
         assertThat(page.find(".running")).containsText("1:30 of 3:00");
@@ -215,15 +228,24 @@ class CrowdedFarmIT {
     @ParameterizedTest
     @ValueSource(strings = {"500", ""})
     void saysThatNothingIsThereOnlyIfItIsKnown(String answer) {
-        List.of("/api/domains", "/api/recordings", "/api/register/service.fields", "/api/register/service.replays", "/api/register/service.alarms").forEach(each -> farm.answers(each, answer));
+        List.of(
+                        "/api/domains",
+                        "/api/recordings",
+                        "/api/register/service.fields",
+                        "/api/register/service.replays",
+                        "/api/register/service.alarms")
+                .forEach(each -> farm.answers(each, answer));
         FarmPage page = farm.open("#/missions?tab=domains", 1440, 900).expectingError("status of 500");
-        assertThat(page.find("#missions-panel").locator(answer.isEmpty() ? ".list-skeleton" : ".error-note:visible")).hasCount(answer.isEmpty() ? 6 : 2);
+        assertThat(page.find("#missions-panel").locator(answer.isEmpty() ? ".list-skeleton" : ".error-note:visible"))
+                .hasCount(answer.isEmpty() ? 6 : 2);
         assertThat(page.find("#missions-panel .empty")).hasCount(0);
         page.go("Replays");
-        assertThat(page.find("furrow-replays").locator(answer.isEmpty() ? ".list-skeleton" : ".error-note:visible")).hasCount(answer.isEmpty() ? 6 : 2);
+        assertThat(page.find("furrow-replays").locator(answer.isEmpty() ? ".list-skeleton" : ".error-note:visible"))
+                .hasCount(answer.isEmpty() ? 6 : 2);
         assertThat(page.find("furrow-replays .empty")).hasCount(0);
         page.go("Map");
-        assertThat(page.find(".alarm-none")).containsText(answer.isEmpty() ? "being read" : "cannot be read: the stub rejects it");
+        assertThat(page.find(".alarm-none"))
+                .containsText(answer.isEmpty() ? "being read" : "cannot be read: the stub rejects it");
     }
 
     private static String field(String domain, double longitude, double latitude) {

@@ -15,6 +15,7 @@ import com.microsoft.playwright.WebSocketRoute;
 import com.microsoft.playwright.options.ReducedMotion;
 import org.eclipse.jetty.server.Server;
 import org.eclipse.jetty.server.ServerConnector;
+import org.eclipse.jetty.util.component.LifeCycle;
 
 import io.furrow.dashboard.page.PageFiles;
 
@@ -90,7 +91,10 @@ final class StubFarm implements AutoCloseable {
                                 .setLocale("en-GB")
                                 .setTimezoneId("Europe/Madrid")));
         pages.add(page);
-        page.page().route("**/config.json", route -> json(route, "{\"analytics\": [\"collision\", \"temperature\", \"presence\"]}"));
+        page.page()
+                .route(
+                        "**/config.json",
+                        route -> json(route, "{\"analytics\": [\"collision\", \"temperature\", \"presence\"]}"));
         page.page().route("**/api/**", this::answer);
         page.page().routeWebSocket("**/socket/*", socket -> {
             String topic = socket.url().substring(socket.url().lastIndexOf('/') + 1);
@@ -104,33 +108,47 @@ final class StubFarm implements AutoCloseable {
     private void answer(Route route) {
         String path = URLDecoder.decode(URI.create(route.request().url()).getRawPath(), UTF_8);
         if (!route.request().method().equals("GET")) {
-            sent.add(route.request().method() + " " + path + " " + route.request().postData());
+            sent.add(route.request().method() + " " + path + " "
+                    + route.request().postData());
         }
         String topic = path.substring(path.lastIndexOf('/') + 1);
-        String answer = answers.getOrDefault(path, path.startsWith("/api/register/") ? "{\"socket\": \"/socket/" + topic + "\"}"
-                : path.startsWith("/api/history/") ? "{\"records\": [], \"since\": 0}"
-                : path.endsWith("/timeline") ? "{\"from\": 0, \"width\": 1, \"first\": 0, \"last\": 1, \"complete\": true, \"counts\": [1]}"
-                : path.startsWith("/api/density/") ? "{\"counts\": []}"
-                : path.equals("/api/me") ? "{\"user\": \"demo\", \"role\": \"admin\"}" : "[]");
+        String answer = answers.getOrDefault(
+                path,
+                path.startsWith("/api/register/")
+                        ? "{\"socket\": \"/socket/" + topic + "\"}"
+                        : path.startsWith("/api/history/")
+                                ? "{\"records\": [], \"since\": 0}"
+                                : path.endsWith("/timeline")
+                                        ? "{\"from\": 0, \"width\": 1, \"first\": 0, \"last\": 1, \"complete\": true, \"counts\": [1]}"
+                                        : path.startsWith("/api/density/")
+                                                ? "{\"counts\": []}"
+                                                : path.equals("/api/me")
+                                                        ? "{\"user\": \"demo\", \"role\": \"admin\"}"
+                                                        : "[]");
         if (answer.matches("\\d{3}.*")) {
             String reason = answer.length() > 3 ? answer.substring(4) : "the stub rejects it";
-            route.fulfill(new Route.FulfillOptions().setStatus(Integer.parseInt(answer.substring(0, 3))).setBody("{\"reason\": \"" + reason + "\"}"));
+            route.fulfill(new Route.FulfillOptions()
+                    .setStatus(Integer.parseInt(answer.substring(0, 3)))
+                    .setBody("{\"reason\": \"" + reason + "\"}"));
         } else if (!answer.isEmpty()) {
             json(route, answer);
         }
     }
 
     private static void json(Route route, String body) {
-        route.fulfill(new Route.FulfillOptions().setContentType("application/json").setBody(body));
+        route.fulfill(
+                new Route.FulfillOptions().setContentType("application/json").setBody(body));
     }
 
     /** Sends a record to the page. */
     void send(String topic, String key, String value) {
-        sockets.get(topic).send("{\"records\": [" + record("event", topic, key, value, System.currentTimeMillis()) + "]}");
+        sockets.get(topic)
+                .send("{\"records\": [" + record("event", topic, key, value, System.currentTimeMillis()) + "]}");
     }
 
     private static String record(String kind, String topic, String key, String value, long time) {
-        return "{\"topic\": \"%s\", \"kind\": \"%s\", \"key\": \"%s\", \"time\": %d, \"headers\": {}, \"value\": %s}".formatted(topic, kind, key, time, value);
+        return "{\"topic\": \"%s\", \"kind\": \"%s\", \"key\": \"%s\", \"time\": %d, \"headers\": {}, \"value\": %s}"
+                .formatted(topic, kind, key, time, value);
     }
 
     /** The requests that change something, as {@code METHOD path body}. */
@@ -139,10 +157,11 @@ final class StubFarm implements AutoCloseable {
     }
 
     @Override
-    public void close() throws Exception {
-        List<String> errors = pages.stream().flatMap(page -> page.errors().stream()).toList();
+    public void close() {
+        List<String> errors =
+                pages.stream().flatMap(page -> page.errors().stream()).toList();
         pages.forEach(FarmPage::close);
-        server.stop();
+        LifeCycle.stop(server);
         assertThat(errors).as("errors of the windows").isEmpty();
     }
 }

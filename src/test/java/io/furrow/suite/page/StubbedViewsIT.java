@@ -41,7 +41,9 @@ class StubbedViewsIT {
     @Test
     void stepsAReplayThatIsPausedAlready() {
         farm.hasReplay("weeding", "", "running", START, START + MINUTE, START + 1_000)
-                .answers("/api/replays/weeding.1/pause", "409 replay 'weeding.1' is paused, which 'pause' cannot change");
+                .answers(
+                        "/api/replays/weeding.1/pause",
+                        "409 replay 'weeding.1' is paused, which 'pause' cannot change");
         FarmPage page = farm.open("#/map?replay=weeding.1", 1440, 900).expectingError("status of 409");
         page.untilStore("store.mode.state === 'running'");
         page.button("Step forward").click();
@@ -68,14 +70,18 @@ class StubbedViewsIT {
     void offersTheMissionsThatWereRecordedAtAMoment() {
         long now = System.currentTimeMillis();
         String recording = "{\"mission\": \"%s\", \"first\": %d, \"last\": %d}";
-        farm.answers("/api/recordings", "[" + recording.formatted("weeding", now - 9 * MINUTE, now) + "," + recording.formatted("scouting", now - 9 * MINUTE, now)
-                + "," + recording.formatted("mowing", now - 20 * MINUTE, now - 15 * MINUTE) + "]");
+        farm.answers(
+                "/api/recordings",
+                "[" + recording.formatted("weeding", now - 9 * MINUTE, now) + ","
+                        + recording.formatted("scouting", now - 9 * MINUTE, now) + ","
+                        + recording.formatted("mowing", now - 20 * MINUTE, now - 15 * MINUTE) + "]");
         FarmPage page = farm.open("", 1440, 900);
         page.untilStore("store.recordings.size === 3");
         page.run("document.querySelector('furrow-timeline').choose(Date.now() - 60000)");
         page.find(".tl-start").click();
 
-        assertThat(page.find("furrow-replays .plan h2")).hasText(Pattern.compile("Replay of (weeding \\+ scouting|scouting \\+ weeding)"));
+        assertThat(page.find("furrow-replays .plan h2"))
+                .hasText(Pattern.compile("Replay of (weeding \\+ scouting|scouting \\+ weeding)"));
         assertThat(page.find(".live-word")).hasCount(0); // their missions do not run
     }
 
@@ -98,8 +104,14 @@ class StubbedViewsIT {
     void marksTheDomainOfAFieldThatDoesNotExist() {
         String geometry = "\"geometry\": {\"type\": \"Polygon\", \"coordinates\": []}";
         farm.answers("/api/domains", "[{\"domain\": \"farm\"}]")
-                .has("service.fields", "a@2020-01-01T00:00:00Z", "{\"properties\": {\"Domain\": \"farm\"}, " + geometry + "}")
-                .has("service.fields", "b@2020-01-01T00:00:00Z", "{\"properties\": {\"Domain\": \"barn\"}, " + geometry + "}");
+                .has(
+                        "service.fields",
+                        "a@2020-01-01T00:00:00Z",
+                        "{\"properties\": {\"Domain\": \"farm\"}, " + geometry + "}")
+                .has(
+                        "service.fields",
+                        "b@2020-01-01T00:00:00Z",
+                        "{\"properties\": {\"Domain\": \"barn\"}, " + geometry + "}");
         FarmPage page = farm.open("#/missions?tab=domains", 1440, 900);
 
         assertThat(page.find(".field-table td.warn")).hasText(new String[] {"barn does not exist"});
@@ -110,7 +122,9 @@ class StubbedViewsIT {
         FarmPage page = farm.open("#/missions?tab=domains", 1440, 900);
         page.button("Import fields").click();
         Locator dialog = page.find("dialog[open]");
-        dialog.getByLabel("File").setInputFiles(new FilePayload("empty.geojson", "application/geo+json", "{\"features\": []}".getBytes(UTF_8)));
+        dialog.getByLabel("File")
+                .setInputFiles(
+                        new FilePayload("empty.geojson", "application/geo+json", "{\"features\": []}".getBytes(UTF_8)));
 
         assertThat(dialog).containsText("Areas in the file: 0");
         assertThat(dialog.locator("button[type=submit]")).isDisabled();
@@ -141,7 +155,9 @@ class StubbedViewsIT {
                 .answers("/api/missions/weeding", "{\"mission\": \"weeding\", \"domain\": \"farm\", \"running\": true}")
                 .answers("/api/devices", """
                         [{"id": "urn:ngsi-ld:Thermometer:weeding-12", "wanted": "running", "status": {"state": "running"}, "health": {"heard": %d, "battery": 0.5}}]""".formatted(now - 3_000))
-                .answers("/api/recordings", "[{\"mission\": \"weeding\", \"first\": %d, \"last\": %d}]".formatted(now - MINUTE, now))
+                .answers(
+                        "/api/recordings",
+                        "[{\"mission\": \"weeding\", \"first\": %d, \"last\": %d}]".formatted(now - MINUTE, now))
                 .answers("/api/history/data.collision", """
                         {"since": 0, "records": [{"topic": "data.collision", "kind": "event", "key": "e", "time": %1$d, "headers": {}, "value": {"type": "Analytics:Collision",
                           "encounter": {"value": "e"}, "phase": {"value": "ended"}, "time": {"value": %1$d}, "minDistance": {"value": 3},
@@ -158,6 +174,8 @@ class StubbedViewsIT {
 
     private static void fits(FarmPage page, String table) {
         assertThat(page.find(table)).isVisible();
-        assertThat(((Number) page.find(table).evaluate("(frame) => frame.scrollWidth - frame.clientWidth")).intValue()).as(table).isZero();
+        assertThat(((Number) page.find(table).evaluate("(frame) => frame.scrollWidth - frame.clientWidth")).intValue())
+                .as(table)
+                .isZero();
     }
 }
