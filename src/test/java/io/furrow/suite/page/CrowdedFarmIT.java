@@ -27,7 +27,7 @@ class CrowdedFarmIT {
 
     private static final String LONGITUDE =
             "ol.proj.toLonLat(document.querySelector('furrow-map').view.getCenter())[0]";
-    private static final String RESOLUTION = "document.querySelector('furrow-map').view.getResolution()";
+    private static final String RESOLUTION = "document.querySelector('furrow-map').view?.getResolution() ?? 1e9";
 
     @AutoClose
     private static Chromium chromium;
