@@ -4,15 +4,15 @@ import { feeds, loadUser } from './core/feeds.js';
 import { clock, day, duration, zone } from './core/format.js';
 import { h, replace, setText } from './core/dom.js';
 import { icon } from './core/icons.js';
-import { linkTo, navigate, onRoute, route } from './core/router.js';
+import { keepInAddress, linkTo, navigate, onRoute, route } from './core/router.js';
 import { store } from './core/store.js';
+import { arrange } from './alarms/order.js';
+import { stopAllButton } from './cards/stop-all.js';
 import { settingsMenu } from './settings.js';
 import { canSignOut, signIn, signInAgain, signOut, signedIn, readTokenFromLink } from './sign-in.js';
 import { t } from './texts.js';
 
-const PLACES = [
-  ['map', 'map'], ['missions', 'flag'], ['replays', 'history'], ['analyses', 'chart'], ['topics', 'list'], ['platform', 'server'],
-];
+const PLACES = [['map', 'map'], ['missions', 'flag'], ['replays', 'history'], ['analyses', 'chart'], ['topics', 'list'], ['platform', 'server']];
 const MODULES = {
   'furrow-map': './map/map.js',
   'furrow-alarms': './alarms/alarms.js',
@@ -26,14 +26,14 @@ const MODULES = {
 };
 /** Time for which a restored connection is reported, ms. */
 const RESTORED_SHOWN = 10_000;
-/** Views with the timeline below. */
+/** Views with the timeline below, which show a replay; all others are live, and say so. */
 const WITH_TIMELINE = new Set(['map', 'replays', 'analyses']);
 
 class App extends HTMLElement {
   connectedCallback() {
     this.view = null;
     this.mode = h('span.mode');
-    this.leave = h('button.button.small.mode-leave', { type: 'button', hidden: true, on: { click: () => store.leaveReplay() } }, t('app.toLive'));
+    this.leave = h('button.button.small.mode-leave', { type: 'button', hidden: true, title: t('app.toLive'), 'aria-label': t('app.toLive'), on: { click: () => store.leaveReplay() } }, icon('close', 16), h('span', null, t('app.toLive')));
     this.crumbs = h('nav.crumbs', { 'aria-label': t('views.topics') });
     this.time = h('span.now.numbers');
     this.alarms = h('a.alarm-count', { href: linkTo('map') });
@@ -48,7 +48,8 @@ class App extends HTMLElement {
     this.rail = h('nav.rail', { 'aria-label': t('app.places') }, PLACES.map(([name, symbol]) =>
       h('a', { href: linkTo(name), 'aria-label': t(`views.${name}`), data: { view: name } }, icon(symbol, 22), h('span', { 'aria-hidden': 'true' }, t(`views.${name}`)))));
     this.viewPlace = h('div.view-place', { hidden: true, tabindex: '0' });
-    this.notice = h('div.notice', { role: 'status', hidden: true });
+    this.notice = h('div.notice', { hidden: true });
+    this.liveNote = h('p.live-note', { hidden: true }, icon('info', 16), h('span'), h('a', { href: linkTo('map') }, t('app.toReplay')));
     this.announcer = h('div.visually-hidden', { role: 'status', 'aria-live': 'polite' });
     this.map = this.load('furrow-map');
     this.middle = h('main.middle', { id: 'content', tabindex: '-1' }, this.map, this.viewPlace);
@@ -61,22 +62,18 @@ class App extends HTMLElement {
         h('a.brand', { href: linkTo('map'), 'aria-label': t('app.title') }, icon('furrow', 22), h('span', null, t('app.title'))),
         this.crumbs, this.mode, this.leave, h('span.spacer'),
         h('div.find', { role: 'search' }, icon('search', 18), this.find, h('kbd', { 'aria-hidden': 'true' }, '/')),
-        this.time, this.alarms, settingsMenu()),
-      this.notice, this.rail, this.middle, this.side, this.timelinePlace, this.announcer);
+        this.time, this.alarms, stopAllButton(), settingsMenu()),
+      h('div.notices', null, this.notice, this.liveNote), this.rail, this.middle, this.side, this.timelinePlace, this.announcer);
 
     this.subscriptions = [
       onRoute(() => this.show()),
       store.on('mode', () => this.showMode()),
-      store.on('clock', () => this.showTime()),
-      store.on('alarms', () => this.showAlarms()),
-      store.on('scope', () => this.showScope()),
-      store.on('connection', () => this.showConnection()),
+      store.on('clock', () => this.showTime()), store.on('connection', () => this.showConnection()),
+      store.on('alarms', () => this.showAlarms()), store.on('scope', () => this.showScope()),
       store.on('replays', () => this.followLink()),
     ];
     document.addEventListener('keydown', (event) => this.key(event));
     this.show();
-    this.showMode();
-    this.showTime();
     this.showAlarms();
     this.showScope();
   }
@@ -112,6 +109,8 @@ class App extends HTMLElement {
       replace(this.viewPlace, isMap ? null : this.load(`furrow-${view}`));
       document.title = isMap ? t('app.title') : `${t(`views.${view}`)} · ${t('app.title')}`;
       isMap || this.middle.focus({ preventScroll: true });
+      this.showMode();
+      this.showTime();
     }
     if (query.select) {
       store.select(query.select, { reveal: true });
@@ -137,14 +136,26 @@ class App extends HTMLElement {
     }
   }
 
+  /** Whether the view shows a replay: in a live view its clock and frame would be wrong. */
+  get isRecorded() {
+    return store.isReplay && WITH_TIMELINE.has(route.view);
+  }
+
   showMode() {
     const replaying = store.isReplay;
+    const recorded = this.isRecorded;
     const { mission, missions, position } = store.mode;
-    this.classList.toggle('replaying', replaying);
-    document.documentElement.classList.toggle('replaying', replaying);
+    this.classList.toggle('replaying', recorded);
+    document.documentElement.classList.toggle('replaying', recorded);
     const name = missions?.length > 1 ? missions.join(' + ') : mission;
-    replace(this.mode, replaying ? h('span.cut', null, aroundName(t('app.replayOf', { mission: name, day: day(position) }), name)) : t('app.live'));
-    this.leave.hidden = !replaying;
+    replace(this.mode, recorded ? h('span.cut', null, aroundName(t('app.replayOf', { mission: name, day: day(position) }), name)) : t(store.connection.state === 'lost' ? 'app.notConnected' : 'app.live'));
+    this.leave.hidden = !recorded;
+    this.liveNote.hidden = recorded || !replaying;
+    setText(this.liveNote.children[1], t('app.liveView', { mission: name }));
+    if (recorded && route.view !== 'replays' && (store.mode.replay !== this.kept || !route.query.replay)) {
+      this.kept = store.mode.replay;
+      this.kept === route.query.replay || keepInAddress({ ...route.query, at: null, replay: this.kept });
+    }
     if (this.wasReplaying !== undefined && this.wasReplaying !== replaying) {
       setText(this.announcer, replaying ? t('app.enteredReplay', { mission: name }) : t('app.enteredLive'));
       if (!replaying && route.query.replay) {
@@ -155,17 +166,18 @@ class App extends HTMLElement {
   }
 
   showTime() {
-    const now = store.now();
+    const now = this.isRecorded ? store.now() : Date.now();
     const time = clock(now);
     replace(this.time, h('strong', null, time.slice(0, 5), h('span', null, time.slice(5))), h('span', null, ` ${zone(now)}`));
     this.notice.hidden || this.showConnection();
   }
 
   showAlarms() {
-    const open = [...store.alarms.values()].filter((each) => each.state === 'open').length;
-    this.alarms.classList.toggle('open', open > 0);
-    this.alarms.setAttribute('aria-label', t('app.alarms', { count: open }));
-    replace(this.alarms, icon('warning', 18), h('span.numbers', { 'aria-hidden': 'true' }, open));
+    const { open } = arrange(store.alarms.values(), Date.now());
+    this.alarms.classList.toggle('open', open.length > 0);
+    this.alarms.classList.toggle('critical', open.some((each) => each.severity === 'critical'));
+    this.alarms.setAttribute('aria-label', t('app.alarms', { count: open.length }));
+    replace(this.alarms, icon('warning', 18), h('span.numbers', { 'aria-hidden': 'true' }, open.length));
   }
 
   showScope() {
@@ -183,6 +195,11 @@ class App extends HTMLElement {
     const restored = state === 'open' && lostSince !== null && Date.now() - since < RESTORED_SHOWN;
     this.classList.toggle('lost', lost);
     this.notice.hidden = !lost && !restored;
+    if (lost !== this.wasLost) {
+      this.wasLost = lost;
+      this.showMode();
+      lost && this.announce(t('app.notConnected'));
+    }
     if (restored) {
       const words = [t('app.away', { from: clock(lostSince), to: clock(since) }), missed > 0 && t('app.gap', { count: missed })].filter(Boolean).join(' ');
       this.notice.textContent === words || replace(this.notice, icon('info'), words);
@@ -193,9 +210,7 @@ class App extends HTMLElement {
     }
   }
 
-  announce(text) {
-    setText(this.announcer, text);
-  }
+  announce(text) { setText(this.announcer, text); }
 
   findChanged() {
     clearTimeout(this.finding);

@@ -35,4 +35,6 @@ function chooseScheme(name) {
   }
   window.dispatchEvent(new Event('schemechange'));
 }
+// chosen in another tab
+window.addEventListener('storage', ({ key, newValue }) => key === 'furrow-scheme' && chooseScheme(newValue ?? 'system'));
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => window.dispatchEvent(new Event('schemechange')));

@@ -5,9 +5,10 @@ export const texts = {
     title: 'Furrow',
     skip: 'Skip to content',
     find: 'Find a device, field or alarm', findShort: 'Find …',
-    live: 'Live',
+    live: 'Live', notConnected: 'Not connected',
     replayOf: 'Replay of {mission} · {day}',
     toLive: 'Back to live',
+    liveView: 'This view is live. The map shows a replay of {mission}.', toReplay: 'To the replay',
     alarms: '{count} open alarms',
     places: 'Places',
     settings: 'Settings',
@@ -64,7 +65,7 @@ export const texts = {
 
   map: {
     label: 'Map of the farm. Arrow keys move it, plus and minus zoom; the table has the same in rows.',
-    controls: 'Map', zoomIn: 'Zoom in', zoomOut: 'Zoom out', fit: 'Show the whole farm', layers: 'What is shown', table: 'The map as a table', closeTable: 'Close the table',
+    controls: 'Map', zoomIn: 'Zoom in', zoomOut: 'Zoom out', fit: 'Show the whole farm', farms: 'Farms', layers: 'What is shown', table: 'The map as a table', closeTable: 'Close the table',
     tables: { devices: 'Devices', encounters: 'Encounters', fields: 'Fields' },
     options: { trails: 'Trails', labels: 'Names', rows: 'Rows of fields' },
     legend: 'Legend', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}', closest: 'closest {distance}',
@@ -81,7 +82,7 @@ export const texts = {
   // ------------------------------------------------------------------------------------------------------------------
 
   cards: {
-    title: 'Devices', count: '{count} · {reporting} reporting', filter: 'Show only', loading: 'Devices are being read',
+    title: 'Devices', silent: '{count device|devices} silent or off', count: '{count} · {reporting} reporting', filter: 'Show only', loading: 'Devices are being read',
     state: 'State', fieldMean: 'Field mean', suspect: 'suspect', noPosition: 'no position', details: 'All attributes of {name}',
     line: '{label}: now {now} {unit}, between {min} and {max} {unit}',
     lineConstant: '{label}: {now} {unit} all the time',
@@ -100,10 +101,15 @@ export const texts = {
     noMatch: 'No device matches', noMatchHint: 'Clear the search or the chips above to see all devices.',
   },
 
+  stopAll: {
+    title: 'Stop all robots', short: 'Stop all', again: 'Stop the others again', none: 'No robot that can be stopped is known.',
+    text: 'Sends Stop to each robot of all domains, whatever is searched or chosen; robots of stopped missions are off already.',
+  },
+
   // ------------------------------------------------------------------------------------------------------------------
 
   alarms: {
-    title: 'Alarms', reading: 'Alarms are being read …', open: '{count} open', none: 'No open alarms', noMatch: 'No open alarm matches the search.', quiet: '{count} acknowledged, muted or explained by another', liveInReplay: 'These alarms are live, not from the replay.',
+    title: 'Alarms', reading: 'Alarms are being read …', failed: 'The alarms cannot be read: {reason}', open: '{count} open', none: 'No open alarms', noMatch: 'No open alarm matches the search.', quiet: '{count} acknowledged, muted or explained by another', liveInReplay: 'Live, not from the replay: {count alarm|alarms}', further: 'Show {count} more',
     acknowledge: 'Acknowledge', more: 'Mute or close', mute10: 'Mute for 10 minutes', mute60: 'Mute for an hour', mute480: 'Mute for 8 hours', unmute: 'Unmute', close: 'Close',
     seen: '{count} times', affected: '{count} of {total}', by: 'acknowledged by {user}', mutedUntil: 'muted until {time}', inhibited: 'explained by another alarm',
     announced: 'New alarm, {severity}: {text}', notify: 'Tell me when this page is in the background', notification: 'Furrow: {severity} alarm',
@@ -118,7 +124,7 @@ export const texts = {
     showOnly: 'Show only {name} on the map', showAll: 'Show everything on the map again',
     records: 'Records', noneChosen: 'No topic chosen', noneChosenHint: 'Choose one or several; their records appear here, newest first.',
     columns: { time: 'Time', topic: 'Topic', key: 'Key', value: 'Value' },
-    pause: 'Pause', goOn: 'Resume', paused: 'paused', findKey: 'Only keys with …', count: '{count} newest', gaps: '{count} missed', waiting: 'trying to connect',
+    pause: 'Pause', goOn: 'Resume', paused: 'paused', findKey: 'Only keys with …', count: '{count} newest', quiet: 'no record since the topic was chosen', noMatch: 'no key matches', gaps: '{count} missed', waiting: 'trying to connect',
     open: 'Record of {time}', cut: 'too large to show: {size}', deleted: 'deleted', shortened: 'shortened, {size} in all', where: 'Partition {partition}, offset {offset}, key {key}', headers: 'Headers',
   },
 
@@ -155,7 +161,7 @@ export const texts = {
     fieldActs: { rename: 'Rename {field}', end: 'End {field}', delete: 'Delete {field}' }, rename: 'Rename', renameHint: 'The id stays. The next import names it as its file does.', end: 'End', endAt: 'When', endHint: 'Empty: now',
     endText: 'From then on it has no averages and stays. Earlier results are kept, and a replay of an earlier time uses the field as it was.',
     deleteFieldText: 'All its versions are deleted; this cannot be undone. Stored results are kept. To keep its history, end it instead.',
-    field: 'field', zone: 'zone without alarms', always: 'always', importFields: 'Import fields', import: 'Import', file: 'File', fileHint: 'GeoJSON with polygons, or a GeoPackage with one layer; at most 16 MiB. Shapefiles: ./furrow fields import.', asFeaturesSay: 'as given in each feature', close: 'Close',
+    lostDomain: '{domain} does not exist', field: 'field', zone: 'zone without alarms', always: 'always', importFields: 'Import fields', import: 'Import', file: 'File', fileHint: 'GeoJSON with polygons, or a GeoPackage with one layer; at most 16 MiB. Shapefiles: ./furrow fields import.', asFeaturesSay: 'as given in each feature', close: 'Close',
     previewFields: 'Areas in the file: {count}', previewSome: 'Areas in the file: {areas}. Other features, which will be rejected: {others}', previewGeoPackage: 'A GeoPackage is read by the server.', tooLarge: 'The file has {size} MiB; at most 16 are accepted.', imported: 'Imported: {imported}. Unchanged: {unchanged}', feature: 'Feature {number} {id}', noGeoJson: 'The file is not a GeoJSON.', refusedFields: '{count} refused', mendedFields: '{count} repaired',
   },
 
@@ -171,7 +177,7 @@ export const texts = {
     noneButton: 'To the missions',
     choose: 'Choose {mission}',
     choice: 'Mission', when: 'When', length: 'Length', devices: 'Devices', events: 'Events', density: 'Events over time',
-    now: 'being recorded',
+    now: 'being recorded', wrongClock: 'More than a year: the clock of a device was wrong.',
     chooseOne: 'Choose one mission, or several to play them with one clock.',
     plan: 'New replay',
     planOf: 'Replay of {missions}',
@@ -197,7 +203,7 @@ export const texts = {
 
   timeline: {
     position: 'Play head',
-    live: 'live',
+    live: 'live', lost: 'not connected',
     play: 'Play', pause: 'Pause', playHint: 'Play or pause (space)',
     stepBack: 'Step back', stepBackHint: 'One event back (←); 10 s with shift',
     stepForward: 'Step forward', stepForwardHint: 'One event forward (→); 10 s with shift',
@@ -213,7 +219,7 @@ export const texts = {
     valueLive: 'live',
     valueMoment: '{time}, chosen to replay from',
     replayMission: 'Replay {mission}',
-    replayFrom: 'Replay from {time}',
+    replayFrom: 'Replay from {time}', replayAny: 'Replay from {time} …',
     chooseReplay: 'Replays',
     startAgain: 'Start again',
     starting: 'The replay starts.',
@@ -253,7 +259,7 @@ export const texts = {
   platform: {
     well: 'Everything is working', wrong: 'Needs a look', partDown: '{part} is {state}. {detail}', behind: '{group} is {lag record|records} behind', hasLetters: 'Dead letters: {count}. They could not be processed and were set aside',
     parts: 'Parts', partNames: { api: 'REST API', iotAgent: 'IoT Agent', kafka: 'Kafka' }, states: { up: 'up', down: 'down', dead: 'dead' },
-    lag: 'Lag', lagHint: 'Records that a consumer group has not committed yet; jobs commit with each checkpoint.', noGroups: 'No consumer group has committed anything yet.',
+    lag: 'Lag', lagHint: 'Records that a consumer group has not committed yet; jobs commit with each checkpoint.', noGroups: 'No consumer group has committed anything yet.', ofReplays: '{count group|groups} of replays without a lag',
     letters: 'Dead letters', noLetters: 'None in {count topic|topics}', lettersHint: 'Their headers describe the error and its place. When it is fixed, redrive them:', lettersCommand: 'Commands that redrive dead letters', notKnown: 'Not known while it does not answer.',
     hops: 'How long a report takes', hop: 'Hop', samples: '{count report|reports} of the last minute', hopsWait: 'Waiting for reports …',
     hopNames: { device: 'Device to Kafka', source: 'Kafka to domain', page: 'Domain to this page', all: 'Together' },

@@ -1,7 +1,7 @@
 /** The list of alarms, with commands, announcements and notifications. */
 import { api } from '../core/api.js';
 import { age, clock, label, readable } from '../core/format.js';
-import { h, replace, setText } from '../core/dom.js';
+import { h, isHeld, replace, setText } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { isIn, scope } from '../core/identities.js';
 import { store } from '../core/store.js';
@@ -10,21 +10,27 @@ import { arrange, isMuted } from './order.js';
 
 const MUTES = [['PT10M', 'alarms.mute10'], ['PT1H', 'alarms.mute60'], ['PT8H', 'alarms.mute480']];
 const SHOWN = 20;
+/** Time for which the room of open alarms is retained when none is left, ms. */
+const ROOM_MILLIS = 60_000;
 
 class FurrowAlarms extends HTMLElement {
   connectedCallback() {
-    this.failures = new Map();
     this.announced = null;
+    this.shown = SHOWN;
+    this.lastOpen = -Infinity;
     this.count = h('span.numbers');
     this.list = h('ul.alarm-list');
     this.fold = h('details.alarm-fold', { hidden: true }, h('summary'), h('ul.alarm-list'));
     this.none = h('p.alarm-none', null, icon('check', 18), h('span', null, t('alarms.reading')));
-    this.liveNote = h('p.small.muted', { hidden: true }, t('alarms.liveInReplay'));
+    this.further = h('button.button.quiet.small', { type: 'button', hidden: true, on: { click: () => { this.shown += SHOWN; this.draw(); } } });
     this.polite = h('div.visually-hidden', { 'aria-live': 'polite' });
     this.assertive = h('div.visually-hidden', { 'aria-live': 'assertive' });
-    this.notify = h('button.button.quiet.small', { type: 'button', hidden: true, on: { click: () => this.requestPermission() } }, icon('bell', 16), t('alarms.notify'));
-    replace(this, h('h2.section-title', null, h('span', null, t('alarms.title')), this.count), this.liveNote, this.none, this.list, this.fold, this.notify, this.polite, this.assertive);
+    this.notify = h('button.button.quiet.square.small', { type: 'button', hidden: true, 'aria-label': t('alarms.notify'), title: t('alarms.notify'), on: { click: () => this.requestPermission() } }, icon('bell', 16));
+    replace(this, h('div.alarm-head', null, h('h2.section-title', null, h('span', null, t('alarms.title')), this.count), this.notify), this.none, this.list, this.further, this.fold, this.polite, this.assertive);
     this.rows = new Map();
+    this.list.addEventListener('pointerleave', () => this.draw());
+    this.list.addEventListener('focusout', () => setTimeout(() => this.draw()));
+    this.fold.addEventListener('toggle', () => { this.draw(); this.giveRoom(true); });
     this.subscriptions = [...['alarms', 'filter', 'fields'].map((name) => store.on(name, () => this.draw())), store.on('clock', () => this.drawAges()), store.on('mode', () => this.draw()), store.on('me', () => this.draw())];
     this.draw();
   }
@@ -35,18 +41,24 @@ class FurrowAlarms extends HTMLElement {
 
   draw() {
     const all = arrange(store.alarms.values(), Date.now());
-    const [open, quiet] = [all.open.filter(isFound), all.quiet.filter(isFound)];
-    const others = all.open.length - open.length;
-    this.none.hidden = open.length > 0;
-    this.none.classList.toggle('is-reading', !store.alarmsLoaded || others > 0);
-    setText(this.none.lastChild, t(!store.alarmsLoaded ? 'alarms.reading' : others > 0 ? 'alarms.noMatch' : 'alarms.none'));
-    this.liveNote.hidden = !store.isReplay;
+    // alarms are live: a replay shows them in one line
+    const [open, quiet] = (store.isReplay ? [[], [...all.open, ...all.quiet]] : [all.open, all.quiet]).map((each) => each.filter(isFound));
+    const others = store.isReplay ? 0 : all.open.length - open.length;
+    this.none.hidden = open.length > 0 || store.isReplay;
+    this.none.classList.toggle('is-reading', !store.alarmsLoaded || others > 0 || Boolean(store.lists.alarms.error));
+    const { error } = store.lists.alarms;
+    setText(this.none.lastChild, error ? t('alarms.failed', { reason: error.message }) : t(!store.alarmsLoaded ? 'alarms.reading' : others > 0 ? 'alarms.noMatch' : 'alarms.none'));
     setText(this.count, store.alarmsLoaded ? t('alarms.open', { count: all.open.length }) : '');
     const used = new Set();
-    this.fill(this.list, open.slice(0, SHOWN), used);
-    this.fill(this.fold.lastChild, quiet.slice(0, SHOWN), used);
+    this.fill(this.list, open.slice(0, this.shown), used);
+    this.fill(this.fold.lastChild, quiet.slice(0, this.shown), used);
+    const further = Math.max(open.length, this.fold.open ? quiet.length : 0) - this.shown;
+    this.further.hidden = further <= 0;
+    setText(this.further, t('alarms.further', { count: further }));
     this.fold.hidden = quiet.length === 0;
-    setText(this.fold.firstChild, t('alarms.quiet', { count: quiet.length }));
+    setText(this.fold.firstChild, t(store.isReplay ? 'alarms.liveInReplay' : 'alarms.quiet', { count: quiet.length }));
+    this.counts = [open.length, quiet.length];
+    this.giveRoom();
     for (const id of this.rows.keys()) {
       used.has(id) || this.rows.delete(id);
     }
@@ -54,7 +66,17 @@ class FurrowAlarms extends HTMLElement {
     this.announce(all.open);
   }
 
-  /** Updates a list. Rows retain their elements, so that a focused button is not removed. */
+  /** Sizes the region in two steps, and by itself not while a hand is on the panel, so that the cards below do not move under it. */
+  giveRoom(now = !this.dataset.room) {
+    const [open, quiet] = this.counts;
+    this.lastOpen = open > 0 ? Date.now() : store.isReplay ? -Infinity : this.lastOpen;
+    const room = open > 0 || (quiet > 0 && this.fold.open) || Date.now() - this.lastOpen < ROOM_MILLIS ? 'many' : 'few';
+    if (room !== this.dataset.room && (now || !isHeld(this.parentElement))) {
+      this.dataset.room = room;
+    }
+  }
+
+  /** Updates a list. Rows retain their elements, so that a focused button is not removed; under a hand none moves. */
   fill(list, alarms, used) {
     const elements = alarms.map((alarm) => {
       used.add(alarm.alarm);
@@ -62,6 +84,11 @@ class FurrowAlarms extends HTMLElement {
       row.draw(alarm);
       return row.element;
     });
+    if (isHeld(list)) {
+      [...list.children].filter((each) => each.matches('.alarm') && !elements.includes(each)).forEach(leaveGap);
+      list.append(...elements.filter((each) => each.parentElement !== list));
+      return;
+    }
     // Removes first: a row that is moved closes its open menu.
     [...list.children].filter((each) => !elements.includes(each)).forEach((each) => each.remove());
     elements.forEach((element, index) => list.children[index] !== element && list.insertBefore(element, list.children[index] ?? null));
@@ -83,6 +110,8 @@ class FurrowAlarms extends HTMLElement {
       row.alarm = alarm;
       element.className = `alarm ${alarm.severity} ${alarm.state}${isMuted(alarm, Date.now()) || alarm.inhibitedBy ? ' quieted' : ''}`;
       setText(text, textOf(alarm));
+      acknowledge.setAttribute('aria-label', `${t('alarms.acknowledge')}: ${textOf(alarm)}`);
+      more.setAttribute('aria-label', `${t('alarms.more')}: ${textOf(alarm)}`);
       setText(line, lineOf(alarm));
       actions.hidden = !store.may('operate');
       acknowledge.hidden = alarm.state !== 'open';
@@ -114,6 +143,7 @@ class FurrowAlarms extends HTMLElement {
     for (const row of this.rows.values()) {
       setText(row.line, lineOf(row.alarm));
     }
+    this.giveRoom();
   }
 
   /** Announces alarms raised since the page was opened. */
@@ -138,6 +168,15 @@ class FurrowAlarms extends HTMLElement {
   }
 }
 
+/** Leaves the place of a row empty, with its focus, until the pointer and the focus are elsewhere. */
+function leaveGap(row) {
+  const gap = h('li.alarm-gap', { tabindex: '-1' });
+  const focused = row.contains(document.activeElement);
+  gap.style.height = `${row.getBoundingClientRect().height}px`;
+  row.replaceWith(gap);
+  focused && gap.focus({ preventScroll: true });
+}
+
 /** The text with the names of devices and fields. */
 function textOf(alarm) {
   return readable(alarm.text).replace(/\bfield ([\w-]+)/g, (words, id) => store.fields.get(id)?.name ?? words);
@@ -149,9 +188,10 @@ function isFound(alarm) {
 
 function lineOf(alarm) {
   const now = Date.now();
-  const parts = [label(alarm.kind.replaceAll('-', ' ')), age(now - alarm.raised)];
-  alarm.count > 1 && parts.splice(1, 0, t('alarms.seen', { count: alarm.count }));
-  alarm.affected > 1 && parts.splice(1, 0, t('alarms.affected', { count: alarm.affected, total: alarm.total ?? alarm.affected }));
+  const parts = [label(alarm.severity ?? ''), label(alarm.kind.replaceAll('-', ' '))].filter(Boolean);
+  alarm.affected > 1 && parts.push(t('alarms.affected', { count: alarm.affected, total: alarm.total ?? alarm.affected }));
+  alarm.count > 1 && parts.push(t('alarms.seen', { count: alarm.count }));
+  parts.push(age(now - alarm.raised));
   alarm.acknowledgedBy && parts.push(t('alarms.by', { user: alarm.acknowledgedBy }));
   parts.push(...new Set(entitiesOf(alarm).map(({ difference }) => difference).filter(Boolean)));
   isMuted(alarm, now) && parts.push(t('alarms.mutedUntil', { time: clock(alarm.mutedUntil) }));

@@ -1,13 +1,13 @@
 /** The card of one entity: attributes, series, image, commands and details. */
 import { api } from '../core/api.js';
-import { age, bytes, duration, temperature } from '../core/format.js';
+import { age, bytes, temperature } from '../core/format.js';
 import { h, replace, setText } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { allAttributes, lineOf, keyAttributes } from './attributes.js';
 import { sentencesOf } from './connection.js';
-import { commandsOf, infoOf, isPointless, outcomeOf } from './commands.js';
+import { commandsOf, deviceAt, isPointless, outcomeWords, sendCommand } from './commands.js';
 import { Picture } from './picture.js';
 import { Sparkline } from './sparkline.js';
 
@@ -29,7 +29,8 @@ export class Card {
     this.spark = new Sparkline();
     this.picture = new Picture();
     this.buttons = h('div.card-commands');
-    this.outcome = h('span.card-outcome.small', { role: 'status' });
+    this.outcome = h('span.card-outcome.small');
+    this.said = h('span.visually-hidden', { role: 'status' });
     this.details = h('div.card-details', { hidden: true, id: `details-${Card.count++}` });
     this.more = h('button.button.quiet.square.small', {
       type: 'button', 'aria-expanded': 'false', 'aria-controls': this.details.id, on: { click: () => this.toggle() },
@@ -38,7 +39,7 @@ export class Card {
       pointerenter: () => store.setHovered(entity.id), pointerleave: () => store.setHovered(null), focusin: () => store.setHovered(entity.id),
     } },
       h('div.card-head', null, h('h3.cut', null, this.name), this.mark, this.age, this.more),
-      this.facts, this.spark.element, this.picture.element, h('div.card-row', null, this.buttons, this.outcome), this.details);
+      this.facts, this.spark.element, this.picture.element, h('div.card-row', null, this.buttons, this.outcome, this.said), this.details);
     this.element.card = this;
   }
 
@@ -63,8 +64,8 @@ export class Card {
 
   wordOf() {
     const { entity } = this;
-    if (entity.state === 'stale') {
-      return { text: t('states.stale'), className: 'muted' };
+    if (entity.state === 'stale' || entity.state === 'off') {
+      return { text: t(`states.${entity.state}`), className: 'muted' };
     }
     if (entity.suspect) {
       return { text: t('cards.suspect'), className: 'warn' };
@@ -107,51 +108,32 @@ export class Card {
     const { entity } = this;
     const commands = store.may('operate') ? commandsOf(entity) : [];
     const recorded = store.isReplay;
-    const key = `${commands.map((each) => `${each.name}${each.primary}${isPointless(entity, each.name)}`).join()} ${recorded} ${this.sent?.waiting}`;
+    const key = `${entity.name} ${commands.map((each) => `${each.name}${each.primary}${isPointless(entity, each.name)}`).join()} ${recorded} ${this.sent?.waiting}`;
     if (key !== this.commandsKey) {
       this.commandsKey = key;
       replace(this.buttons, commands.map((command) => h('button.button.small', {
-        type: 'button', class: command.primary ? 'primary' : '', disabled: recorded || isPointless(entity, command.name) || Boolean(this.sent?.waiting),
+        type: 'button', class: command.primary ? 'primary' : '', 'aria-label': `${nameOf(command)}: ${entity.name}`, disabled: recorded || isPointless(entity, command.name) || Boolean(this.sent?.waiting),
         on: { click: () => this.request(command) },
-      }, command.name.charAt(0).toUpperCase() + command.name.slice(1))));
+      }, nameOf(command))));
       this.buttons.parentElement.hidden = commands.length === 0;
     }
     this.drawOutcome(recorded);
   }
 
   drawOutcome(recorded) {
-    let [text, kind] = ['', ''];
-    if (recorded) {
-      text = t('cards.recorded');
-    } else if (this.sent) {
-      const { command, at, error } = this.sent;
-      const ago = t('format.ago', { duration: duration(Date.now() - at) });
-      if (error) {
-        [text, kind] = [t('cards.refused', { command, reason: error }), 'bad'];
-      } else {
-        const outcome = outcomeOf(this.entity, this.sent, Date.now());
-        kind = { ok: 'good', failed: 'bad', unanswered: 'warn', pending: '' }[outcome.state];
-        text = t(`cards.outcomes.${outcome.state}`, { command, ago, info: outcome.info ?? '' });
-      }
-    }
+    const { text, kind } = recorded ? { text: t('cards.recorded'), kind: '' } : this.sent ? outcomeWords(this.entity, this.sent) : { text: '', kind: '' };
     setText(this.outcome, text);
+    // its age changes each second, and is not read out
+    const state = `${kind} ${this.sent?.at}`;
+    state === this.saidState || setText(this.said, this.sent && !recorded ? text : '');
+    this.saidState = state;
     this.outcome.className = `card-outcome small ${kind || 'muted'}`;
   }
 
   request(command) {
-    command.risky && !window.confirm(t('cards.confirm', { command: command.name, name: this.entity.name })) || this.send(command.name);
-  }
-
-  async send(command) {
-    const sent = (this.sent = { command, at: Date.now(), info: infoOf(this.entity, command), waiting: true });
-    this.drawCommands();
-    try {
-      await api.post(deviceAt(this.entity, '/commands'), { command, type: this.entity.type });
-    } catch (error) {
-      sent.error = error.message;
+    if (!command.risky || window.confirm(t('cards.confirm', { command: command.name, name: this.entity.name }))) {
+      sendCommand(this.entity, command.name, (sent) => { this.sent = sent; this.drawCommands(); });
     }
-    sent.waiting = false;
-    this.drawCommands();
   }
 
   // --- details -----------------------------------------------------------------------------------------------------
@@ -195,7 +177,6 @@ export class Card {
 }
 Card.count = 0;
 
-/** The device of an entity in the REST API. */
-function deviceAt({ type, identity: { id, service, servicePath } }, command = '') {
-  return `/api/devices/${encodeURIComponent(id)}${command}?${new URLSearchParams({ service, servicePath, type })}`;
+function nameOf({ name }) {
+  return name.charAt(0).toUpperCase() + name.slice(1);
 }

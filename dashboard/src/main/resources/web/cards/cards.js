@@ -1,5 +1,6 @@
-/** The cards of the devices: those that need attention first, then robots, cameras and all others, by name. */
-import { h, replace, setText } from '../core/dom.js';
+/** The cards of the devices: those that need attention first, then robots, cameras and all others, by name; silent ones are folded. */
+import { h, isHeld, replace, setText } from '../core/dom.js';
+import { icon } from '../core/icons.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { Card } from './card.js';
@@ -8,7 +9,7 @@ import { Card } from './card.js';
 const PORTION = 40;
 const REDRAW_MILLIS = 250;
 const ORDER_MILLIS = 1_000;
-const RANK = { attention: 0, stale: 1, ok: 2, off: 2 };
+const RANK = { attention: 0, ok: 1, stale: 2, off: 3 };
 const byName = new Intl.Collator(undefined, { numeric: true, sensitivity: 'base' });
 
 class FurrowCards extends HTMLElement {
@@ -21,11 +22,12 @@ class FurrowCards extends HTMLElement {
     this.count = h('span.numbers');
     this.chips = h('div.chips', { role: 'group', 'aria-label': t('cards.filter') });
     this.list = h('ul.card-list');
+    this.fold = h('button.button.quiet.card-fold', { type: 'button', hidden: true, on: { click: () => this.toggleFold() } }, icon('chevron-down', 18), h('span'));
     this.end = h('div.card-end', { 'aria-hidden': 'true' });
     this.empty = h('div.empty', { hidden: true });
     this.loading = h('div.stack', { 'aria-label': t('cards.loading'), role: 'status' }, [0, 1, 2].map(() =>
       h('div.card', null, h('div.skeleton.line', null, '…'), h('div.skeleton.block', null, '…'))));
-    replace(this, h('h2.section-title', null, h('span', null, t('cards.title')), this.count), this.chips, this.loading, this.empty, this.list, this.end);
+    replace(this, h('h2.section-title', null, h('span', null, t('cards.title')), this.count), this.chips, this.loading, this.empty, this.list, this.fold, this.end);
     this.watcher = new IntersectionObserver((intersected) => this.intersected(intersected), { rootMargin: '200px' });
     this.watcher.observe(this.end);
     for (const event of ['wheel', 'touchmove', 'keydown', 'pointerdown']) {
@@ -85,13 +87,14 @@ class FurrowCards extends HTMLElement {
 
   /** Sorts the cards. While the pointer or focus is on the list, nothing moves: sorting waits. */
   order(now) {
-    if (!now && this.list.matches(':hover, :focus-within') && this.cards.size) {
+    const matching = this.unfolded(this.matching());
+    const shown = this.withSelected(matching.slice(0, this.limit));
+    if (!now && isHeld(this.list) && this.cards.size) {
       // Appended cards do not move others.
-      this.matching().slice(0, this.limit).filter((each) => !this.cards.has(each.id)).forEach((each) => this.list.append(this.make(each).element));
+      shown.filter((each) => !this.cards.has(each.id)).forEach((each) => this.list.append(this.make(each).element));
       return this.drawCounts();
     }
-    const matching = this.matching();
-    const shown = matching.slice(0, this.limit);
+    const place = this.cards.get(store.selection)?.element.getBoundingClientRect().top;
     const ids = new Set(shown.map((each) => each.id));
     for (const [id, card] of this.cards) {
       if (!ids.has(id) || store.entities.get(id) !== card.entity) {
@@ -107,7 +110,33 @@ class FurrowCards extends HTMLElement {
     }
     this.end.hidden = matching.length <= this.limit;
     this.drawCounts();
+    // the selected card stays where it is
+    const moved = place === undefined ? 0 : (this.cards.get(store.selection)?.element.getBoundingClientRect().top ?? place) - place;
+    if (moved) {
+      (this.scrollHeight > this.clientHeight ? this : this.parentElement).scrollTop += moved;
+    }
     this.following && this.reveal('auto');
+  }
+
+  /** Omits devices that do not report, unless they are looked for. */
+  unfolded(matching) {
+    const silent = matching.filter(isSilent).length;
+    const searched = store.filter.trim() !== '' || isSilent({ state: this.kind });
+    this.fold.hidden = silent === 0 || searched;
+    this.fold.setAttribute('aria-expanded', String(Boolean(this.unfold)));
+    setText(this.fold.lastChild, t('cards.silent', { count: silent }));
+    return this.unfold || searched ? matching : matching.filter((each) => !isSilent(each));
+  }
+
+  /** Adds the selected device, which is always shown. */
+  withSelected(shown) {
+    const selected = store.entities.get(store.selection);
+    return !selected || shown.includes(selected) || !store.inScope(selected) ? shown : [...shown, selected];
+  }
+
+  toggleFold() {
+    this.unfold = !this.unfold;
+    this.order(true);
   }
 
   matching() {
@@ -157,7 +186,6 @@ class FurrowCards extends HTMLElement {
     const id = store.selection;
     const existing = id && store.entities.get(id);
     if (existing && !this.cards.has(id)) {
-      this.limit = Math.max(this.limit, this.matching().indexOf(existing) + PORTION);
       this.order(true);
     }
     this.redraw(this.visible);
@@ -189,9 +217,9 @@ class FurrowCards extends HTMLElement {
     setText(this.count, all ? t('cards.count', { count: all, reporting }) : '');
     this.loading.hidden = store.primed || all > 0;
     this.drawEmpty(all);
-    const chips = [['robot', 'kinds'], ['sensor', 'kinds'], ['camera', 'kinds'], ['other', 'kinds'], ['attention', 'states'], ['stale', 'states']].filter(([key]) => counts.get(key) || key === this.kind);
+    const chips = [['robot', 'kinds'], ['sensor', 'kinds'], ['camera', 'kinds'], ['other', 'kinds'], ['attention', 'states'], ['stale', 'states'], ['off', 'states']].filter(([key]) => counts.get(key) || key === this.kind);
     const key = `${this.kind} ${chips.map(([name]) => `${name}${counts.get(name)}`).join()}`;
-    if (key !== this.chipsKey) {
+    if (key !== this.chipsKey && !isHeld(this.list)) {
       this.chipsKey = key;
       const focused = this.chips.contains(document.activeElement) ? document.activeElement.dataset.key : null;
       replace(this.chips, chips.length > 1 && chips.map(([name, section]) => h('button.chip', {
@@ -208,7 +236,7 @@ class FurrowCards extends HTMLElement {
   }
 
   drawEmpty(all) {
-    const none = store.primed && this.cards.size === 0;
+    const none = store.primed && this.cards.size === 0 && this.fold.hidden;
     this.empty.hidden = !none;
     if (none) {
       const searched = store.filter || this.kind;
@@ -216,6 +244,10 @@ class FurrowCards extends HTMLElement {
         h('p.small', null, t(searched && all ? 'cards.noMatchHint' : store.isReplay ? 'cards.noneYetHint' : 'cards.noneHint')));
     }
   }
+}
+
+function isSilent({ state }) {
+  return state === 'stale' || state === 'off';
 }
 
 customElements.define('furrow-cards', FurrowCards);

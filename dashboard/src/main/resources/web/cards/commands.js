@@ -1,5 +1,9 @@
 /** Commands of a device and their outcomes. */
+import { api } from '../core/api.js';
+import { isStopped } from '../core/entity.js';
+import { duration } from '../core/format.js';
 import { store } from '../core/store.js';
+import { t } from '../texts.js';
 
 const ROBOT = ['Stop', 'Resume'];
 const DEVICE = ['on', 'off', 'restart'];
@@ -28,11 +32,7 @@ export function commandsOf(entity) {
       names.add(command);
     }
   }
-  return [...names].slice(0, 6).map((name) => ({ name, primary: name === 'Stop' && !isStopped(entity), risky: RISKY.has(name) }));
-}
-
-function isStopped(entity) {
-  return /stop/i.test(entity.word ?? '');
+  return [...names].slice(0, 6).map((name) => ({ name, primary: name === 'Stop' && !isStopped(entity) && entity.state !== 'off', risky: RISKY.has(name) }));
 }
 
 /** Whether the command would have no effect. */
@@ -63,8 +63,43 @@ export function outcomeOf(entity, sent, now) {
   return now - sent.at > ANSWER_TIMEOUT ? { state: 'unanswered', info: null } : { state: 'pending', info: null };
 }
 
+/** The outcome in words. @returns {{text: string, kind: 'good'|'bad'|'warn'|''}} */
+export function outcomeWords(entity, sent) {
+  const { command, at, error } = sent;
+  if (error) {
+    return { text: t('cards.refused', { command, reason: error }), kind: 'bad' };
+  }
+  const { state, info } = outcomeOf(entity, sent, Date.now());
+  const ago = t('format.ago', { duration: duration(Date.now() - at) });
+  return { text: t(`cards.outcomes.${state}`, { command, ago, info: info ?? '' }), kind: { ok: 'good', failed: 'bad', unanswered: 'warn', pending: '' }[state] };
+}
+
+/**
+ * Sends a command to a device.
+ *
+ * @param {import('../core/entity.js').Entity} entity
+ * @param {string} command
+ * @param {function(Object)} changed receives what {@link outcomeOf} takes: when it is sent, and when the server has answered
+ */
+export async function sendCommand(entity, command, changed) {
+  const sent = { command, at: Date.now(), info: infoOf(entity, command), waiting: true };
+  changed(sent);
+  try {
+    await api.post(deviceAt(entity, '/commands'), { command, type: entity.type });
+  } catch (error) {
+    sent.error = error.message;
+  }
+  sent.waiting = false;
+  changed(sent);
+}
+
+/** The device of an entity in the REST API. */
+export function deviceAt({ type, identity: { id, service, servicePath } }, command = '') {
+  return `/api/devices/${encodeURIComponent(id)}${command}?${new URLSearchParams({ service, servicePath, type })}`;
+}
+
 /** The current info, to detect a new one. */
-export function infoOf(entity, command) {
+function infoOf(entity, command) {
   return (entity.attributes[`${command}_info`] ?? entity.attributes.cmd_info)?.value;
 }
 

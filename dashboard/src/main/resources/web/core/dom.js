@@ -62,6 +62,11 @@ export function replace(element, ...children) {
   return element;
 }
 
+/** Whether the pointer, or the keyboard's focus, is on an element: then nothing in it moves by itself. */
+export function isHeld(element) {
+  return element.matches(':hover, :has(:focus-visible)');
+}
+
 /** Sets a text only if it differs, to avoid needless layout. */
 export function setText(element, text) {
   if (element.textContent !== text) {

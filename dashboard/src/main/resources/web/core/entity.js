@@ -16,7 +16,7 @@ const MAX_VALUE = 4_000;
 const STALE_AFTER = 60_000;
 const FRAME = new Set(['id', 'type']);
 const NOT_A_SERIES = new Set(['Time', 'TimeInstant', 'Latitude', 'Longitude', 'latitude', 'longitude']);
-const OFF_WORDS = new Set(['off', 'stopped', 'standby', 'sleeping']);
+const OFF_WORDS = new Set(['off', 'standby', 'sleeping']);
 /** Command states: the context broker may stamp them with another clock than the device its reports. */
 const COMMAND_STATE = /_(status|info)$/;
 const ATTENTION_WORDS = new Set(['error', 'fault', 'faulty', 'failed', 'blocked', 'emergency', 'alarm']);
@@ -282,6 +282,11 @@ export function stateOf(entity, now, reported, period = null) {
     return 'stale';
   }
   return entity.suspect || entity.positionFault || ATTENTION_WORDS.has(word) ? 'attention' : 'ok';
+}
+
+/** Whether it reports that it stands still. */
+export function isStopped(entity) {
+  return /stop/i.test(entity.word ?? '');
 }
 
 /** Parses durations as the control plane writes them, such as PT1H30M or PT0.5S; null for others. */

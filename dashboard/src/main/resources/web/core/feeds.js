@@ -1,8 +1,9 @@
 /** Feeds the store from topics: live, or from a replay. */
 import { api } from './api.js';
 import { resource } from './resource.js';
-import { deviceKey, endOf, store } from './store.js';
+import { deviceKey, spanOf, store } from './store.js';
 import { streams } from './stream.js';
+import { t } from '../texts.js';
 
 const LISTS = {
   domains: { path: '/api/domains', key: (each) => each.domain, topics: ['service.domains'] },
@@ -25,9 +26,9 @@ class Feeds {
     store.feeds = this;
     this.live(); // first: browsers open few connections at a time
     this.shared = [
-      this.feed('service.alarms', 'all', (record) => store.applyAlarm(record), { loaded: () => store.alarmsRead(), whileHidden: mayNotify }),
-      this.feed('service.fields', 'all', (record) => store.applyField(record)),
-      this.feed('service.replays', 'all', (record) => this.applyReplay(record)),
+      this.feed('service.alarms', 'all', (record) => store.applyAlarm(record), { list: 'alarms', whileHidden: mayNotify }),
+      this.feed('service.fields', 'all', (record) => store.applyField(record), { list: 'fields' }),
+      this.feed('service.replays', 'all', (record) => this.applyReplay(record), { list: 'replays' }),
       this.feed('service.replays.status', 'latest', (record) => this.applyStatus(record)),
     ];
     Object.entries(LISTS).forEach(([name, list]) => this.syncList(name, list));
@@ -37,10 +38,10 @@ class Feeds {
 
   /**
    * Subscribes to a topic whose records `apply` processes, with statistics in `store.topics`. `apply` returns keys if they are not the key of the
-   * record. An initial state has no deletions: `forget` is called for each key that an earlier connection had and the initial state lacks, with the
+   * record; `list` names the list of the store that they form. An initial state has no deletions: `forget` is called for each key that an earlier connection had and the initial state lacks, with the
    * time of its newest record, and the time when the key was last received.
    */
-  feed(topic, mode, apply, { main = false, forget = (key) => apply({ key, headers: {}, value: null }), loaded = null, whileHidden } = {}) {
+  feed(topic, mode, apply, { main = false, forget = (key) => apply({ key, headers: {}, value: null }), list = null, whileHidden } = {}) {
     const previous = new Map();
     let [keys, newest] = [new Map(), -Infinity];
     const figures = { name: topic, count: 0, rate: 0, gap: 0, state: 'connecting', since: Date.now() };
@@ -60,7 +61,7 @@ class Feeds {
       primed: () => {
         previous.forEach((receivedAt, key) => keys.has(key) || forget(key, newest, receivedAt));
         previous.clear();
-        loaded?.();
+        list && store.setList(list, { loading: false, error: null });
         if (main) {
           store.primed = true;
           store.notify('entities');
@@ -78,6 +79,7 @@ class Feeds {
           [keys, newest] = [new Map(), -Infinity];
         }
         Object.assign(figures, { state, reason });
+        list && isFailed(state) && store.setList(list, { ...store.lists[list], error: new Error(reason ?? t('errors.noAnswer')) });
         store.notify('topics');
         main && this.connection(state, reason);
       },
@@ -105,7 +107,7 @@ class Feeds {
         (list.value ?? []).forEach((each) => store[name].set(key(each, store[name]), each));
         name === 'devices' && store.entities.forEach((entity, key) => store.applyHealth(entity) && store.notify('entities', key));
       }
-      store.notify(name);
+      store.setList(name, { loading: false, error: list.error });
     });
   }
 
@@ -165,21 +167,29 @@ class Feeds {
     this.follow(record.key);
   }
 
-  /** Applies the state of a replay if it is the one that is shown. */
+  /** Applies the state of a replay if it is the one that is shown, or of its group. */
   follow(name) {
     const mode = store.mode;
-    if (mode.kind !== 'replay' || mode.replay !== name) {
+    const isMember = mode.group && store.replays.get(name)?.group === mode.group;
+    if (mode.kind !== 'replay' || (mode.replay !== name && !isMember)) {
       return;
     }
-    const replay = store.replays.get(name);
+    const replay = store.replays.get(mode.replay);
     const status = replay?.status;
     const progress = status?.progress ?? {};
+    const { from, to } = spanOf(this.membersOf(replay?.group, replay));
     store.setProgress({
       state: status?.state ?? 'starting', reason: status?.reason, over: OVER.has(status?.state),
       speed: replay?.speed ?? mode.speed, range: replay?.range ?? null, group: replay?.group ?? mode.group,
-      position: progress.position ?? mode.position, from: progress.from ?? mode.from, to: endOf(progress) ?? mode.to,
+      // 0 until it has begun
+      position: progress.position || mode.position, from: from ?? mode.from, to: to ?? mode.to,
       at: status?.time ?? Date.now(), progress, waiting: progress.waiting,
     });
+  }
+
+  /** The replays of a group, which have one clock. */
+  membersOf(group, alone) {
+    return group ? [...store.replays.values()].filter((each) => each.group === group) : [alone];
   }
 
   /** @param {{replay: string, mission: string, topic: string, group: string=}} replay */
@@ -191,13 +201,14 @@ class Feeds {
       return; // only its status is known yet; it is entered once the rest is
     }
     const group = replay.group ?? existing?.group;
-    const members = group ? [...store.replays.values()].filter((each) => each.group === group) : [{ ...existing, ...replay, topic }];
+    const members = this.membersOf(group, { ...existing, ...replay, topic });
     this.shown?.forEach((each) => each.close());
-    const span = store.recordings.get(mission);
+    const recordings = members.map((each) => store.recordings.get(each.mission)).filter(Boolean);
+    const [first, last] = recordings.length ? [Math.min(...recordings.map((each) => each.first)), Math.max(...recordings.map((each) => each.last))] : [];
     store.setMode({
       kind: 'replay', replay: replay.replay, group, mission, topic, missions: members.map((each) => each.mission),
       results: Object.fromEntries(store.config.analytics.map((job) => [job, members.map((each) => ({ topic: `${each.topic}.${job}`, mission: each.mission }))])),
-      state: 'starting', speed: existing?.speed ?? 1, position: span?.first, from: span?.first, to: span?.last, at: Date.now(), epoch: -1,
+      state: 'starting', speed: existing?.speed ?? 1, position: first, from: first, to: last, at: Date.now(), epoch: -1,
     });
     this.epochs = new Map();
     this.shown = members.flatMap((each, index) => [
@@ -262,6 +273,11 @@ class Feeds {
       this.live();
     }
   }
+}
+
+/** Whether a stream has no connection; it is paused while the page is hidden. */
+function isFailed(state) {
+  return state === 'waiting' || state === 'refused';
 }
 
 /** Whether alarms must be received while the page is hidden, for notifications of the browser. */

@@ -2,17 +2,19 @@
 import { t } from '../texts.js';
 import { codeOf, unitOf } from './readings.js';
 
+/** The language of the texts: dates in another one would be mixed with them. */
+const LOCALE = 'en-GB';
 const SECOND = 1000;
 const MINUTE = 60 * SECOND;
 const HOUR = 60 * MINUTE;
 const DAY = 24 * HOUR;
 
-const clockFormat = new Intl.DateTimeFormat(undefined, { hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23' });
-const dayFormat = new Intl.DateTimeFormat(undefined, { day: 'numeric', month: 'short' });
-const dateTimeFormat = new Intl.DateTimeFormat(undefined, {
+const clockFormat = new Intl.DateTimeFormat(LOCALE, { hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23' });
+const dayFormat = new Intl.DateTimeFormat(LOCALE, { day: 'numeric', month: 'short' });
+const dateTimeFormat = new Intl.DateTimeFormat(LOCALE, {
   day: 'numeric', month: 'short', year: 'numeric', hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23',
 });
-const zoneFormat = new Intl.DateTimeFormat(undefined, { timeZoneName: 'short' });
+const zoneFormat = new Intl.DateTimeFormat(LOCALE, { timeZoneName: 'short' });
 
 /** "0.4 s ago". @param {number} ms how long ago */
 export function age(ms) {

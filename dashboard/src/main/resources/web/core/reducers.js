@@ -145,6 +145,18 @@ export const Reducers = (Base) => class extends Base {
     this.notify('encounters');
   }
 
+  /** Shows an encounter of a replay's time that was found while it was recorded. */
+  applyRecordedEncounter({ id, a, b, start, end, closest }) {
+    const now = this.now();
+    const pair = `${a}|${b}`;
+    const isOver = now > end;
+    if (now >= start && (!isOver || this.encounters.get(pair)?.phase === 'ongoing')) {
+      const unknown = [NaN, NaN];
+      this.encounters.set(pair, { pair, a, b, id, phase: isOver ? 'ended' : 'ongoing', distance: Infinity, minDistance: closest, time: Math.min(now, end), start, at: [unknown, unknown] });
+      this.notify('encounters');
+    }
+  }
+
   /** @param {string=} mission of a replay: each mission of a group has its averages */
   applyTemperature(record, mission = '') {
     const value = record.value;
@@ -241,12 +253,6 @@ export const Reducers = (Base) => class extends Base {
 
   applyAlarm(record) {
     record.value ? this.alarms.set(record.key, record.value) : this.alarms.delete(record.key);
-    this.notify('alarms');
-  }
-
-  /** Notes that the initial state of all alarms was read. */
-  alarmsRead() {
-    this.alarmsLoaded = true;
     this.notify('alarms');
   }
 };

@@ -22,6 +22,12 @@ export function navigate(view, query = {}) {
   location.hash = linkTo(view, query);
 }
 
+/** Replaces the query of the address, so that a reload shows the same; no handler is called. */
+export function keepInAddress(query) {
+  history.replaceState(history.state, '', linkTo(route.view, query));
+  route = read();
+}
+
 export function onRoute(handler) {
   handlers.add(handler);
   return () => handlers.delete(handler);

@@ -17,7 +17,6 @@ class Store extends Reducers(Object) {
     this.recordings = new Map();
     this.replays = new Map();
     this.alarms = new Map();
-    this.alarmsLoaded = false;
     this.topics = new Map();
     this.me = { user: null, role: null };
     this.config = { analytics: [] };
@@ -33,6 +32,8 @@ class Store extends Reducers(Object) {
     this.pastLoaded = false;
     this.fields = new Map();
     this.fieldVersions = new Map();
+    /** Of each list: whether it is being read, and why it could not be. */
+    this.lists = Object.fromEntries(['domains', 'missions', 'devices', 'recordings', 'fields', 'replays', 'alarms'].map((name) => [name, { loading: true, error: null }]));
     this.clearShown();
     // a hidden tab does not draw the frame that was scheduled
     document.addEventListener('visibilitychange', () => document.hidden && this.scheduled && setTimeout(() => this.flush(), 1000));
@@ -91,6 +92,12 @@ class Store extends Reducers(Object) {
     }
   }
 
+  /** @param {string} name of a list @param {{loading: boolean, error: Error|null}} state */
+  setList(name, state) {
+    this.lists[name] = state;
+    this.notify(name);
+  }
+
   // --- time --------------------------------------------------------------------------------------------------------
 
   /** The page's time, epoch ms: now, or the position of the replay. */
@@ -104,7 +111,10 @@ class Store extends Reducers(Object) {
   }
 
   stateOf(entity) {
-    return stateOf(entity, this.now(), this.isReplay ? entity.time : entity.heard, this.deviceOf(entity)?.period);
+    const device = this.deviceOf(entity);
+    const state = stateOf(entity, this.now(), this.isReplay ? entity.time : entity.heard, device?.period);
+    // its mission was stopped; a device that reports nevertheless is not off
+    return state === 'stale' && !this.isReplay && device?.wanted === 'stopped' ? 'off' : state;
   }
 
   /** The device of an entity in the REST API. @returns {Object|undefined} */
@@ -173,12 +183,31 @@ class Store extends Reducers(Object) {
     this.notify('clock');
   }
 
+  /** Whether all alarms were read. */
+  get alarmsLoaded() {
+    return !this.lists.alarms.loading;
+  }
+
   // --- selection, filter and scope ---------------------------------------------------------------------------------
 
   /** Whether an entity belongs to the chosen domain and mission, if any. */
   inScope(entity) {
     const { domain, mission } = this.scope;
     return (domain === null || entity.domain === domain) && (mission === null || entity.mission === mission);
+  }
+
+  /** The fields of a domain: those that name it, and those that it lists. */
+  fieldsOf(domain) {
+    const listed = this.domains.get(domain)?.fields ?? [];
+    return [...this.fields.values()].filter((each) => each.properties.Domain === domain || listed.includes(each.id));
+  }
+
+  /** The fields of the chosen domain and those of none, or all. */
+  fieldsInScope() {
+    const { domain } = this.scope;
+    const fields = [...this.fields.values()];
+    const own = domain === null ? fields : this.fieldsOf(domain);
+    return domain === null ? fields : fields.filter((each) => own.includes(each) || !each.properties.Domain);
   }
 
   /** Whether the name, id, type or mission contains the search text. */
@@ -234,9 +263,10 @@ export function deviceKey({ id, service, servicePath }) {
   return [tenant, path, id].join('|');
 }
 
-/** The end of a replay as far as it is known: a mission may still be recorded. @returns {number|undefined} */
-export function endOf({ position, to }) {
-  return to > 0 ? Math.max(to, position ?? 0) : to;
+/** What replays with one clock cover together, as far as it is known: a mission may still be recorded. @returns {{from: number|undefined, to: number|undefined}} */
+export function spanOf(replays) {
+  const known = replays.map((each) => each?.status?.progress).filter((each) => each?.to > 0); // 0 until it has begun
+  return known.length === 0 ? {} : { from: Math.min(...known.map((each) => each.from)), to: Math.max(...known.map((each) => Math.max(each.to, each.position ?? 0))) };
 }
 
 export const store = new Store();

@@ -11,6 +11,8 @@ import { SIZE, drawSymbol, shapeOf } from './symbols.js';
 
 /** Maximum points of all trails; the more devices move, the shorter their trails. */
 const TRAIL_POINTS = 6_000;
+/** Time without a position that interrupts a trail, ms; of devices that report rarely five periods. */
+const MIN_GAP = 20_000;
 /** With more points than this, trails are redrawn only every `TRAIL_INTERVAL` ms while the map does not move. */
 const FEW_POINTS = 1_500;
 const TRAIL_INTERVAL = 500;
@@ -110,7 +112,7 @@ export class DeviceDrawing {
       const chosen = entity.id === store.selection;
       const begin = chosen ? 0 : Math.max(0, entity.trail.length - length);
       this.trailPoints += entity.trail.length - begin;
-      drawTrail(frame, entity.trail, begin, colorOf(entity, palette), chosen ? 3 : 2.5, dimmed(entity) ? 0.12 : 0.55);
+      drawTrail(frame, entity.trail, begin, Math.max(MIN_GAP, 5 * (entity.period ?? 0)), colorOf(entity, palette), chosen ? 3 : 2.5, dimmed(entity) ? 0.12 : 0.55);
     }
     context.globalAlpha = 1;
   }
@@ -194,7 +196,7 @@ function dimmed(entity) {
 }
 
 /** Draws a trail in up to four parts, the older the fainter. */
-function drawTrail(frame, trail, begin, color, width, alpha) {
+function drawTrail(frame, trail, begin, gap, color, width, alpha) {
   const { context } = frame;
   context.strokeStyle = color;
   context.lineWidth = width;
@@ -208,7 +210,7 @@ function drawTrail(frame, trail, begin, color, width, alpha) {
     for (let i = from; i <= to; i++) {
       projectPoint(trail, i);
       const [x, y] = [frame.x(trail.x[i], trail.y[i]), frame.y(trail.x[i], trail.y[i])];
-      i === from ? context.moveTo(x, y) : context.lineTo(x, y);
+      i === from || trail.time[i] - trail.time[i - 1] > gap ? context.moveTo(x, y) : context.lineTo(x, y);
     }
     context.stroke();
   }

@@ -21,8 +21,8 @@ export class FieldDrawing {
   }
 
   /** @returns {number[]|null} min x, min y, max x, max y over fields */
-  extent(fields = store.fields.values()) {
-    const box = boxOf([...fields].flatMap((field) => this.outlineOf(field).rings.flat()));
+  extent(fields) {
+    const box = boxOf(fields.flatMap((field) => this.outlineOf(field).rings.flat()));
     return box[0] < box[2] ? box : null;
   }
 
@@ -43,7 +43,7 @@ export class FieldDrawing {
 
   /** The fields in view, with their rings in pixels of the frame. */
   inView(frame) {
-    return [...store.fields.values()]
+    return store.fieldsInScope()
       .map((field) => ({ field, rings: this.outlineOf(field).rings.map((ring) => ring.map(([x, y]) => [frame.x(x, y), frame.y(x, y)])) }))
       .filter(({ rings }) => rings.length && isInView(rings, frame));
   }

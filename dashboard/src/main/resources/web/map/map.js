@@ -6,6 +6,8 @@ import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { CELL } from './clusters.js';
 import { DeviceDrawing } from './devices.js';
+import { FarmChips } from './farm-chips.js';
+import { extentOf } from './farms.js';
 import { FieldDrawing, isFound } from './fields.js';
 import { legend } from './legend.js';
 import { readPalette } from './palette.js';
@@ -15,12 +17,6 @@ import { mapTables } from './table.js';
 import { tiles } from './tiles.js';
 
 const OPTIONS = ['trails', 'labels', 'rows'];
-/**
- * Devices farther from the median than `OUTLIER_SPREADS` times the interquartile range, and at least `MIN_SPREAD` meters, do not widen the first
- * view.
- */
-const OUTLIER_SPREADS = 8;
-const MIN_SPREAD = 250;
 /** Maximum zoom when opening a cluster. */
 const MAX_CLUSTER_ZOOM = 22;
 const MAX_LISTED = 100;
@@ -42,7 +38,8 @@ class FurrowMap extends HTMLElement {
     this.tooltip = h('div.map-tooltip', { hidden: true, role: 'status' });
     this.empty = h('div.empty.map-empty', { hidden: true }, h('h2', null, t('map.emptyTitle')), h('p', null, t('map.emptyText')), h('code', null, './furrow demo'));
     this.list = h('div.map-list', { popover: 'auto' });
-    replace(this, this.target, this.controls(), this.legend.element, this.tiles.attribution, this.tooltip, this.list, this.empty, this.table.element);
+    this.farms = new FarmChips((field) => this.fields.extent([field]), () => { this.moved = false; this.fit(); });
+    replace(this, this.target, this.farms.element, this.controls(), this.legend.element, this.tiles.attribution, this.tooltip, this.list, this.empty, this.table.element);
     this.createMap();
     this.legend.draw();
     this.subscriptions = this.listen();
@@ -86,7 +83,12 @@ class FurrowMap extends HTMLElement {
     this.target.addEventListener('pointerleave', () => this.leave());
     this.target.addEventListener('wheel', () => (this.moved = true), { passive: true });
     this.target.addEventListener('keydown', (event) => event.key.startsWith('Arrow') && (this.moved = true));
-    this.addEventListener('keydown', (event) => event.key === 'Escape' && (this.tooltip.hidden = true));
+    this.addEventListener('keydown', ({ key }) => {
+      if (key === 'Escape') {
+        this.tooltip.hidden = true;
+        this.table.element.hidden || this.toggleTable();
+      }
+    });
   }
 
   /** @returns {(function())[]} functions that unsubscribe */
@@ -108,14 +110,15 @@ class FurrowMap extends HTMLElement {
     window.addEventListener('schemechange', schemeChanged);
     fieldsChanged();
     return [
-      ...['encounters', 'hovered', 'filter', 'scope'].map((name) => store.on(name, draw)),
+      ...['encounters', 'hovered', 'filter'].map((name) => store.on(name, draw)),
+      store.on('scope', () => { this.farms.chosen = null; this.moved = false; fieldsChanged(); }),
       store.on('entities', () => {
         this.fitFirst();
         this.table.changed();
         this.showEmpty();
         draw();
       }),
-      store.on('clock', () => { draw(); this.table.changed(); }),
+      store.on('clock', () => { draw(); this.farms.update(); this.table.changed(); }),
       store.on('fields', fieldsChanged),
       store.on('mode', () => { this.classList.toggle('is-replay', store.isReplay); draw(); }),
       store.on('selection', () => { store.reveal && this.reveal(); draw(); }),
@@ -127,7 +130,7 @@ class FurrowMap extends HTMLElement {
 
   /** Fits the view to the farm until the user moves it. */
   fitFirst() {
-    const state = `${store.fields.size} ${store.primed} ${this.map?.getSize()}`;
+    const state = `${store.fields.size} ${store.primed} ${this.map?.getSize()} ${this.farms.chosen} ${JSON.stringify(store.scope)}`;
     if (!this.hidden && !this.moved && this.fitted !== state) {
       this.fitted = state;
       this.fit(0);
@@ -135,27 +138,18 @@ class FurrowMap extends HTMLElement {
   }
 
   fit(duration = 300) {
-    const extent = this.fields.extent() ?? this.devicesExtent();
-    if (extent && this.map.getSize()) {
-      const [width, height] = this.map.getSize();
+    const farm = this.farms.update();
+    const extent = farm && (this.fields.extent(farm.fields) ?? extentOf(farm.devices));
+    const size = this.map.getSize();
+    if (extent && size) {
+      const [width, height] = size;
       const narrow = width < 600;
       // the controls are on the right, the scale and the legend below
       const padding = narrow ? [20, 60, 44, 16] : [36, 72, 84, 36];
-      this.view.fit(extent, { padding: height < 240 ? [16, 16, 16, 16] : padding, maxZoom: 20, duration: reducedMotion.matches ? 0 : duration });
+      // the view learns its size after the event 'change:size'
+      this.view.fit(extent, { size, padding: height < 240 ? [16, 16, 16, 16] : padding, maxZoom: 20, duration: reducedMotion.matches ? 0 : duration });
       this.legend.scale(this.view);
     }
-  }
-
-  /** The extent of the devices without outliers, so that a lost one does not shrink the farm to a dot. */
-  devicesExtent() {
-    const points = [...store.entities.values()].filter((each) => each.position && isOnMap(...each.position) && store.inScope(each)).map((each) => project(...each.position));
-    if (!points.length) {
-      return null;
-    }
-    const [x, y] = [0, 1].map((axis) => distributionOf(points.map((point) => point[axis])));
-    const reach = Math.max(x.spread, y.spread, MIN_SPREAD) * OUTLIER_SPREADS;
-    const near = points.filter((point) => Math.abs(point[0] - x.median) <= reach && Math.abs(point[1] - y.median) <= reach);
-    return ol.extent.buffer(ol.extent.boundingExtent(near.length ? near : points), 50);
   }
 
   reveal() {
@@ -269,12 +263,6 @@ class FurrowMap extends HTMLElement {
   showEmpty() {
     this.empty.hidden = !store.primed || store.entities.size > 0 || store.isReplay;
   }
-}
-
-function distributionOf(values) {
-  const sorted = values.sort((a, b) => a - b);
-  const at = (share) => sorted[Math.floor(share * (sorted.length - 1))];
-  return { median: at(0.5), spread: at(0.75) - at(0.25) };
 }
 
 function tooltipOf(entity) {

@@ -1,4 +1,5 @@
 /** Draws symbols of devices: the shape shows the kind and whether attention is needed, the color shows the kind. */
+import { isStopped } from '../core/entity.js';
 
 const sprites = new Map();
 /** Number of directions for which an arrow is cached: rotating an image takes ten times as long as copying it. */
@@ -22,7 +23,7 @@ export function clearSymbols() {
 export function drawSymbol(context, entity, x, y, color, palette, { alpha = 1, ratio = 1 } = {}) {
   const shape = shapeOf(entity);
   const needsAttention = entity.state === 'attention';
-  const hollow = entity.state === 'off';
+  const hollow = entity.state === 'off' || isStopped(entity);
   const fill = needsAttention ? palette.warning : entity.state === 'stale' ? palette.muted : color;
   const turn = shape === 'robot' ? Math.round(((((entity.heading ?? 0) % 360) + 360) % 360) * DIRECTIONS / 360) % DIRECTIONS : 0;
   const image = sprite(shape, fill, palette.background, hollow, ratio, turn);

@@ -42,7 +42,7 @@ export function mapTables(onClose) {
     more.textContent = rows.length > MAX_ROWS ? t('map.moreRows', { count: rows.length - MAX_ROWS }) : '';
     focused && body.querySelector(`[data-id="${CSS.escape(focused)}"]`)?.focus();
     drawTable(encounters, 'encounters', ['pair', 'phase', 'distance', 'closest', 'age'], [...store.encounters.values()].sort((a, b) => b.time - a.time).map((each) => encounterRow(each, now)));
-    drawTable(fields, 'fields', ['field', 'average', 'devices', 'suspects', 'age'], [...store.fields.values()].sort((a, b) => compare(a.name, b.name)).flatMap((each) => fieldRows(each, now)));
+    drawTable(fields, 'fields', ['field', 'average', 'devices', 'suspects', 'age'], store.fieldsInScope().sort((a, b) => compare(a.name, b.name)).flatMap((each) => fieldRows(each, now)));
   }
 
   drawHead();

@@ -87,10 +87,15 @@ export async function encountersSince(from) {
   return union([], records.map(readEncounter).filter(Boolean));
 }
 
-/** Encounters found in a replay, of all its epochs. @param {string} topic of the replay */
-export async function encountersIn(topic) {
-  const { records } = await historyIfAny(`${topic}.collision`, { from: 0, newest: 'encounter' });
-  return records.map(readEncounter).filter(Boolean).sort((one, other) => other.epoch - one.epoch).reduce((all, each) => union(all, [each]), []);
+/** Whether it is an encounter of two missions: those are not found in replays, as each has the devices of its own mission only. */
+export function isBetween({ missions }) {
+  return new Set(missions).size > 1;
+}
+
+/** Encounters found in replays, of all their epochs. @param {string[]} topics of results */
+export async function encountersIn(topics) {
+  const results = await Promise.all(topics.map((each) => historyIfAny(each, { from: 0, newest: 'encounter' })));
+  return results.flatMap(({ records }) => records).map(readEncounter).filter(Boolean).sort((one, other) => other.epoch - one.epoch).reduce((all, each) => union(all, [each]), []);
 }
 
 /** @returns {Promise<{id: string, mission: string, time: number, note: string, author: string}[]>} sorted by time; empty without a MongoDB */

@@ -22,7 +22,7 @@ export const Showing = (Base) => class extends Base {
       setText(this.time, `${clock(at)} / ${clock(to)}`);
       this.showSlider(at, [this.extent[0], to]);
     } else {
-      setText(this.time, this.moment === null ? t('timeline.live') : clock(this.moment));
+      setText(this.time, this.moment !== null ? clock(this.moment) : t(store.connection.state === 'lost' ? 'timeline.lost' : 'timeline.live'));
       this.showSlider(this.moment ?? Date.now(), this.extent);
     }
   }
@@ -104,7 +104,8 @@ export const Showing = (Base) => class extends Base {
     const mission = replaying ? store.mode.mission : this.missionToReplay();
     const words = !may ? t('timeline.chooseReplay')
       : over ? t('timeline.startAgain')
-        : mission ? t(this.moment === null ? 'timeline.replayMission' : 'timeline.replayFrom', { mission, time: clock(this.moment ?? 0) }) : t('timeline.chooseReplay');
+        : mission ? t(this.moment === null ? 'timeline.replayMission' : 'timeline.replayFrom', { mission, time: clock(this.moment ?? 0) })
+          : this.moment === null || replaying ? t('timeline.chooseReplay') : t('timeline.replayAny', { time: clock(this.moment) });
     this.replayIt.hidden = replaying && !over;
     if (this.replayWords !== words) {
       this.replayWords = words;

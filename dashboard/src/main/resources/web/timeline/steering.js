@@ -26,6 +26,9 @@ export const Steering = (Base) => class extends Base {
       this.announce('');
       return true;
     } catch (error) {
+      if (name === 'pause' && error.status === 409 && /is paused/.test(error.message)) {
+        return true; // a status from before the pause arrived after it
+      }
       this.announce(error.message);
       return false;
     }
@@ -120,7 +123,7 @@ export const Steering = (Base) => class extends Base {
   async startHere() {
     const missions = store.isReplay ? store.mode.missions : [this.missionToReplay()];
     if (!missions[0] || !store.may('operate')) {
-      navigate('replays', missions[0] ? { mission: missions[0] } : {});
+      navigate('replays', { mission: missions[0], at: this.moment && new Date(this.moment).toISOString() });
       return;
     }
     this.replayIt.disabled = true;

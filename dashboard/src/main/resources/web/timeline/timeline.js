@@ -8,7 +8,7 @@ import { draw, palette, sharp } from './draw.js';
 import { keyOf } from './keys.js';
 import { LIVE_LENGTH, LiveDensity } from './live.js';
 import { openMarker } from './marker-dialog.js';
-import { encountersIn, encountersOf, encountersSince, markersOf, union } from './moments.js';
+import { encountersIn, encountersOf, encountersSince, isBetween, markersOf, union } from './moments.js';
 import { Parts } from './parts.js';
 import { Pointer } from './pointer.js';
 import { Scale } from './scale.js';
@@ -151,7 +151,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     if (Date.now() - this.lastMoments > (store.isReplay ? MOMENTS_INTERVAL : LIVE_LENGTH)) {
       this.loadMoments();
     }
-    store.isReplay || this.live.tick();
+    store.isReplay ? this.encounters.filter(isBetween).forEach((each) => store.applyRecordedEncounter(each)) : this.live.tick();
     this.showState();
     this.redraw();
   }
@@ -212,10 +212,10 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     this.finding = shown;
     this.lastMoments = Date.now();
     try {
-      const { topic, missions } = store.mode;
+      const { results, missions } = store.mode;
       const [from, to] = this.extent;
       const [live, replayed, markers] = store.isReplay
-        ? await Promise.all([encountersOf(missions, from, to).catch(() => ({ encounters: [] })), encountersIn(topic).catch(() => []), markersOf(missions).catch(() => [])])
+        ? await Promise.all([encountersOf(missions, from, to).catch(() => ({ encounters: [] })), encountersIn((results.collision ?? []).map(({ topic }) => topic)).catch(() => []), markersOf(missions).catch(() => [])])
         : [{ encounters: await encountersSince(Date.now() - LIVE_LENGTH).catch(() => null) }, [], []];
       if (shown === this.shown && this.isConnected) {
         if (live.encounters === null) {

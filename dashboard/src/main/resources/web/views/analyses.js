@@ -95,7 +95,7 @@ class Analyses extends HTMLElement {
       ? { averages: mode.results.temperature, encounters: mode.results.collision, stays: mode.results.presence }
       : { averages: [{ topic: 'data.temperature' }], encounters: [{ topic: 'data.collision' }], stays: [{ topic: 'data.presence' }] };
     this.replayed = replayed;
-    this.findings = new Findings(topics, this.range, { replay: replayed, changed: () => this.schedule() });
+    this.findings = new Findings(topics, this.range, { replay: replayed, group: replayed && mode.missions.length > 1 ? mode.missions : [], changed: () => this.schedule() });
     this.periods.hidden = store.isReplay;
     for (const button of this.periods.children) {
       button.setAttribute('aria-pressed', String(Number(button.dataset.period) === this.period));
@@ -108,10 +108,9 @@ class Analyses extends HTMLElement {
 
   get range() {
     if (store.isReplay) {
-      const { from, to, mission } = store.mode;
-      const recording = store.recordings.get(mission);
-      const first = from ?? recording?.first ?? Date.now() - this.period;
-      return [first, Math.max(first + MINUTE, to ?? recording?.last ?? Date.now())];
+      const { from, to } = store.mode;
+      const first = from ?? Date.now() - this.period;
+      return [first, Math.max(first + MINUTE, to ?? Date.now())];
     }
     const now = Date.now();
     return [now - this.period, now];

@@ -10,10 +10,10 @@ import { createMission } from './missions/create.js';
 import { MissionDetail } from './missions/detail.js';
 import { Domains } from './missions/domains.js';
 import { drawList } from './missions/list.js';
-import { redraw } from './missions/redraw.js';
+import { redraw } from '../core/redraw.js';
 
 /** Below this width the mission is shown below the list. */
-const NARROW = matchMedia('(max-width: 900px)');
+const NARROW = matchMedia('(max-width: 1100px)');
 const TABS = ['missions', 'domains', 'audit'];
 
 class FurrowMissions extends HTMLElement {

@@ -11,6 +11,8 @@ import { HopDelays } from './platform/hops.js';
 const POLL_MILLIS = 3_000;
 /** Lag above which a group is reported as a problem, records. */
 const MAX_LAG = 1_000;
+/** Groups of jobs that compute for one replay; they are many, and outlive it. */
+const OF_REPLAY = /-of-.+\.[0-9a-f-]{8,}/;
 
 class FurrowPlatform extends HTMLElement {
   connectedCallback() {
@@ -25,7 +27,7 @@ class FurrowPlatform extends HTMLElement {
     this.platform = resource('/api/platform', { interval: POLL_MILLIS });
     this.subscriptions = [this.platform.on(() => this.draw()), store.on('domains', () => this.subscribe())];
     this.ticking = setInterval(() => document.hidden || this.drawHops(), 1_000);
-    replace(this.wrong, h('div.skeleton', null, '…'));
+    [this.wrong, this.parts, this.groups, this.letters].forEach((each) => replace(each, h('div.skeleton', null, '…')));
     this.subscribe();
     this.drawHops();
   }
@@ -52,6 +54,7 @@ class FurrowPlatform extends HTMLElement {
     const { value, error } = this.platform;
     if (error) {
       this.drawIfChanged(error.message, () => [h('p.error-note', null, icon('warning'), error.message)]);
+      value || this.drawUnknown(['parts', 'groups', 'letters']);
       return;
     }
     const isKafkaDown = value.kafka?.state === 'away';
@@ -71,12 +74,15 @@ class FurrowPlatform extends HTMLElement {
       : [h('h2', null, t('platform.wrong')), h('ul.stack', null, faults.map((each) => h('li.error-note.warn-note', null, icon('warning', 18), each)))]));
     this.drawParts(parts);
     if (isKafkaDown) {
-      replace(this.groups, h('h2', null, t('platform.lag')), h('p.muted', null, t('platform.notKnown')));
-      replace(this.letters, h('h2', null, t('platform.letters')), h('p.muted', null, t('platform.notKnown')));
+      this.drawUnknown(['groups', 'letters']);
       return;
     }
     this.drawGroups(value.groups);
     this.drawLetters(value.deadLetters, letters);
+  }
+
+  drawUnknown(panels) {
+    panels.forEach((each) => replace(this[each], h('h2', null, t(`platform.${each === 'groups' ? 'lag' : each}`)), h('p.muted', null, t('platform.notKnown'))));
   }
 
   /** Redraws the live region only if its content changed. */
@@ -94,12 +100,17 @@ class FurrowPlatform extends HTMLElement {
 
   drawGroups(groups) {
     const longest = Math.max(MAX_LAG, ...groups.map((each) => each.lag));
+    const row = (each) => {
+      const filled = h('span');
+      filled.style.width = `${100 * each.lag / longest}%`;
+      return h('li', null, h('span.cut', { title: each.group }, each.group), h('span.bar', { class: each.lag > MAX_LAG ? 'much' : '', 'aria-hidden': 'true' }, filled), h('span.numbers', null, number(each.lag)));
+    };
+    const isQuiet = (each) => OF_REPLAY.test(each.group) && each.lag <= MAX_LAG;
+    const quiet = groups.filter(isQuiet);
+    const open = this.groups.querySelector('details')?.open;
     replace(this.groups, h('h2', null, t('platform.lag')), h('p.small.muted', null, t('platform.lagHint')),
-      groups.length === 0 ? h('p.muted', null, t('platform.noGroups')) : h('ul.lags', null, groups.map((each) => {
-        const filled = h('span');
-        filled.style.width = `${100 * each.lag / longest}%`;
-        return h('li', null, h('span.cut', { title: each.group }, each.group), h('span.bar', { class: each.lag > MAX_LAG ? 'much' : '', 'aria-hidden': 'true' }, filled), h('span.numbers', null, number(each.lag)));
-      })));
+      groups.length === 0 ? h('p.muted', null, t('platform.noGroups')) : h('ul.lags', null, groups.filter((each) => !isQuiet(each)).map(row)),
+      quiet.length > 0 && h('details', { open }, h('summary.small.muted', null, t('platform.ofReplays', { count: quiet.length })), h('ul.lags', null, quiet.map(row))));
   }
 
   drawLetters(all, letters) {

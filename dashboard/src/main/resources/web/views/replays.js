@@ -1,4 +1,5 @@
 /** Lists recorded missions for replays, and the replays that run. */
+import { absence } from '../core/absence.js';
 import { h, replace, setText } from '../core/dom.js';
 import { dateTime, duration, number } from '../core/format.js';
 import { linkTo, onRoute, route } from '../core/router.js';
@@ -13,6 +14,8 @@ import { drawRunning, grouped } from './replays/running.js';
 /** A mission whose newest event is younger is still being recorded, ms. */
 const RECORDING_TIMEOUT = 90_000;
 const ANNOUNCED_MILLIS = 6_000;
+/** No mission is longer, ms: a report with a time far off is part of the recording. */
+const YEAR = 366 * 86_400_000;
 
 class Replays extends HTMLElement {
   connectedCallback() {
@@ -23,7 +26,7 @@ class Replays extends HTMLElement {
     this.plan = new Plan();
     this.runningList = h('ul.running-list');
     this.runningTitle = h('h2.section-title', null, t('replays.running'), h('span.numbers'));
-    this.noRunning = h('div.empty', null, h('h3', null, t('replays.noRunning')), h('p.for-operators', null, t('replays.noRunningHint')));
+    this.noRunning = h('div');
     this.recordedTitle = h('h2.section-title', null, t('replays.recorded'), h('span.numbers'));
     this.body = h('tbody');
     this.table = h('div.table-frame', null, h('table.table.recordings', { 'aria-label': t('replays.recorded') },
@@ -47,13 +50,11 @@ class Replays extends HTMLElement {
     this.showRunning();
     this.showRecordings();
     this.openLink();
-    this.timer = setTimeout(() => { this.late = true; this.showRecordings(); }, 3_000);
   }
 
   disconnectedCallback() {
     this.subscriptions.forEach((unsubscribe) => unsubscribe());
     this.catalog.close();
-    clearTimeout(this.timer);
     clearTimeout(this.announceTimer);
     window.removeEventListener('schemechange', this.onScheme);
     this.rows.forEach((row) => row.preview.close());
@@ -65,11 +66,11 @@ class Replays extends HTMLElement {
     this.choose();
   }
 
-  /** Follows a link: `#/replays?mission=a,b&at=ISO`. */
+  /** Follows a link: `#/replays?mission=a,b&at=ISO`; without a mission it means those that were recorded then. */
   openLink() {
     const { mission, at } = route.query;
-    if (route.view === 'replays' && mission) {
-      this.linked = { missions: mission.split(','), at: at ? Date.parse(at) : undefined };
+    if (route.view === 'replays' && (mission || at)) {
+      this.linked = { missions: mission?.split(','), at: at ? Date.parse(at) : undefined };
       this.showRecordings();
     }
   }
@@ -88,7 +89,7 @@ class Replays extends HTMLElement {
     const entries = grouped(store.replays.values());
     drawRunning(this.runningList, this.runningDrawn, entries, (words) => this.announce(words));
     setText(this.runningTitle.lastChild, entries.length || '');
-    this.noRunning.hidden = entries.length > 0;
+    replace(this.noRunning, absence('replays', entries.length, () => h('div.empty', null, h('h3', null, t('replays.noRunning')), h('p.for-operators', null, t('replays.noRunningHint')))));
   }
 
   showRecordings() {
@@ -112,9 +113,10 @@ class Replays extends HTMLElement {
     setText(this.recordedTitle.lastChild, recordings.length || '');
     this.table.hidden = recordings.length === 0;
     this.plan.element.hidden = recordings.length === 0;
-    replace(this.state, recordings.length ? null : this.late ? this.emptyState() : skeleton());
-    if (this.linked && this.linked.missions.every((each) => store.recordings.has(each))) {
-      this.chosen = new Set(this.linked.missions);
+    replace(this.state, absence('recordings', recordings.length, () => this.emptyState()));
+    const linked = this.linked && (this.linked.missions ?? recordings.filter(({ first, last }) => first <= this.linked.at && this.linked.at <= last + RECORDING_TIMEOUT).map((each) => each.mission));
+    if (linked?.length && linked.every((each) => store.recordings.has(each))) {
+      this.chosen = new Set(linked);
       this.at = this.linked.at;
       this.linked = null;
     }
@@ -143,13 +145,16 @@ class Replays extends HTMLElement {
     const entities = [...(this.entities.get(mission)?.values() ?? [])].reduce((sum, each) => sum + each, 0);
     setText(cells.name, mission);
     setText(cells.domain, store.missions.get(mission)?.domain ?? '');
-    const isRecording = Date.now() - last < RECORDING_TIMEOUT;
+    const isRecording = Date.now() - last < RECORDING_TIMEOUT && Boolean(store.missions.get(mission)?.running);
     const words = dateTime(first);
     if (cells.when.dataset.words !== words + isRecording) {
       cells.when.dataset.words = words + isRecording;
       replace(cells.when, words, isRecording && h('div.small.live-word', null, t('replays.now')));
     }
     setText(cells.length, duration(last - first));
+    const isWrong = last - first > YEAR;
+    cells.length.classList.toggle('warn', isWrong);
+    cells.length.title = isWrong ? t('replays.wrongClock') : '';
     setText(cells.devices, entities ? number(entities) : '–');
     setText(cells.events, preview.events === null ? '…' : number(preview.events));
     check.checked = this.chosen.has(mission);
@@ -183,10 +188,6 @@ class Replays extends HTMLElement {
     setText(this.announcement, words);
     this.announceTimer = setTimeout(() => setText(this.announcement, ''), ANNOUNCED_MILLIS);
   }
-}
-
-function skeleton() {
-  return h('div.stack', { 'aria-busy': 'true' }, [1, 2, 3].map(() => h('div.skeleton.recording-skeleton')));
 }
 
 customElements.define('furrow-replays', Replays);

@@ -1,4 +1,5 @@
 /** Lists topics with the number and rate of their records, and shows records of chosen topics. */
+import { absence } from '../core/absence.js';
 import { resource } from '../core/resource.js';
 import { number } from '../core/format.js';
 import { h, replace, setText } from '../core/dom.js';
@@ -59,7 +60,7 @@ class FurrowTopics extends HTMLElement {
       return;
     }
     const tree = arrange(this.list.value, store.domains.keys(), store.missions.values());
-    const key = JSON.stringify([tree, store.scope]);
+    const key = JSON.stringify([tree, store.scope, store.lists.domains.loading, store.lists.domains.error?.message]);
     if (key !== this.key) {
       this.key = key;
       this.drawTree(tree);
@@ -83,7 +84,7 @@ class FurrowTopics extends HTMLElement {
     replace(this.tree,
       section('results', tree.results),
       h('section', null, h('h2.section-title', null, t('topics.sections.domains')),
-        h('ul', null, tree.domains.map((each) => this.domain(each))), tree.domains.length === 1 && h('p.small.muted', null, t('topics.noDomains'))),
+        h('ul', null, tree.domains.map((each) => this.domain(each))), absence('domains', tree.domains.length - 1, () => h('p.small.muted', null, t('topics.noDomains')))),
       section('all', tree.all), section('replays', tree.replays), section('service', tree.service), section('other', tree.other));
     focused && this.tree.querySelector(`#${CSS.escape(focused)}`)?.focus();
   }

@@ -8,7 +8,7 @@ import { t } from '../../texts.js';
 
 const HEIGHT = 260;
 /** Colors of the scheme, each with its own dash pattern, so that lines can be distinguished without color. */
-const LINES = [['--accent', []], ['--information', [8, 4]], ['--warning', [2, 4]], ['--kind-other', [10, 4, 2, 4]], ['--live', [5, 3]], ['--text', [1, 3]]];
+const LINES = [['--accent', []], ['--information', [8, 4]], ['--kind-other', [10, 4, 2, 4]], ['--muted', [2, 4]], ['--live', [5, 3]], ['--text', [1, 3]]];
 /** Number of windows without an average that makes a gap. */
 const GAP = 3;
 

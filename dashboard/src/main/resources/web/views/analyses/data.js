@@ -3,7 +3,7 @@ import { shortId } from '../../core/format.js';
 import { differenceOf, fullKey, scopeOf, withDifference } from '../../core/identities.js';
 import { store } from '../../core/store.js';
 import { streams } from '../../core/stream.js';
-import { historyIfAny, readEncounter, union } from '../../timeline/moments.js';
+import { encountersOf, historyIfAny, isBetween, readEncounter, union } from '../../timeline/moments.js';
 
 /** How much earlier stays are read, since they may have begun before the period, ms. */
 const MAX_STAY = 24 * 3_600_000;
@@ -54,9 +54,9 @@ export class Findings {
   /**
    * @param {{averages: Object[], encounters: Object[], stays: Object[]}} topics `topic` of each, and `mission` of each of a group of replays
    * @param {[number, number]} range epoch ms; later results are included
-   * @param {{replay: boolean, changed: function()}} options
+   * @param {{replay: boolean, group: string[], changed: function()}} options `group`: the missions that are replayed together, if they are several
    */
-  constructor(topics, [from], { replay, changed }) {
+  constructor(topics, [from, to], { replay, group, changed }) {
     this.replay = replay;
     this.changed = changed;
     this.from = from;
@@ -69,6 +69,7 @@ export class Findings {
     this.abort = new AbortController();
     this.streams = [];
     this.load(topics, from);
+    group.length > 0 && this.addBetween(group, from, to);
   }
 
   async load(topics, from) {
@@ -82,6 +83,17 @@ export class Findings {
     this.since = { averages, encounters, stays: Math.max(from, stays) };
     this.loading = false;
     this.notify();
+  }
+
+  /** Adds the encounters between missions, which were found while they were recorded. */
+  async addBetween(missions, from, to) {
+    try {
+      const { encounters } = await encountersOf(missions, from, to);
+      this.encounters = union(this.encounters, encounters.filter(isBetween));
+      this.notify();
+    } catch (error) {
+      this.error = Object.assign(error, { topic: 'data.collision' });
+    }
   }
 
   /** Subscribes before reading the history: a record in both counts once. @returns {Promise<number>} the time since which the results are complete */

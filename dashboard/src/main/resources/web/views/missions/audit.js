@@ -7,7 +7,7 @@ import { linkTo, navigate } from '../../core/router.js';
 import { resource } from '../../core/resource.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
-import { redraw } from './redraw.js';
+import { redraw } from '../../core/redraw.js';
 
 const POLL_MILLIS = 4_000;
 const TARGETS = { __proto__: null, 'service.missionmanager': 'mission', 'service.domainmanager': 'domain', 'service.replaymanager': 'replay', 'service.alarmmanager': 'alarm', 'service.fields': 'field', device: 'device', marker: 'marker' };

@@ -6,7 +6,7 @@ import { icon } from '../../core/icons.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 import { checkPlan, farmNow } from './check.js';
-import { formRow, openDialog } from './dialog.js';
+import { formRow, openDialog } from '../../core/dialog.js';
 import { findingsList, summaryOf } from './findings.js';
 
 const NAME = '[A-Za-z0-9_\\-]{1,64}';

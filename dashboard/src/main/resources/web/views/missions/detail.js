@@ -10,12 +10,14 @@ import { t } from '../../texts.js';
 import { auditTable } from './audit.js';
 import { checkPlan, farmNow } from './check.js';
 import { showCredentials } from './credentials.js';
-import { openDialog } from './dialog.js';
+import { openDialog } from '../../core/dialog.js';
 import { findingsList, summaryOf } from './findings.js';
 import { statePill } from './list.js';
-import { redraw } from './redraw.js';
+import { redraw } from '../../core/redraw.js';
 
 const MAX_SHOWN = 200;
+/** A device of a stopped mission is off once it has not reported for this time, ms. */
+const OFF_AFTER = 60_000;
 
 export class MissionDetail {
   /** @param {string} name of the mission */
@@ -49,7 +51,7 @@ export class MissionDetail {
       h('div.row.wrap', null, h('h2', null, this.name), statePill(status?.state), h('span.spacer'), h('div.row', null, this.buttons(mission))),
       h('p.small.muted', null, [mission.domain, mission.template, mission.start && t('missions.startedAt', { time: dateTime(mission.start) }), mission.duration && t('missions.lasts', { duration: duration(mission.duration) })].filter(Boolean).join(' · ')),
       status?.reason && status.missing.length === 0 && h('p.error-note', null, icon('warning'), status.reason),
-      status && h('div.stack', null,
+      status && mission.running && h('div.stack', null,
         h('div.row', null, h('span.numbers', null, t('missions.confirmed', { confirmed: status.confirmed, devices: status.devices })), h('span.spacer'), status.missing.length > 0 && h('span.warn', null, t('missions.missing', { count: status.devices - status.confirmed }))),
         h('div.bar', { role: 'progressbar', 'aria-valuemin': 0, 'aria-valuemax': status.devices, 'aria-valuenow': status.confirmed, 'aria-label': t('missions.progress') }, bar(status))),
       this.missing(status));
@@ -62,13 +64,16 @@ export class MissionDetail {
   }
 
   buttons(mission) {
+    const onMap = t('topics.showOnly', { name: this.name });
+    const map = h('button.button.square', { type: 'button', data: { act: 'map' }, 'aria-label': onMap, title: onMap, on: { click: () => { store.setScope({ domain: mission.domain, mission: this.name }); navigate('map'); } } }, icon('map', 18));
     if (!store.may('operate')) {
-      return [];
+      return [map];
     }
     const running = mission.running;
     const button = (act, symbol, words, work, kind = '') => h('button.button', { type: 'button', class: kind, data: { act }, on: { click: work } }, icon(symbol, 16), words);
     const recorded = store.recordings.has(this.name);
     return [
+      map,
       running ? button('stop', 'stop', t('missions.stop'), () => this.confirmStop()) : button('start', 'play', t('missions.start'), () => this.confirmStart(mission), 'primary'),
       running && store.may('administer') && button('credentials', 'link', t('missions.credentials'), () => showCredentials(this.name)),
       recorded && h('a.button', { href: linkTo('replays', { mission: this.name }), data: { act: 'replay' } }, icon('history', 16), t('missions.replay')),
@@ -120,7 +125,8 @@ export class MissionDetail {
     const health = device.health ?? {};
     const state = device.status?.state ?? t('missions.notYet');
     const seen = Math.max(health.heard ?? health.lastSeen ?? 0, (!store.isReplay && store.entityOf(device)?.heard) || 0);
-    const sound = health.off ? ['muted', t('states.off')] : health.silent ? ['warn', t('states.stale')] : seen ? ['good', t('states.ok')] : ['muted', '–'];
+    const isOff = health.off || (device.wanted === 'stopped' && now - seen > OFF_AFTER);
+    const sound = isOff ? ['muted', t('states.off')] : health.silent ? ['warn', t('states.stale')] : seen ? ['good', t('states.ok')] : ['muted', '–'];
     return h('tr', null,
       h('th', { scope: 'row' }, h('button.sort', { type: 'button', data: { act: device.id }, title: t('missions.onMap', { device: shortId(device.id) }), on: { click: () => { const key = store.entityOf(device)?.id ?? device.id; store.select(key, { reveal: true }); navigate('map', { select: key }); } } }, shortId(device.id))),
       h('td', { class: device.status?.state === 'failed' ? 'bad' : '' }, state, device.status?.reason && h('p.small.muted', null, device.status.reason)),

@@ -1,14 +1,15 @@
 /** Lists domains, and the imported fields. */
+import { absence } from '../../core/absence.js';
 import { api } from '../../core/api.js';
 import { h } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
 import { navigate } from '../../core/router.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
-import { formRow, openDialog } from './dialog.js';
+import { formRow, openDialog } from '../../core/dialog.js';
 import { fieldTable } from './fields.js';
 import { importFields } from './import.js';
-import { redraw } from './redraw.js';
+import { redraw } from '../../core/redraw.js';
 
 export class Domains {
   constructor() {
@@ -32,20 +33,19 @@ export class Domains {
     const domains = [...store.domains.values()];
     redraw(this.domains,
       h('div.row', null, h('h2', null, t('missions.domains')), h('span.spacer'), allowed && h('button.button.small', { type: 'button', data: { act: 'new-domain' }, on: { click: newDomain } }, icon('plus', 16), t('missions.newDomain'))),
-      domains.length === 0 && h('div.empty', null, h('h3', null, t('missions.noDomains')), h('p', null, t('missions.noDomainsHint'))),
+      absence('domains', domains.length, () => h('div.empty', null, h('h3', null, t('missions.noDomains')), h('p', null, t('missions.noDomainsHint')))),
       h('ul.stack', null, domains.map((each) => this.domain(each))));
     const fields = [...store.fields.values()].sort((a, b) => (a.name < b.name ? -1 : 1));
     redraw(this.fields,
       h('div.row', null, h('h2', null, t('missions.fields')), h('span.spacer'), allowed && h('button.button.small', { type: 'button', data: { act: 'import' }, on: { click: () => importFields() } }, icon('upload', 16), t('missions.importFields'))),
-      fields.length === 0
-        ? h('div.empty', null, h('h3', null, t('missions.noFields')), allowed && h('p', null, t('missions.noFieldsHint')))
-        : fieldTable(fields));
+      absence('fields', fields.length, () => h('div.empty', null, h('h3', null, t('missions.noFields')), allowed && h('p', null, t('missions.noFieldsHint')))),
+      fields.length > 0 && fieldTable(fields));
   }
 
   domain(domain) {
     const missions = missionsOf(domain.domain);
     return h('li.card.row', null,
-      h('div.cut', null, h('strong', null, domain.name ?? domain.domain), h('p.small.muted.cut', null, [domain.domain, domain.description].filter(Boolean).join(' · ')), h('p.small.muted', null, `${t('missions.countMissions', { count: missions.length })}, ${t('missions.countFields', { count: fieldsOf(domain).length })}`)),
+      h('div.cut', null, h('strong', null, domain.name ?? domain.domain), h('p.small.muted.cut', null, [domain.domain, domain.description].filter(Boolean).join(' · ')), h('p.small.muted', null, `${t('missions.countMissions', { count: missions.length })}, ${t('missions.countFields', { count: store.fieldsOf(domain.domain).length })}`)),
       h('span.spacer'),
       h('button.button.quiet.square', { type: 'button', 'aria-label': t('topics.showOnly', { name: domain.domain }), title: t('topics.showOnly', { name: domain.domain }), data: { act: `map ${domain.domain}` }, on: { click: () => { store.setScope({ domain: domain.domain }); navigate('map'); } } }, icon('map', 18)),
       store.may('administer') && h('button.button.quiet.square', { type: 'button', 'aria-label': t('missions.deleteDomain', { domain: domain.domain }), title: t('missions.deleteDomain', { domain: domain.domain }), data: { act: `delete ${domain.domain}` }, on: { click: () => deleteDomain(domain.domain) } }, icon('trash', 18)));
@@ -76,14 +76,9 @@ function missionsOf(domain) {
   return [...store.missions.values()].filter((each) => each.domain === domain);
 }
 
-/** The fields that name the domain, and those that it lists. */
-function fieldsOf({ domain, fields }) {
-  return [...store.fields.values()].filter((each) => each.properties.Domain === domain || fields?.includes(each.id));
-}
-
 function deleteDomain(domain) {
   const missions = missionsOf(domain);
-  const fields = fieldsOf({ domain });
+  const fields = store.fieldsOf(domain);
   const running = missions.filter((each) => ['starting', 'running', 'stopping'].includes(each.status?.state));
   const force = h('input', { type: 'checkbox', required: true });
   openDialog({

@@ -6,7 +6,7 @@ import { icon } from '../../core/icons.js';
 import { ofLocal } from '../../core/local-time.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
-import { formRow, openDialog } from './dialog.js';
+import { formRow, openDialog } from '../../core/dialog.js';
 
 /** @param {object[]} fields of the store, in the order of the rows */
 export function fieldTable(fields) {
@@ -19,10 +19,16 @@ export function fieldTable(fields) {
 function row(field) {
   return h('tr', null,
     h('th', { scope: 'row' }, field.name, field.name !== field.id && h('span.small.muted', null, ` ${field.id}`)),
-    h('td', null, field.properties.Domain ?? '–'),
+    domainOf(field.properties.Domain),
     h('td', null, t(field.exclusion ? 'missions.zone' : 'missions.field')),
     h('td.numbers', null, field.validFrom > 0 ? dateTime(field.validFrom) : t('missions.always')),
     store.may('operate') && h('td.acts', null, act(field, 'rename', 'pencil', rename), act(field, 'end', 'stop', end), store.may('administer') && act(field, 'delete', 'trash', remove)));
+}
+
+/** Marks a domain that does not exist, since it was deleted or is misspelled in the file. */
+function domainOf(domain) {
+  const isLost = domain && !store.lists.domains.loading && !store.lists.domains.error && !store.domains.has(domain);
+  return h('td', { class: isLost ? 'warn' : '' }, isLost ? t('missions.lostDomain', { domain }) : domain ?? '–');
 }
 
 function act(field, name, symbol, work) {

@@ -4,7 +4,7 @@ import { h, replace } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
-import { formRow, openDialog } from './dialog.js';
+import { formRow, openDialog } from '../../core/dialog.js';
 
 const MAX_BYTES = 16 << 20;
 const GEOPACKAGE = /\.gpkg$/i;
@@ -16,7 +16,7 @@ export function importFields(dropped) {
   const preview = h('p.small.muted', { 'aria-live': 'polite' });
   const result = h('div.stack', { 'aria-live': 'polite' });
   let done = false;
-  const { action } = openDialog({
+  const { action, cancel } = openDialog({
     title: t('missions.importFields'), submit: t('missions.import'),
     body: [formRow(t('missions.file'), file, t('missions.fileHint')), formRow(t('missions.domain'), domain), preview, result],
     work: async () => {
@@ -29,6 +29,7 @@ export function importFields(dropped) {
       showResult(result, await api.post(`/api/fields${query}`, chosen, { headers: { 'Content-Type': type } }));
       done = true;
       action.replaceChildren(t('missions.close'));
+      cancel.hidden = true; // nothing is left to cancel
       return true;
     },
   });
@@ -36,6 +37,7 @@ export function importFields(dropped) {
     done = false;
     replace(result);
     action.replaceChildren(t('missions.import'));
+    cancel.hidden = false;
     const words = file.files[0] ? await previewOf(file.files[0]) : { text: '' };
     replace(preview, words.text);
     preview.classList.toggle('bad', Boolean(words.bad));
@@ -61,7 +63,7 @@ async function previewOf(file) {
       return { bad: true, text: t('missions.noGeoJson') };
     }
     const areas = features.filter((each) => /Polygon$/.test(each?.geometry?.type ?? '')).length;
-    return { text: t(areas < features.length ? 'missions.previewSome' : 'missions.previewFields', { count: features.length, areas, others: features.length - areas }) };
+    return { bad: areas === 0, text: t(areas < features.length ? 'missions.previewSome' : 'missions.previewFields', { count: features.length, areas, others: features.length - areas }) };
   } catch {
     return { bad: true, text: t('missions.noGeoJson') };
   }

@@ -3,7 +3,7 @@ import { duration } from '../../core/format.js';
 import { h } from '../../core/dom.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
-import { redraw } from './redraw.js';
+import { redraw } from '../../core/redraw.js';
 
 const ORDER = { __proto__: null, failed: 0, starting: 1, running: 1, stopping: 1, created: 2, stopped: 3 };
 const KINDS = { __proto__: null, running: 'good', starting: 'info', stopping: 'info', failed: 'bad' };
@@ -21,8 +21,8 @@ export function drawList(place, chosen, choose) {
     filled.style.width = `${100 * share}%`;
     return h('li', null, h('button.mission-row', { type: 'button', data: { act: `mission ${mission.mission}` }, 'aria-pressed': String(mission.mission === chosen), on: { click: () => choose(mission.mission) } },
       h('span.row', null, h('strong.cut', null, mission.mission), h('span.spacer'), statePill(status?.state)),
-      h('span.row.small.muted', null, h('span.cut', null, mission.domain), h('span.spacer'), h('span.numbers', null, status ? t('missions.confirmed', { confirmed: status.confirmed, devices: status.devices }) : '')),
-      status?.devices > 0 && h('span.bar', null, filled),
+      h('span.row.small.muted', null, h('span.cut', null, mission.domain), h('span.spacer'), h('span.numbers', null, status && mission.running ? t('missions.confirmed', { confirmed: status.confirmed, devices: status.devices }) : '')),
+      status?.devices > 0 && mission.running && h('span.bar', null, filled),
       status?.missing?.length > 0 && h('span.small.warn', null, t('missions.missing', { count: status.devices - status.confirmed })),
       status?.since && h('span.small.muted.numbers', null, t('missions.since', { age: duration(Date.now() - status.since) }))));
   }));

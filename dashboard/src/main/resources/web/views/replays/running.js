@@ -3,7 +3,7 @@ import { h, replace, setText } from '../../core/dom.js';
 import { clock, span } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
 import { linkTo, navigate } from '../../core/router.js';
-import { endOf, store } from '../../core/store.js';
+import { spanOf, store } from '../../core/store.js';
 import { t } from '../../texts.js';
 import { steer, stop } from '../../timeline/control.js';
 
@@ -56,8 +56,8 @@ class RunningReplay {
     this.entry = entry;
     const [first] = entry.members;
     const state = stateOfReplay(first);
-    const { position, from } = first.status?.progress ?? {};
-    const to = endOf(first.status?.progress ?? {});
+    const position = first.status?.progress?.position || undefined;
+    const { from, to } = spanOf(entry.members);
     const watched = store.isReplay && (store.mode.replay === first.replay || (entry.group && store.mode.group === entry.group));
     const over = ['ended', 'stopped', 'failed'].includes(state);
     setText(this.name, entry.missions.join(' + '));

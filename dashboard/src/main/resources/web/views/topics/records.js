@@ -93,7 +93,7 @@ export class Records {
     const subscriptions = [...this.streams.values()];
     const failed = subscriptions.find((each) => each.state === 'refused' || each.state === 'waiting');
     const gaps = subscriptions.reduce((sum, each) => sum + each.gap, 0);
-    const parts = [this.paused ? t('topics.paused') : t('topics.count', { count: shown.length })];
+    const parts = [this.paused ? t('topics.paused') : shown.length === 0 && subscriptions.length > 0 ? t(this.key ? 'topics.noMatch' : 'topics.quiet') : t('topics.count', { count: shown.length })];
     gaps && parts.push(t('topics.gaps', { count: gaps }));
     failed && parts.push(failed.reason ?? t('topics.waiting'));
     return parts.join(' · ');
@@ -129,8 +129,17 @@ function lineOf(record) {
   if (record.value === null) {
     return t('topics.deleted');
   }
-  const text = typeof record.value === 'string' ? record.value : JSON.stringify(record.value);
+  const text = typeof record.value === 'string' ? record.value : JSON.stringify(isEntity(record.value) ? measuredOf(record.value) : record.value);
   return text.slice(0, 300);
+}
+
+function isEntity(value) {
+  return typeof value === 'object' && typeof value.id === 'string' && typeof value.type === 'string';
+}
+
+/** The values of an entity's attributes; its id is in the key, and the opened row has all. */
+function measuredOf({ id, type, ...attributes }) {
+  return Object.fromEntries(Object.entries(attributes).map(([name, each]) => [name, each?.value ?? each]));
 }
 
 /** The key of a pair consists of both ids. */

@@ -159,6 +159,7 @@ class CardsIT {
         suite.produce("data.raw", silent, robot(silent, "Running", before), before);
         FarmPage farm = suite.open("");
 
+        farm.find(".card-fold").click();
         assertThat(farm.card(silent)).hasClass(Pattern.compile("is-stale"));
         assertThat(farm.card(silent)).containsText("silent");
         suite.forget(silent);

@@ -1,5 +1,5 @@
 /** Redraws content; the focus and the scroll positions of tables are retained. */
-import { replace } from '../../core/dom.js';
+import { replace } from './dom.js';
 
 /** Replaces content. The element with the same `data-act` as the focused one receives the focus. */
 export function redraw(place, ...content) {

@@ -1,7 +1,7 @@
 /** Opens dialogs with a form, its failure and its buttons. */
-import { h, replace } from '../../core/dom.js';
-import { icon } from '../../core/icons.js';
-import { t } from '../../texts.js';
+import { h, replace } from './dom.js';
+import { icon } from './icons.js';
+import { t } from '../texts.js';
 import { focusAct } from './redraw.js';
 
 /**
@@ -13,6 +13,7 @@ import { focusAct } from './redraw.js';
 export function openDialog({ title, body, submit, danger = false, work }) {
   const failure = h('div', { role: 'alert' });
   const action = h('button.button', { type: 'submit', class: danger ? 'danger' : 'primary' }, submit);
+  const cancel = h('button.button', { type: 'button', on: { click: () => dialog.close() } }, t('missions.cancel'));
   const dialog = h('dialog.sheet', { 'aria-label': title });
   const opener = document.activeElement;
   const send = async (event) => {
@@ -30,16 +31,16 @@ export function openDialog({ title, body, submit, danger = false, work }) {
     }
   };
   replace(dialog, h('form', { on: { submit: send } },
-    h('header', null, h('h2', null, title), h('button.button.quiet.square', { type: 'button', 'aria-label': t('missions.cancel'), on: { click: () => dialog.close() } }, icon('close'))),
+    h('header', null, h('h2', null, title), h('button.button.quiet.square', { type: 'button', 'aria-label': t('missions.close'), on: { click: () => dialog.close() } }, icon('close'))),
     body, failure,
-    h('footer', null, h('button.button', { type: 'button', on: { click: () => dialog.close() } }, t('missions.cancel')), action)));
+    h('footer', null, cancel, action)));
   dialog.addEventListener('close', () => {
     dialog.remove();
     opener?.isConnected ? opener.focus() : focusAct(document, opener?.dataset?.act);
   });
   document.body.append(dialog);
   dialog.showModal();
-  return { dialog, action };
+  return { dialog, action, cancel };
 }
 
 export function formRow(words, input, hint) {

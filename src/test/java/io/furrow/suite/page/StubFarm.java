@@ -1,0 +1,167 @@
+package io.furrow.suite.page;
+
+import java.net.URI;
+import java.net.URLDecoder;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.CopyOnWriteArrayList;
+
+import com.microsoft.playwright.Browser;
+import com.microsoft.playwright.Route;
+import com.microsoft.playwright.WebSocketRoute;
+import com.microsoft.playwright.options.ReducedMotion;
+import org.eclipse.jetty.server.Server;
+import org.eclipse.jetty.server.ServerConnector;
+import org.eclipse.jetty.util.component.LifeCycle;
+
+import io.furrow.dashboard.page.PageFiles;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** The page in a real browser on a farm of stubs: its records and responses are those of the test. Starts in a second. */
+final class StubFarm implements AutoCloseable {
+    private final Chromium chromium;
+    private final Server server = new Server();
+    private final URI uri;
+    private final Map<String, List<String>> initial = new HashMap<>();
+    private final Map<String, String> answers = new ConcurrentHashMap<>();
+    private final Map<String, WebSocketRoute> sockets = new ConcurrentHashMap<>();
+    private final List<String> sent = new CopyOnWriteArrayList<>();
+    private final List<FarmPage> pages = new ArrayList<>();
+
+    StubFarm(Chromium chromium) throws Exception {
+        this.chromium = chromium;
+        ServerConnector connector = new ServerConnector(server);
+        connector.setHost("127.0.0.1");
+        server.addConnector(connector);
+        server.setHandler(PageFiles.handler(null));
+        server.start();
+        uri = URI.create("http://127.0.0.1:" + connector.getLocalPort());
+    }
+
+    /** Adds a record to the initial state of a topic. */
+    StubFarm has(String topic, String key, String value) {
+        return has(topic, key, value, System.currentTimeMillis());
+    }
+
+    StubFarm has(String topic, String key, String value, long time) {
+        initial.computeIfAbsent(topic, each -> new ArrayList<>()).add(record("prime", topic, key, value, time));
+        return this;
+    }
+
+    /** Adds a robot that reports. */
+    StubFarm hasRobot(int number) {
+        return has("data.raw", "urn:ngsi-ld:Robot:" + number, robot(number, "Running"));
+    }
+
+    static String robot(int number, String state) {
+        return """
+                {"id": "urn:ngsi-ld:Robot:%d", "type": "ROBOT", "Domain": {"value": "farm"}, "Mission": {"value": "weeding"}, "state": {"value": "%s"},
+                 "Latitude": {"value": %s}, "Longitude": {"value": -3.4822}, "speed": {"value": 1.5}, "cmd": {"value": ""}}""".formatted(number, state, 40.3125 + number * 1e-4);
+    }
+
+    /** Adds a replay of a robot. @param group empty for a single replay @param times epoch ms: from, to and position */
+    StubFarm hasReplay(String mission, String group, String state, long... times) {
+        String topic = "data.farm.replay." + mission + ".1";
+        String member = group.isEmpty() ? "" : ", \"group\": \"" + group + "\"";
+        return has("service.replays", mission + ".1", """
+                        {"replay": "%1$s.1", "mission": "%1$s", "topic": "%2$s", "speed": 1, "analytics": ["collision"]%3$s}""".formatted(mission, topic, member))
+                .has("service.replays.status", mission + ".1", """
+                        {"state": "%s", "progress": {"from": %d, "to": %d, "position": %d}}""".formatted(state, times[0], times[1], times[2]))
+                .has(topic, "urn:ngsi-ld:Robot:1", robot(1, "Running"), times[2]);
+    }
+
+    /** Answers a path with JSON; {@code 409 reason}, for example, with that status; an empty text never. */
+    StubFarm answers(String path, String answer) {
+        answers.put(path, answer);
+        return this;
+    }
+
+    FarmPage open(String hash, int width, int height) {
+        FarmPage page = new FarmPage(
+                uri,
+                chromium.browser()
+                        .newContext(new Browser.NewContextOptions()
+                                .setViewportSize(width, height)
+                                .setReducedMotion(ReducedMotion.REDUCE)
+                                .setLocale("en-GB")
+                                .setTimezoneId("Europe/Madrid")));
+        pages.add(page);
+        page.page()
+                .route(
+                        "**/config.json",
+                        route -> json(route, "{\"analytics\": [\"collision\", \"temperature\", \"presence\"]}"));
+        page.page().route("**/api/**", this::answer);
+        page.page().routeWebSocket("**/socket/*", socket -> {
+            String topic = socket.url().substring(socket.url().lastIndexOf('/') + 1);
+            sockets.put(topic, socket);
+            socket.send("{\"records\": " + initial.getOrDefault(topic, List.of()) + "}");
+            socket.send("{\"primed\": true}");
+        });
+        return page.open(hash);
+    }
+
+    private void answer(Route route) {
+        String path = URLDecoder.decode(URI.create(route.request().url()).getRawPath(), UTF_8);
+        if (!route.request().method().equals("GET")) {
+            sent.add(route.request().method() + " " + path + " "
+                    + route.request().postData());
+        }
+        String topic = path.substring(path.lastIndexOf('/') + 1);
+        String answer = answers.getOrDefault(
+                path,
+                path.startsWith("/api/register/")
+                        ? "{\"socket\": \"/socket/" + topic + "\"}"
+                        : path.startsWith("/api/history/")
+                                ? "{\"records\": [], \"since\": 0}"
+                                : path.endsWith("/timeline")
+                                        ? "{\"from\": 0, \"width\": 1, \"first\": 0, \"last\": 1, \"complete\": true, \"counts\": [1]}"
+                                        : path.startsWith("/api/density/")
+                                                ? "{\"counts\": []}"
+                                                : path.equals("/api/me")
+                                                        ? "{\"user\": \"demo\", \"role\": \"admin\"}"
+                                                        : "[]");
+        if (answer.matches("\\d{3}.*")) {
+            String reason = answer.length() > 3 ? answer.substring(4) : "the stub rejects it";
+            route.fulfill(new Route.FulfillOptions()
+                    .setStatus(Integer.parseInt(answer.substring(0, 3)))
+                    .setBody("{\"reason\": \"" + reason + "\"}"));
+        } else if (!answer.isEmpty()) {
+            json(route, answer);
+        }
+    }
+
+    private static void json(Route route, String body) {
+        route.fulfill(
+                new Route.FulfillOptions().setContentType("application/json").setBody(body));
+    }
+
+    /** Sends a record to the page. */
+    void send(String topic, String key, String value) {
+        sockets.get(topic)
+                .send("{\"records\": [" + record("event", topic, key, value, System.currentTimeMillis()) + "]}");
+    }
+
+    private static String record(String kind, String topic, String key, String value, long time) {
+        return "{\"topic\": \"%s\", \"kind\": \"%s\", \"key\": \"%s\", \"time\": %d, \"headers\": {}, \"value\": %s}"
+                .formatted(topic, kind, key, time, value);
+    }
+
+    /** The requests that change something, as {@code METHOD path body}. */
+    List<String> sent() {
+        return sent;
+    }
+
+    @Override
+    public void close() {
+        List<String> errors =
+                pages.stream().flatMap(page -> page.errors().stream()).toList();
+        pages.forEach(FarmPage::close);
+        LifeCycle.stop(server);
+        assertThat(errors).as("errors of the windows").isEmpty();
+    }
+}
