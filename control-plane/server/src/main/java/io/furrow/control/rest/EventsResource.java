@@ -55,6 +55,6 @@ public final class EventsResource {
             @PathParam("kind") String kind,
             @HeaderParam(HttpHeaders.LAST_EVENT_ID_HEADER) String since,
             @Suspended AsyncResponse response) {
-        feeds.open(kinds.get(kind).in(description.form(request, SCHEMAS.get(kind))), null, since, response);
+        feeds.open(kinds.get(kind).mapped(description.times(request, SCHEMAS.get(kind))), null, since, response);
     }
 }

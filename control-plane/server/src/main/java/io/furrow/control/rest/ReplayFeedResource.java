@@ -56,7 +56,7 @@ public final class ReplayFeedResource {
             @Context ContainerRequestContext request,
             @HeaderParam(HttpHeaders.LAST_EVENT_ID_HEADER) String since,
             @Suspended AsyncResponse response) {
-        feeds.open(kind.in(description.form(request, "Replay")), null, since, response);
+        feeds.open(kind.mapped(description.times(request, "Replay")), null, since, response);
     }
 
     /** Streams the changes of a replay until it is over. */
@@ -68,6 +68,6 @@ public final class ReplayFeedResource {
             @HeaderParam(HttpHeaders.LAST_EVENT_ID_HEADER) String since,
             @Suspended AsyncResponse response) {
         replays.get(replay);
-        feeds.open(kind.in(description.form(request, "Replay")), replay, since, response);
+        feeds.open(kind.mapped(description.times(request, "Replay")), replay, since, response);
     }
 }

@@ -165,6 +165,7 @@ public final class RestApi implements AutoCloseable {
                 new ReplayFeedResource(replays, feeds, description),
                 new EventsResource(view, feeds, description),
                 new RecordingsResource(view, events, markers, managers, threads),
+                new RecordedEventsResource(control.replays().mongo(), managers),
                 new MarkersResource(markers, managers),
                 new AlarmsResource(view, managers),
                 new FieldsResource(control.client(), managers, fields),

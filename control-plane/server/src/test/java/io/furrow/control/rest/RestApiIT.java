@@ -66,6 +66,8 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
                 .isEqualTo(200); // HEAD does not look the replay up
         running.rejects("GET", "/api/recordings/none/timeline", null, 501, "no-mongodb");
         running.rejects("DELETE", "/api/recordings/none", null, 501, "no-mongodb");
+        running.rejects("GET", "/api/recordings/none/events", null, 501, "no-mongodb");
+        running.rejects("POST", "/api/recordings/none/events", "{}", 501, "no-mongodb");
         assertThat(client.get("/api/dead-letters")).isEmpty();
         running.rejects("GET", "/api/dead-letters/none.dead/0/0", null, 404, "unknown-dead-letter");
         running.rejects("POST", "/api/dead-letters/redrive", "{\"topic\":\"none.dead\"}", 404, "unknown-topic");

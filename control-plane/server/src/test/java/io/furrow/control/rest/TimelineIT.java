@@ -1,10 +1,14 @@
 package io.furrow.control.rest;
 
+import java.io.IOException;
+import java.net.http.HttpResponse;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.util.Date;
 import java.util.List;
 import java.util.Properties;
+import java.util.stream.Collectors;
+import java.util.stream.IntStream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.mongodb.client.MongoClient;
@@ -25,7 +29,10 @@ import io.furrow.model.control.RecordedMission;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
 @Tag("full")
@@ -151,6 +158,62 @@ class TimelineIT {
         await().until(() -> client.get("/api/audit?mission=hoeing")
                 .findValuesAsText("result")
                 .contains("purged"));
+    }
+
+    @Test
+    void exportsAndImportsAMissionUnchanged() throws Exception {
+        String lines = IntStream.range(0, 3_000)
+                .mapToObj(i ->
+                        "{\"id\":\"e%d\",\"time\":%d,\"headers\":{\"service\":\"farm\"},\"entity\":{\"id\":\"t\",\"type\":\"T\",\"n\":1.50}}\n"
+                                .formatted(i, TIME + i))
+                .collect(Collectors.joining());
+        assertThat(load("sown", lines).path("events").asInt()).isEqualTo(3_000);
+        byte[] exported = client.send("GET", "/api/recordings/sown/events", null).body();
+        assertThat(new String(exported, UTF_8)).isEqualTo(lines);
+        load("copy", lines);
+        load("copy", lines);
+        assertThat(client.send("GET", "/api/v1/recordings/copy/events?format=jsonl", null)
+                        .body())
+                .isEqualTo(exported);
+        HttpResponse<byte[]> mcap = client.send("GET", "/api/recordings/copy/events?format=mcap", null);
+        assertThat(new String(mcap.body(), 0, 6, ISO_8859_1)).isEqualTo("\u0089MCAP0");
+
+        assertThat(load("copy", lines + "{\"id\":\n").path("error").asText()).isEqualTo("not-an-event");
+        assertThat(load("a.b", lines).path("error").asText()).isEqualTo("illegal-name");
+        assertThat(client.error("GET", "/api/recordings/nosuch/events", null)).isEqualTo("404 unknown-mission");
+        assertThat(client.error("GET", "/api/recordings/copy/events?format=geojson", null))
+                .isEqualTo("400 wrong-member");
+        await().until(() -> client.get("/api/audit?mission=copy").findValuesAsText("result").stream()
+                .sorted()
+                .toList()
+                .equals(List.of("error", "imported", "imported")));
+    }
+
+    private JsonNode load(String mission, String lines) throws Exception {
+        return client.ask(
+                "POST", "/api/recordings/" + mission + "/events", lines, "Content-Type", RecordedEventsResource.LINES);
+    }
+
+    /** Else a client would take what it has for all. */
+    @Test
+    void breaksTheConnectionIfAnExportFails() throws Exception {
+        String lines = IntStream.range(0, 3_000)
+                .mapToObj(i ->
+                        "{\"id\":\"e%d\",\"time\":%d,\"headers\":{},\"entity\":{\"id\":\"t\",\"type\":\"T\",\"text\":\"%s\"}}\n"
+                                .formatted(i, TIME + i, "x".repeat(200)))
+                .collect(Collectors.joining());
+        load("broken", lines);
+        try (MongoClient documents = MongoClients.create(mongo.uri())) {
+            documents
+                    .getDatabase("persistence")
+                    .getCollection("mission_broken")
+                    .insertOne(new Document("_time", new Date(TIME + 9_999)));
+        }
+
+        for (int i = 0; i < 3; i++) { // a failure occupies no transfer
+            assertThatThrownBy(() -> client.send("GET", "/api/recordings/broken/events", null))
+                    .isInstanceOf(IOException.class);
+        }
     }
 
     private void assertRejected(String path, String error) throws Exception {

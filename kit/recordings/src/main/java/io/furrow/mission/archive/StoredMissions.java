@@ -36,6 +36,7 @@ import io.furrow.model.ngsi.UnreadableException;
 /** Lists, exports and imports the missions that are stored in MongoDB. */
 public final class StoredMissions implements AutoCloseable {
     private static final int BATCH = 1_000;
+    private static final int BATCH_BYTES = 8 << 20;
     private static final int REPORT_INTERVAL = 10_000;
     private static final MongoAccess.Waits WAITS = MongoAccess.Waits.of(Duration.ofSeconds(20));
 
@@ -156,20 +157,24 @@ public final class StoredMissions implements AutoCloseable {
      *
      * @param source named in messages
      * @return number of lines
-     * @throws IOException if a line is not an event or the server rejects it; lines before it may be stored
+     * @throws IOException if a line is not an event, with an {@link UnreadableException} as cause, or the server rejects it; lines
+     *     before it may be stored
      */
     public long importFrom(String mission, InputStream in, String source, LongConsumer progress)
             throws IOException, InterruptedException {
         try (BulkSender<EventDocument> sender = new BulkSender<>(collections, WAITS, ignored -> {})) {
             String collection = collection(mission);
             List<EventDocument> bulk = new ArrayList<>(BATCH);
-            BufferedReader lines = new BufferedReader(new InputStreamReader(in, StandardCharsets.UTF_8));
+            BufferedReader lines = new BufferedReader(new InputStreamReader(new LineLimit(in), StandardCharsets.UTF_8));
             long count = 0;
+            long bytes = 0;
             for (String line = lines.readLine(); line != null; line = lines.readLine()) {
                 count++;
                 bulk.add(document(collection, line, source + ", line " + count));
-                if (bulk.size() == BATCH) {
+                bytes += line.length();
+                if (bulk.size() == BATCH || bytes >= BATCH_BYTES) {
                     send(sender, bulk, source);
+                    bytes = 0;
                 }
                 if (count % REPORT_INTERVAL == 0) {
                     progress.accept(count);

@@ -127,8 +127,12 @@ public final class ApiDescription {
         return Optional.of(new Operation(parameters, headers, MemberNames.of(json, schema), answer));
     }
 
-    /** Returns what the answer to a request has: a resource as the description names it, with times as the request's version has them. */
-    public UnaryOperator<ObjectNode> form(ContainerRequestContext request, String schema) {
+    /**
+     * Returns what writes the times of a resource as the version of a request has them. It changes what it is given.
+     *
+     * @param schema of the resource
+     */
+    public UnaryOperator<ObjectNode> times(ContainerRequestContext request, String schema) {
         if (!VersionFilter.isVersioned(request)) {
             return UnaryOperator.identity();
         }

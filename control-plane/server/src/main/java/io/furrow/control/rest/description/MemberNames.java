@@ -9,7 +9,7 @@ import java.util.function.Function;
 import com.fasterxml.jackson.databind.JsonNode;
 
 /**
- * The names that a JSON value may have according to its schema. A schema that names no members, or allows additional
+ * The names that a JSON value may have according to its schema, and whether it is a time. A schema that names no members, or allows additional
  * ones, allows every name.
  *
  * @param document against which references are resolved

@@ -72,8 +72,8 @@ public record ResourceKind(
                 key -> replays.withStatus(NgsiJson.object().put(ReplayStatusView.REPLAY, key)));
     }
 
-    /** Returns the kind with resources in another form. @param change may change what it is given */
-    public ResourceKind in(UnaryOperator<ObjectNode> change) {
+    /** Returns the kind with changed resources. @param change may change what it is given */
+    public ResourceKind mapped(UnaryOperator<ObjectNode> change) {
         return new ResourceKind(view, topics, resource.andThen(change), identity.andThen(change));
     }
 
