@@ -1,6 +1,8 @@
 package io.furrow.cli.control;
 
 import java.time.Instant;
+import java.util.LinkedHashMap;
+import java.util.Map;
 import java.util.concurrent.Callable;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -71,8 +73,11 @@ public final class AuditCommand implements Callable<Integer> {
             throw control.refused("--limit is 1 to %d, not %d".formatted(MAX_LISTED, limit));
         }
         return control.run(api -> {
-            ControlApi.Page read =
-                    api.list("/api/audit?limit=" + limit + about("mission", mission) + about("device", device), limit);
+            Map<String, Object> query = new LinkedHashMap<>();
+            query.put("limit", limit);
+            query.put("mission", mission);
+            query.put("device", device);
+            ControlApi.Page read = api.list("/api/audit" + ControlApi.query(query), limit);
             ArrayNode shown = NgsiJson.array();
             read.elements().forEach(entry -> {
                 if (isRecent(entry)

@@ -1,12 +1,9 @@
 package io.furrow.cli.control;
 
-import java.net.URLEncoder;
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
-import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import picocli.CommandLine.Command;
@@ -68,13 +65,14 @@ public final class DeadLetterCommandGroup extends CommandGroup {
             throw control.refused("--limit is 1 to %d, not %d".formatted(MAX_LISTED, limit));
         }
         Map<String, Object> query = new LinkedHashMap<>();
+        query.put("limit", limit);
         query.put("topic", topic);
         query.put("reason", reason);
         query.put("stage", stage);
         query.put("from", from);
         query.put("to", to);
         return control.run(api -> {
-            ControlApi.Page letters = api.list(PATH + query(limit, query), limit);
+            ControlApi.Page letters = api.list(PATH + ControlApi.query(query), limit);
             if (!letters.elements().isEmpty() || !letters.hasMore()) {
                 control.print(letters.elements(), DeadLetterTable::lines, DeadLetterTable::names);
             }
@@ -82,15 +80,6 @@ public final class DeadLetterCommandGroup extends CommandGroup {
                 control.remark("There may be more; --limit, --from and --to show others.");
             }
         });
-    }
-
-    private static String query(int limit, Map<String, ?> others) {
-        return "?limit=" + limit
-                + others.entrySet().stream()
-                        .filter(each -> each.getValue() != null)
-                        .map(each -> "&" + each.getKey() + "="
-                                + URLEncoder.encode(each.getValue().toString(), StandardCharsets.UTF_8))
-                        .collect(Collectors.joining());
     }
 
     @Command(name = "show", description = "Shows a dead letter with its headers and its value.")

@@ -3,6 +3,7 @@ package io.furrow.cli.control;
 import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.LinkedHashMap;
+import java.util.List;
 import java.util.Map;
 import java.util.stream.Collectors;
 
@@ -105,28 +106,28 @@ public final class DeviceCommandGroup extends CommandGroup {
         return control.commandShown("POST", DEVICES + ControlApi.part(device) + "/credentials" + scope.query());
     }
 
-    @Command(name = "on", description = "Switches a device on.")
+    @Command(name = "on", description = "Switches devices on.")
     int on(
             @Mixin ControlOptions control,
-            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Parameters(paramLabel = "DEVICE", arity = "1..*", description = ID) List<String> devices,
             @Mixin DeviceScope scope) {
-        return command(control, device, "on", null, null, scope);
+        return commands(control, devices, Map.of("command", "on"), scope);
     }
 
-    @Command(name = "off", description = "Switches a device off.")
+    @Command(name = "off", description = "Switches devices off.")
     int off(
             @Mixin ControlOptions control,
-            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Parameters(paramLabel = "DEVICE", arity = "1..*", description = ID) List<String> devices,
             @Mixin DeviceScope scope) {
-        return command(control, device, "off", null, null, scope);
+        return commands(control, devices, Map.of("command", "off"), scope);
     }
 
-    @Command(name = "restart", description = "Restarts a device.")
+    @Command(name = "restart", description = "Restarts devices.")
     int restart(
             @Mixin ControlOptions control,
-            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Parameters(paramLabel = "DEVICE", arity = "1..*", description = ID) List<String> devices,
             @Mixin DeviceScope scope) {
-        return command(control, device, "restart", null, null, scope);
+        return commands(control, devices, Map.of("command", "restart"), scope);
     }
 
     @Command(name = "command", description = "Sends a device any command, as Stop to a robot.")
@@ -146,8 +147,14 @@ public final class DeviceCommandGroup extends CommandGroup {
         body.put("type", type);
         body.put("command", command);
         body.put("value", value == null ? null : valueOf(value));
-        return control.command(
-                "POST", DEVICES + ControlApi.part(device) + "/commands" + scope.query(), ControlOptions.object(body));
+        return commands(control, List.of(device), body, scope);
+    }
+
+    private static int commands(ControlOptions control, List<String> devices, Map<String, ?> body, DeviceScope scope) {
+        List<String> paths = devices.stream()
+                .map(device -> DEVICES + ControlApi.part(device) + "/commands" + scope.query())
+                .toList();
+        return control.commands("POST", paths, ControlOptions.object(body));
     }
 
     /** Parses JSON, else returns the value as text. */

@@ -13,6 +13,7 @@ import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.JsonFile;
 import io.furrow.cli.option.CommandGroup;
+import io.furrow.cli.option.Confirmation;
 
 /** {@code ./furrow template}. */
 @Command(
@@ -68,7 +69,10 @@ public final class TemplateCommandGroup extends CommandGroup {
     int delete(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "TEMPLATE", description = "NAME, for all versions, or NAME@VERSION.")
-                    String template) {
+                    String template,
+            @Mixin Confirmation confirmation) {
+        confirmation.ask((template.contains("@") ? "Delete template %s?" : "Delete all versions of template %s?")
+                .formatted(template));
         return control.command("DELETE", TEMPLATES + ControlApi.part(template), null);
     }
 }

@@ -5,12 +5,12 @@ import java.io.IOException;
 import java.io.InputStream;
 import java.io.InputStreamReader;
 import java.io.OutputStream;
-import java.net.ConnectException;
 import java.net.HttpURLConnection;
 import java.net.URI;
 import java.net.URLEncoder;
-import java.net.UnknownHostException;
+import java.util.Map;
 import java.util.Objects;
+import java.util.StringJoiner;
 import java.util.UUID;
 import java.util.concurrent.TimeUnit;
 import java.util.regex.Matcher;
@@ -18,7 +18,6 @@ import java.util.regex.Pattern;
 import java.util.stream.Stream;
 import javax.net.ssl.HttpsURLConnection;
 import javax.net.ssl.SSLContext;
-import javax.net.ssl.SSLException;
 import javax.net.ssl.SSLSocketFactory;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -27,7 +26,6 @@ import com.fasterxml.jackson.databind.node.MissingNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
-import io.furrow.model.text.FailureText;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
@@ -41,6 +39,10 @@ public final class ControlApi {
     private static final int UNKNOWN = 404;
     private static final int AFTER_SECONDS = 1;
     private static final int MAX_PAGES = 20;
+    private static final String JSON = "application/json";
+    /** The dashboard answers the last of them, without a version. */
+    private static final Pattern UNVERSIONED = Pattern.compile("^/api/(?!v1/|platform$)");
+
     private static final Pattern NEXT = Pattern.compile("<(\\?[^>]*)>; ?rel=\"next\"");
 
     static {
@@ -76,7 +78,22 @@ public final class ControlApi {
 
     /** Escapes a name as a part of a path. */
     public static String part(String name) {
-        return "/" + URLEncoder.encode(name, UTF_8).replace("+", "%20");
+        return "/" + encoded(name);
+    }
+
+    private static String encoded(String text) {
+        return URLEncoder.encode(text, UTF_8).replace("+", "%20");
+    }
+
+    /** The query of the parameters that are present; empty if none is. */
+    public static String query(Map<String, ?> parameters) {
+        StringJoiner query = new StringJoiner("&", "?", "").setEmptyValue("");
+        parameters.forEach((name, value) -> {
+            if (value != null) {
+                query.add(name + "=" + encoded(value.toString()));
+            }
+        });
+        return query.toString();
     }
 
     /** @throws ControlPlaneException if it is unavailable or refuses */
@@ -89,7 +106,7 @@ public final class ControlApi {
      * @throws ControlPlaneException if it is unavailable or refuses
      */
     public JsonNode send(String method, String path, JsonNode body) {
-        return read(answer(method, path, body, "application/json"));
+        return read(answer(method, path, body, JSON));
     }
 
     /**
@@ -167,7 +184,7 @@ public final class ControlApi {
                     .lines()
                     .onClose(connection::disconnect);
         } catch (IOException e) {
-            throw failure(e);
+            throw ControlPlaneException.noAnswer(base, e);
         }
     }
 
@@ -178,7 +195,7 @@ public final class ControlApi {
                 connection.setRequestProperty("Idempotency-Key", key);
             }
             if (body != null || method.equals("POST")) { // some proxies refuse a POST without a length
-                connection.setRequestProperty("Content-Type", "application/json");
+                connection.setRequestProperty("Content-Type", JSON);
                 connection.setDoOutput(true);
                 try (OutputStream out = connection.getOutputStream()) {
                     out.write(NgsiJson.write(body == null ? NgsiJson.object() : body));
@@ -191,7 +208,7 @@ public final class ControlApi {
                 return new Answer(status, retryAfter, link, answer == null ? new byte[0] : answer.readAllBytes());
             }
         } catch (IOException e) {
-            throw failure(e);
+            throw ControlPlaneException.noAnswer(base, e);
         }
     }
 
@@ -214,21 +231,6 @@ public final class ControlApi {
             connection.setRequestProperty("Authorization", "Bearer " + token);
         }
         return connection;
-    }
-
-    private ControlPlaneException failure(IOException e) {
-        String why = FailureText.of(e);
-        String sentence;
-        if (e instanceof SSLException) {
-            sentence = "The control plane at %s cannot be trusted (%s). Name the certificate of its CA with --api-ca.";
-        } else if (e instanceof UnknownHostException) {
-            sentence = "No control plane is at %s: %s. Check --api.";
-        } else if (e instanceof ConnectException || "Connect timed out".equals(e.getMessage())) {
-            sentence = "No control plane answers at %s. Is it running? ./furrow up starts one; --api names another.";
-        } else {
-            sentence = "The control plane at %s has not answered (%s). It may have carried a command out.";
-        }
-        return new ControlPlaneException(sentence.formatted(base, why), e);
     }
 
     private static void sleep(String seconds) {

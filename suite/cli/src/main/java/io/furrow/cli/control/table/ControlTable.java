@@ -9,6 +9,7 @@ import java.util.stream.Stream;
 
 import com.fasterxml.jackson.core.JsonPointer;
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.MissingNode;
 
 import io.furrow.cli.time.Times;
@@ -124,6 +125,17 @@ public final class ControlTable {
             case AGE -> Times.age(Duration.ofMillis(clock.millis() - value.asLong()));
             case TEXT -> printable(textOf(value));
         };
+    }
+
+    /** Returns the list that an answer is or has as its only member, or a list of the answer. */
+    public static JsonNode rows(JsonNode answer) {
+        if (answer.isArray()) {
+            return answer;
+        }
+        JsonNode first = answer.iterator().hasNext() ? answer.iterator().next() : answer;
+        return answer.size() == 1 && first.isArray()
+                ? first
+                : JsonNodeFactory.instance.arrayNode().add(answer);
     }
 
     /** Returns a value without quotes, an object or a list as JSON. */
