@@ -224,6 +224,11 @@ class ControlCommandsIT {
                 .contains("collision-4")
                 .doesNotContain("collision-5");
         assertThat(run("alarm", "list", "--state", "acknowledged")).contains("collision-5");
+        assertThat(run("alarm", "list", "--from", "-1h"))
+                .contains("collision-5")
+                .doesNotContain("collision-4");
+        assertThat(run("alarm", "show", "collision-4")).contains("State:          closed");
+        assertThat(refused("alarm", "show", "collision-9")).contains("there is no alarm 'collision-9'");
         assertThat(refused("alarm", "list", "--state", "opne")).contains("--state", "opne", "ACKNOWLEDGED");
         assertThat(refused("alarm", "list", "--limit", "0")).contains("--limit");
     }
