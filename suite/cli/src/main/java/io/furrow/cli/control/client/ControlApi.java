@@ -101,6 +101,16 @@ public final class ControlApi {
         return send("GET", path, null);
     }
 
+    /** As {@link #get}, with one attempt. */
+    public JsonNode once(String path) {
+        return read(succeeded(exchange("GET", path, null, JSON, null)));
+    }
+
+    /** Gets {@code /ready}, whether it is or not. @throws ControlPlaneException if it is unavailable */
+    public JsonNode ready() {
+        return read(exchange("GET", "/ready", null, JSON, null));
+    }
+
     /**
      * @param body null for none
      * @throws ControlPlaneException if it is unavailable or refuses
@@ -147,6 +157,10 @@ public final class ControlApi {
             sleep(answer.retryAfter());
             answer = exchange(method, path, body, accept, key);
         }
+        return succeeded(answer);
+    }
+
+    private Answer succeeded(Answer answer) {
         if (answer.status() / 100 == 2) {
             return answer;
         }

@@ -167,7 +167,8 @@ public final class ControlOptions {
         print(answer, any -> List.of(sentence));
     }
 
-    private void print(JsonNode answer, Function<JsonNode, List<String>> page) throws IOException {
+    /** Prints an object as a page. */
+    public void print(JsonNode answer, Function<JsonNode, List<String>> page) throws IOException {
         if (output.isForPeople()) {
             page.apply(answer).forEach(out()::println);
         } else if (output.isName()) {
