@@ -82,7 +82,8 @@ public final class AlarmCommandGroup extends CommandGroup {
                             paramLabel = "N",
                             defaultValue = "50",
                             description = "How many at most, 1 to 9999. Default: ${DEFAULT-VALUE}.")
-                    int limit) {
+                    int limit,
+            @Mixin ListWatch watch) {
         if (limit < 1 || limit > MAX_LISTED) {
             throw control.refused("--limit is 1 to %d, not %d".formatted(MAX_LISTED, limit));
         }
@@ -102,6 +103,7 @@ public final class AlarmCommandGroup extends CommandGroup {
             if (more) {
                 control.remark("There are more than %d; --limit shows more of them.".formatted(limit));
             }
+            watch.follow(control, listed, () -> first(api.get(path), limit), TABLE);
         });
     }
 

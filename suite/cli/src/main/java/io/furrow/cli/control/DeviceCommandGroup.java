@@ -5,7 +5,6 @@ import java.time.Instant;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
-import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.TextNode;
@@ -37,6 +36,7 @@ public final class DeviceCommandGroup extends CommandGroup {
     @Command(name = "list", description = "Lists devices: status, last report, battery, whether silent.")
     int list(
             @Mixin ControlOptions control,
+            @Mixin ListWatch watch,
             @Option(names = "--domain", paramLabel = "DOMAIN", description = "Only those of this domain.")
                     String domain,
             @Option(names = "--mission", paramLabel = "MISSION", description = "Only those of this mission.")
@@ -44,13 +44,9 @@ public final class DeviceCommandGroup extends CommandGroup {
         Map<String, String> only = new LinkedHashMap<>();
         only.put("domain", domain);
         only.put("mission", mission);
-        String query = only.entrySet().stream()
-                .filter(each -> each.getValue() != null)
-                .map(each ->
-                        each.getKey() + "=" + ControlApi.part(each.getValue()).substring(1))
-                .collect(Collectors.joining("&"));
-        return control.show(
-                query.isEmpty() ? DEVICES : DEVICES + "?" + query,
+        return watch.show(
+                control,
+                DEVICES + ControlApi.query(only),
                 new ControlTable("There are no such devices.")
                         .text("DEVICE", "/id")
                         .text("TYPE", "/type")

@@ -65,12 +65,12 @@ public class MissionControl extends CommandGroup {
     @Command(name = "list", description = "Lists missions with their state.")
     int list(
             @Mixin ControlOptions control,
+            @Mixin ListWatch watch,
             @Option(names = "--domain", paramLabel = "DOMAIN", description = "Only those of this domain.")
                     String domain) {
-        return control.show(
-                domain == null
-                        ? MISSIONS
-                        : MISSIONS + "?domain=" + ControlApi.part(domain).substring(1),
+        return watch.show(
+                control,
+                path(domain),
                 new ControlTable("There is no mission; ./furrow mission create makes one.")
                         .text("MISSION", "/mission")
                         .text("DOMAIN", "/domain")
