@@ -23,6 +23,7 @@ import io.furrow.cli.control.DomainCommandGroup;
 import io.furrow.cli.control.ReplayCommandGroup;
 import io.furrow.cli.control.StatusCommand;
 import io.furrow.cli.control.TemplateCommandGroup;
+import io.furrow.cli.control.TopicCommandGroup;
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.time.TimeConverter;
 import io.furrow.flink.job.JobCommandLine;
@@ -40,6 +41,7 @@ public final class Commands {
             ImagesCommand.class,
             CatalogCommand.class,
             FieldsCommandGroup.class,
+            TopicCommandGroup.class,
             DeadLetterCommandGroup.class,
             AuditCommand.class);
 

@@ -14,6 +14,7 @@ import picocli.CommandLine.Parameters;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.DeadLetterTable;
+import io.furrow.cli.control.table.RecordPage;
 import io.furrow.cli.option.CommandGroup;
 import io.furrow.cli.time.TimeConverter;
 
@@ -85,17 +86,8 @@ public final class DeadLetterCommandGroup extends CommandGroup {
     @Command(name = "show", description = "Shows a dead letter with its headers and its value.")
     int show(
             @Mixin ControlOptions control,
-            @Parameters(
-                            paramLabel = "LETTER",
-                            description =
-                                    "<topic>-<partition>@<offset>, as list shows it, for instance data.raw.dead-0@17.")
-                    String letter) {
-        if (!letter.matches(".+-[0-9]+@[0-9]+")) {
-            throw control.refused("a dead letter is <topic>-<partition>@<offset>, as list shows it, not " + letter);
-        }
-        int dash = letter.lastIndexOf('-');
-        String place = letter.substring(dash + 1).replace('@', '/');
-        return control.showPage(PATH + ControlApi.part(letter.substring(0, dash)) + "/" + place, DeadLetterTable::page);
+            @Parameters(paramLabel = "LETTER", description = RecordPlace.FORM + "data.raw.dead-0@17.") String letter) {
+        return control.showPage(PATH + RecordPlace.of(control, letter).path(""), RecordPage::of);
     }
 
     @Command(

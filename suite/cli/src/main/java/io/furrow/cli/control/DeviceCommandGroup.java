@@ -17,14 +17,16 @@ import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.DevicePage;
+import io.furrow.cli.control.table.RecordPage;
 import io.furrow.cli.option.CommandGroup;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
 
 /** {@code ./furrow device}. */
 @Command(
         name = "device",
-        description = "Lists devices with their status, sends them commands, and gives them credentials.",
+        description = "Lists devices with their status and reports, sends them commands, and gives them credentials.",
         addMethodSubcommands = false,
         synopsisSubcommandLabel = "COMMAND")
 public final class DeviceCommandGroup extends CommandGroup {
@@ -66,6 +68,14 @@ public final class DeviceCommandGroup extends CommandGroup {
             @Mixin DeviceScope scope) {
         return control.showPage(
                 DEVICES + ControlApi.part(device) + scope.query(), shown -> DevicePage.of(shown, Instant.now()));
+    }
+
+    @Command(name = "tail", description = "Prints the newest reports of a device: their times and attributes.")
+    int tail(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Mixin RecordTail tail) {
+        return tail.print(control, Topics.RAW, device, RecordPage::report);
     }
 
     @Command(

@@ -13,6 +13,7 @@ import java.util.Objects;
 import java.util.StringJoiner;
 import java.util.UUID;
 import java.util.concurrent.TimeUnit;
+import java.util.function.Predicate;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 import java.util.stream.Stream;
@@ -135,11 +136,20 @@ public final class ControlApi {
      * @throws ControlPlaneException if it is unavailable or refuses
      */
     public Page list(String path, int limit) {
+        return list(path, limit, element -> false);
+    }
+
+    /** As {@link #list(String, int)}. @param isLast of an element: its page is the last that is read */
+    public Page list(String path, int limit, Predicate<JsonNode> isLast) {
         ArrayNode elements = NgsiJson.array();
         String next = path;
-        for (int page = 0; next != null && elements.size() < limit && page < MAX_PAGES; page++) {
-            Answer answer = answer("GET", next, null, "application/json");
-            read(answer).forEach(elements::add);
+        boolean ended = false;
+        for (int page = 0; next != null && !ended && elements.size() < limit && page < MAX_PAGES; page++) {
+            Answer answer = answer("GET", next, null, JSON);
+            for (JsonNode element : read(answer)) {
+                elements.add(element);
+                ended |= isLast.test(element);
+            }
             Matcher link = NEXT.matcher(answer.link());
             next = link.find() ? path.replaceFirst("\\?.*", "") + link.group(1) : null;
         }
