@@ -18,6 +18,7 @@ import io.furrow.cli.control.table.AnswerText;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.cli.time.TimeConverter;
+import io.furrow.cli.time.Times;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code ./furrow audit}. */
@@ -93,10 +94,6 @@ public final class AuditCommand implements Callable<Integer> {
     }
 
     private boolean isRecent(JsonNode entry) {
-        return since == null || entry.path("time").asLong() >= since.toEpochMilli();
-    }
-
-    private static String about(String member, String name) {
-        return name == null ? "" : "&" + member + "=" + ControlApi.part(name).substring(1);
+        return since == null || !Times.instant(entry.path("time")).isBefore(since);
     }
 }

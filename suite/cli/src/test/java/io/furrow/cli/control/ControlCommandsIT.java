@@ -287,6 +287,23 @@ class ControlCommandsIT {
     }
 
     @Test
+    void showsHowItIsAndWhichRecordsThereAre() throws Exception {
+        run("domain", "create", "meadow");
+
+        assertThat(json("status").path("deadLetters").isObject()).isTrue();
+        assertThat(run("topic", "list")).containsPattern("service.domains +[0-9]+ +[0-9]+");
+        assertThat(run("topic", "tail", "service.domains", "--key", "meadow"))
+                .containsPattern("service.domains-[0-9]+@[0-9]+ +\\S+ +meadow +\\{");
+        String place = json("topic", "find", "service.domains", "--text", "meadow")
+                .path(0)
+                .path("offset")
+                .asText();
+        assertThat(place).matches("[0-9]+");
+        assertThat(json("domain", "show", "meadow").path("created").asText()).contains("T");
+        assertThat(refused("topic", "tail", "data.raw.dead")).contains("/api/dead-letters");
+    }
+
+    @Test
     void reportsWhatToDoWhereItIsNotLetInOrNobodyIsThere() {
         CommandLine furrow = furrow();
 

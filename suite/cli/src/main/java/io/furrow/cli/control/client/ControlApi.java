@@ -53,6 +53,7 @@ public final class ControlApi {
 
     private final URI base;
     private final String token;
+    private final boolean isoTimes;
     /** One for all connections, for only those of the same factory are kept; null for that of Java. */
     private final SSLSocketFactory sockets;
 
@@ -67,13 +68,17 @@ public final class ControlApi {
      * @param token null if none is required
      */
     public ControlApi(URI base, String token) {
-        this(base, token, null);
+        this(base, token, null, false);
     }
 
-    /** @param trust the certificates to trust over https; null for those that Java trusts */
-    ControlApi(URI base, String token, SSLContext trust) {
+    /**
+     * @param trust the certificates to trust over https; null for those that Java trusts
+     * @param isoTimes whether times of answers are in ISO 8601, as version 1 has them, not in epoch ms
+     */
+    ControlApi(URI base, String token, SSLContext trust, boolean isoTimes) {
         this.base = base;
         this.token = token;
+        this.isoTimes = isoTimes;
         this.sockets = trust == null ? null : trust.getSocketFactory();
     }
 
@@ -238,7 +243,8 @@ public final class ControlApi {
 
     /** Uses a client without threads of its own, for which the JVM would wait at the end, and without PATCH. */
     private HttpURLConnection open(String method, String path, String accept) throws IOException {
-        URI uri = URI.create(base.toString().replaceAll("/+$", "") + path);
+        String versioned = isoTimes ? UNVERSIONED.matcher(path).replaceFirst("/api/v1/") : path;
+        URI uri = URI.create(base.toString().replaceAll("/+$", "") + versioned);
         HttpURLConnection connection = (HttpURLConnection) uri.toURL().openConnection();
         if (sockets != null && connection instanceof HttpsURLConnection encrypted) {
             encrypted.setSSLSocketFactory(sockets);

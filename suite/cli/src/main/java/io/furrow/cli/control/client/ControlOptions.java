@@ -213,7 +213,7 @@ public final class ControlOptions {
 
     private int runWith(Work work) {
         try {
-            work.with(new ControlApi(api, token(), trust()));
+            work.with(new ControlApi(api, token(), trust(), output.isForPrograms()));
             out().flush();
             return 0;
         } catch (ControlPlaneException e) {
