@@ -95,7 +95,8 @@ public final class DeadLetterCommandGroup extends CommandGroup {
             abbreviateSynopsis = true,
             description = "Writes dead letters unchanged to the topic that they came from, each once. Use it after the "
                     + "cause has been repaired. Notifications of the NGSI source came from no topic: they are left "
-                    + "without --to.")
+                    + "without --to.",
+            footer = {"", "Example: ./furrow dead-letters redrive --topic data.raw.dead --reason not-json --dry-run"})
     int redrive(
             @Mixin ControlOptions control,
             @Option(

@@ -83,7 +83,8 @@ public final class DeviceCommandGroup extends CommandGroup {
             description = {
                 "Shows what a device needs to report over MQTT: broker, login, topics, payloads and an example. Of "
                         + "all real devices of a mission with --mission, also as csv or env."
-            })
+            },
+            footer = {"", "Example: ./furrow device credentials --mission weeding -o csv"})
     int credentials(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "DEVICE", description = ID, arity = "0..1") String device,

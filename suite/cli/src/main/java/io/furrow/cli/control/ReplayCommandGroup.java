@@ -61,7 +61,10 @@ public final class ReplayCommandGroup extends CommandGroup {
         return control.showOne(REPLAYS + ControlApi.part(replay));
     }
 
-    @Command(name = "start", description = "Starts a replay of a mission, or of several missions with one clock.")
+    @Command(
+            name = "start",
+            description = "Starts a replay of a mission, or of several missions with one clock.",
+            footer = {"", "Example: ./furrow replay start weeding --speed 10 --from -5m"})
     int start(@Mixin ControlOptions control, @Mixin ReplayStart start) {
         JsonNode body = start.body(control);
         return control.run(api -> {
