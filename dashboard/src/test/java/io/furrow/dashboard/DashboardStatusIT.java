@@ -70,6 +70,8 @@ class DashboardStatusIT extends DashboardFixture {
         assertThat(error(path + "?from=0&to=1", VERA)).isEqualTo("400 wrong-parameter");
         assertThat(error(path + "?width=99&from=0&to=1", VERA)).isEqualTo("400 wrong-parameter");
         assertThat(error(path + "?width=1000&from=0&to=400001", VERA)).isEqualTo("400 wrong-parameter");
+        assertThat(get(path + "?width=1000&from=0&to=400001", VERA).body())
+                .contains("there are at most 400 buckets: 'to' must be at most 400000");
         assertThat(error("/api/density/data.raw.dead?width=1000&from=0&to=1", VERA))
                 .isEqualTo("403 topic-not-allowed");
         assertThat(error("/api/density/data.nothing?width=1000&from=0&to=1", VERA))

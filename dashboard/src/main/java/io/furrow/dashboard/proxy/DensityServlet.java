@@ -36,7 +36,14 @@ public final class DensityServlet extends UserServlet {
         String topic = StreamRequest.topic(request, streams.rules());
         long width = StreamRequest.number(request, "width", 100, DAY, null);
         long from = Math.floorDiv(StreamRequest.number(request, "from", 0, Long.MAX_VALUE / 4, null), width) * width;
-        long to = StreamRequest.number(request, "to", from, from + TopicDensity.MAX_BUCKETS * width, null);
+        long to = StreamRequest.number(request, "to", from, Long.MAX_VALUE / 2, null);
+        if (to - from > TopicDensity.MAX_BUCKETS * width) {
+            throw new Problem(
+                    400,
+                    "wrong-parameter",
+                    "there are at most %d buckets: 'to' must be at most %d, or 'width' greater"
+                            .formatted(TopicDensity.MAX_BUCKETS, from + TopicDensity.MAX_BUCKETS * width));
+        }
         streams.feeds().check(topic);
         write(topic, from, width, Math.toIntExact(-Math.floorDiv(from - to, width)), response);
     }

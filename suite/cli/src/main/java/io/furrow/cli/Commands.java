@@ -21,7 +21,9 @@ import io.furrow.cli.control.DeadLetterCommandGroup;
 import io.furrow.cli.control.DeviceCommandGroup;
 import io.furrow.cli.control.DomainCommandGroup;
 import io.furrow.cli.control.ReplayCommandGroup;
+import io.furrow.cli.control.StatusCommand;
 import io.furrow.cli.control.TemplateCommandGroup;
+import io.furrow.cli.control.TopicCommandGroup;
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.time.TimeConverter;
 import io.furrow.flink.job.JobCommandLine;
@@ -29,6 +31,7 @@ import io.furrow.flink.job.JobCommandLine;
 /** Commands that start nothing: they use the control plane, Kafka and stored missions wherever these run. */
 public final class Commands {
     public static final List<Class<?>> ALL = List.of(
+            StatusCommand.class,
             DomainCommandGroup.class,
             MissionCommandGroup.class,
             TemplateCommandGroup.class,
@@ -38,6 +41,7 @@ public final class Commands {
             ImagesCommand.class,
             CatalogCommand.class,
             FieldsCommandGroup.class,
+            TopicCommandGroup.class,
             DeadLetterCommandGroup.class,
             AuditCommand.class);
 

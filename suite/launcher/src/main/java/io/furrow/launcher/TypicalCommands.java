@@ -33,6 +33,7 @@ final class TypicalCommands {
         run("mission", "start", "m", "--domain", "d", "--api", api);
         run("device", "list", "--api", api);
         run("alarm", "list", "--api", api);
+        run("status", "--api", api);
         server.stop(0);
     }
 

@@ -64,6 +64,7 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
         }
         assertThat(client.status("HEAD", "/api/replays/none.1/events", null))
                 .isEqualTo(200); // HEAD does not look the replay up
+        running.rejects("GET", "/api/alarms/none", null, 404, "unknown-alarm");
         running.rejects("GET", "/api/recordings/none/timeline", null, 501, "no-mongodb");
         running.rejects("DELETE", "/api/recordings/none", null, 501, "no-mongodb");
         running.rejects("GET", "/api/recordings/none/events", null, 501, "no-mongodb");
@@ -396,7 +397,7 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
             await().until(other::isReady);
             assertThat(otherClient.status("GET", "/health", null)).isEqualTo(200);
             assertThat(otherClient.status("GET", "/ready", null)).isEqualTo(503);
-            for (String path : new String[] {"/api/alarms/a-1/mute", "/api/alarms/mute"}) {
+            for (String path : new String[] {"/api/alarms/a-1/mute", "/api/alarms/mute", "/api/alarms/unmute"}) {
                 HttpResponse<byte[]> answer = otherClient.send("POST", path, "{}", "Idempotency-Key", "again");
                 assertThat(client.error(answer)).isEqualTo("503 not-answered");
                 assertThat(answer.headers().firstValue("Retry-After")).contains("1");

@@ -92,6 +92,13 @@ class RestApiPartsIT {
             String path = "/api/alarms/" + alarm.path("alarm").asText();
             assertThat(alarm.path("kind").asText()).isEqualTo("collision");
 
+            assertThat(client.get(path)).isEqualTo(alarm);
+            long raised = alarm.path("raised").asLong();
+            assertThat(client.get("/api/alarms?kind=collision&to=" + (raised + 1)))
+                    .hasSize(1);
+            assertThat(client.get("/api/alarms?to=" + raised)).isEmpty();
+            assertThat(client.get("/api/alarms?kind=fault")).isEmpty();
+
             assertThat(answered(path + "/acknowledge", null)).isEqualTo(200);
             assertThat(answered(path + "/mute", "{\"for\":\"PT1H\"}")).isEqualTo(200);
             assertThat(answered(path + "/unmute", null)).isEqualTo(200);
@@ -99,6 +106,9 @@ class RestApiPartsIT {
                     .isEqualTo(200);
             assertThat(answered("/api/alarms/unmute", "{\"kind\":\"silent-device\"}"))
                     .isEqualTo(200);
+            assertThat(client.get("/api/alarms?from=" + (System.currentTimeMillis() + 60_000)))
+                    .as("it is not closed")
+                    .hasSize(1);
             assertThat(answered(path + "/close", null))
                     .as("while its cause lasts")
                     .isEqualTo(409);
@@ -110,6 +120,9 @@ class RestApiPartsIT {
                             .path("acknowledgedBy")
                             .asText())
                     .isEqualTo("rest");
+            long closed = client.get(path).path("changed").asLong();
+            assertThat(client.get("/api/alarms?from=" + closed)).hasSize(1);
+            assertThat(client.get("/api/alarms?from=" + (closed + 1))).isEmpty();
             assertThat(answered(path + "/close", null)).isEqualTo(409);
             assertThat(answered("/api/alarms/nosuch/close", null)).isEqualTo(404);
             assertThat(answered(path + "/mute", "{}")).isEqualTo(400);

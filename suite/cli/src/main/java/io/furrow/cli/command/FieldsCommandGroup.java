@@ -17,6 +17,7 @@ import io.furrow.cli.field.FieldReport;
 import io.furrow.cli.field.FieldsOptions;
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.CommandGroup;
+import io.furrow.cli.option.Confirmation;
 import io.furrow.kafka.field.FieldChange;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
@@ -99,7 +100,11 @@ public final class FieldsCommandGroup extends CommandGroup {
                 "Stored averages and stays of it remain under its id; a replay of an earlier time has no new ones. "
                         + "To keep the past, end the field instead."
             })
-    int delete(@Mixin ControlOptions control, @Parameters(paramLabel = "ID", description = ID) String id) {
+    int delete(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "ID", description = ID) String id,
+            @Mixin Confirmation confirmation) {
+        confirmation.ask("Delete field %s with all its versions, as if it had never existed?".formatted(id));
         return control.run(api -> {
             JsonNode answer = api.send("DELETE", path(id), null);
             int versions = answer.path("versions").asInt();

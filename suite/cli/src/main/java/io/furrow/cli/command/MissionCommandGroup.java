@@ -1,5 +1,6 @@
 package io.furrow.cli.command;
 
+import java.io.File;
 import java.io.IOException;
 import java.io.OutputStream;
 import java.io.PrintWriter;
@@ -109,6 +110,7 @@ public final class MissionCommandGroup extends MissionControl {
                 terminal.flush();
                 return;
             }
+            requireFolder(new Path(file));
             ExportFormat.Source source = new ExportFormat.Source(missions, store.mongo, mission);
             ExportResult[] done = new ExportResult[1];
             MissionFiles.write(new Path(file), out -> {
@@ -196,6 +198,14 @@ public final class MissionCommandGroup extends MissionControl {
         if (!missions.has(mission)) {
             throw new IOException(
                     "No mission named %s is stored; ./furrow mission stored shows those that are.".formatted(mission));
+        }
+    }
+
+    /** Flink would make a local folder that is not there, which is rather a misspelled one. */
+    private static void requireFolder(Path file) throws IOException {
+        File folder = new File(file.getPath()).getAbsoluteFile().getParentFile();
+        if (!file.getFileSystem().isDistributedFS() && folder != null && !folder.isDirectory()) {
+            throw new IOException("There is no folder %s; make it first.".formatted(folder));
         }
     }
 

@@ -21,6 +21,7 @@ import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
+import io.furrow.cli.option.Confirmation;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.flink.job.FileSystemOptions;
 import io.furrow.mission.image.ImageName;
@@ -58,6 +59,9 @@ final class PurgeImages implements Callable<Integer> {
     private boolean dryRun;
 
     @Mixin
+    private Confirmation confirmation;
+
+    @Mixin
     private HelpOption help;
 
     private Instant now;
@@ -77,6 +81,9 @@ final class PurgeImages implements Callable<Integer> {
         try {
             files = folder.getFileSystem();
             files.getFileStatus(folder); // a listing would not show that the folder is missing
+            if (!dryRun) {
+                confirmation.ask("Delete the images in %s from before %s?".formatted(root, now.minus(age)));
+            }
             purge(folder);
         } catch (FileNotFoundException e) {
             throw new ParameterException(spec.commandLine(), root + " is not there; name the folder of --images", e);

@@ -33,7 +33,8 @@ import io.furrow.model.ngsi.NgsiJson;
                     + "pair, averages by field and window, stays by device and field, all in original event time. Reads "
                     + "from Kafka what is there now; of a replay, the newest epoch.",
             "Exit code: 0 where both are the same, 1 where they differ, 2 where they cannot be compared."
-        })
+        },
+        footer = {"", "Example: ./furrow replay compare weeding.0a1b2c3d live --from -5m --html difference.html"})
 public final class CompareCommand implements Callable<Integer> {
     private static final String SIDE = "A replay, MISSION.ID; its topic; or live.";
 

@@ -1,7 +1,9 @@
 package io.furrow.cli.control;
 
 import java.time.Duration;
+import java.time.Instant;
 import java.util.LinkedHashMap;
+import java.util.List;
 import java.util.Locale;
 import java.util.Map;
 
@@ -14,13 +16,16 @@ import picocli.CommandLine.Parameters;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.table.AlarmPage;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.option.CommandGroup;
+import io.furrow.cli.time.TimeConverter;
+import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code ./furrow alarm}. */
 @Command(
         name = "alarm",
-        description = "Lists, acknowledges, closes and mutes alarms.",
+        description = "Lists, shows, acknowledges, closes and mutes alarms.",
         addMethodSubcommands = false,
         synopsisSubcommandLabel = "COMMAND")
 public final class AlarmCommandGroup extends CommandGroup {
@@ -44,10 +49,6 @@ public final class AlarmCommandGroup extends CommandGroup {
         CLOSED,
         ALL;
 
-        String query() {
-            return this == ALL ? "" : "&state=" + this;
-        }
-
         /** As it is written on the command line, and in REST. */
         @Override
         public String toString() {
@@ -55,68 +56,136 @@ public final class AlarmCommandGroup extends CommandGroup {
         }
     }
 
-    @Command(name = "list", description = "Lists alarms by severity, the newest first.")
+    @Command(
+            name = "list",
+            description = "Lists alarms by severity, the newest first.",
+            footer = {"", "Example: ./furrow alarm list --since -24h"})
     int list(
             @Mixin ControlOptions control,
             @Option(
                             names = "--state",
                             paramLabel = "STATE",
-                            defaultValue = "open",
-                            description = "open, acknowledged, closed or all. Default: ${DEFAULT-VALUE}.")
+                            description = "open, acknowledged, closed or all. Default: open; with --from or --to all.")
                     State state,
+            @Option(names = "--kind", paramLabel = "KIND", description = "Only those of a kind, as silent-device.")
+                    String kind,
+            @Option(
+                            names = {"--from", "--since"},
+                            paramLabel = "TIME",
+                            description = "Only those that were not closed before this time, " + TimeConverter.FORMS
+                                    + " A closed alarm is kept for a day.")
+                    Instant from,
+            @Option(names = "--to", paramLabel = "TIME", description = "Only those that were raised before this time.")
+                    Instant to,
             @Option(
                             names = "--limit",
                             paramLabel = "N",
                             defaultValue = "50",
                             description = "How many at most, 1 to 9999. Default: ${DEFAULT-VALUE}.")
-                    int limit) {
+                    int limit,
+            @Mixin ListWatch watch) {
         if (limit < 1 || limit > MAX_LISTED) {
             throw control.refused("--limit is 1 to %d, not %d".formatted(MAX_LISTED, limit));
         }
+        State desired = state != null ? state : from == null && to == null ? State.OPEN : State.ALL;
+        Map<String, Object> query = new LinkedHashMap<>();
+        query.put("limit", limit + 1);
+        query.put("state", desired == State.ALL ? null : desired);
+        query.put("kind", kind);
+        query.put("from", from);
+        query.put("to", to);
+        String path = ALARMS + ControlApi.query(query);
         return control.run(api -> {
-            JsonNode alarms = api.get(ALARMS + "?limit=" + (limit + 1) + state.query());
+            JsonNode alarms = api.get(path);
             boolean more = alarms.size() > limit;
-            if (more) {
-                ((ArrayNode) alarms).remove(limit);
-            }
-            control.print(alarms, TABLE);
+            JsonNode listed = first(alarms, limit);
+            control.print(listed, TABLE);
             if (more) {
                 control.remark("There are more than %d; --limit shows more of them.".formatted(limit));
             }
+            watch.follow(control, listed, () -> first(api.get(path), limit), TABLE);
         });
     }
 
-    @Command(name = "acknowledge", description = "Acknowledges an alarm.")
-    int acknowledge(@Mixin ControlOptions control, @Parameters(paramLabel = "ALARM", description = ID) String alarm) {
-        return post(control, alarm, "acknowledge", null);
+    private static JsonNode first(JsonNode alarms, int limit) {
+        if (alarms.size() > limit) {
+            ((ArrayNode) alarms).remove(limit);
+        }
+        return alarms;
     }
 
-    @Command(name = "close", description = "Closes an alarm whose cause is over or was not observed for a minute.")
-    int close(@Mixin ControlOptions control, @Parameters(paramLabel = "ALARM", description = ID) String alarm) {
-        return post(control, alarm, "close", null);
+    @Command(name = "show", description = "Shows one alarm: its text, its devices, and what was done about it.")
+    int show(@Mixin ControlOptions control, @Parameters(paramLabel = "ALARM", description = ID) String alarm) {
+        return control.showPage(ALARMS + ControlApi.part(alarm), shown -> AlarmPage.of(shown, Instant.now()));
     }
 
-    @Command(name = "mute", description = "Mutes an alarm: the webhook does not get it for some time.")
+    @Command(name = "acknowledge", description = "Acknowledges alarms.")
+    int acknowledge(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "ALARM", arity = "1..*", description = ID) List<String> alarms) {
+        return control.commands("POST", paths(alarms, "acknowledge"), NgsiJson.object());
+    }
+
+    @Command(name = "close", description = "Closes alarms whose cause is over or was not observed for a minute.")
+    int close(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "ALARM", arity = "1..*", description = ID) List<String> alarms) {
+        return control.commands("POST", paths(alarms, "close"), NgsiJson.object());
+    }
+
+    @Command(
+            name = "mute",
+            description =
+                    "Mutes alarms, or a kind of alarms, those to come too: the webhook does not get them for some "
+                            + "time.",
+            footer = {"", "Example: ./furrow alarm mute --kind silent-device --for 8h"})
     int mute(
             @Mixin ControlOptions control,
-            @Parameters(paramLabel = "ALARM", description = ID) String alarm,
+            @Mixin Muted muted,
             @Option(
                             names = "--for",
                             paramLabel = "DURATION",
                             defaultValue = "1h",
                             description = "How long, as 30m, 8h or 2d. Default: 1h.")
                     Duration duration) {
-        return post(control, alarm, "mute", duration.toString());
+        return muted.send(control, "mute", duration.toString());
     }
 
-    @Command(name = "unmute", description = "Unmutes an alarm: the webhook gets it again.")
-    int unmute(@Mixin ControlOptions control, @Parameters(paramLabel = "ALARM", description = ID) String alarm) {
-        return post(control, alarm, "unmute", null);
+    @Command(name = "unmute", description = "Unmutes alarms, or a kind of alarms: the webhook gets them again.")
+    int unmute(@Mixin ControlOptions control, @Mixin Muted muted) {
+        return muted.send(control, "unmute", null);
     }
 
-    private static int post(ControlOptions control, String alarm, String verb, String duration) {
-        Map<String, String> body = new LinkedHashMap<>();
-        body.put("for", duration);
-        return control.command("POST", ALARMS + ControlApi.part(alarm) + "/" + verb, ControlOptions.object(body));
+    /** Alarms by id, or by kind. */
+    static final class Muted {
+        @Parameters(paramLabel = "ALARM", arity = "0..*", description = ID)
+        private List<String> alarms;
+
+        @Option(names = "--kind", paramLabel = "KIND", description = "All alarms of this kind, as silent-device.")
+        private String kind;
+
+        @Option(
+                names = "--subject",
+                paramLabel = "SUBJECT",
+                description = "Of these, those about one subject, as the id of a device.")
+        private String subject;
+
+        int send(ControlOptions control, String verb, String duration) {
+            if ((alarms == null) == (kind == null) || alarms != null && subject != null) {
+                throw control.refused("Name alarms, or a kind with --kind, and its --subject.");
+            }
+            Map<String, String> body = new LinkedHashMap<>();
+            body.put("kind", kind);
+            body.put("subject", subject);
+            body.put("for", duration);
+            List<String> paths = alarms == null ? List.of(ALARMS + "/" + verb) : paths(alarms, verb);
+            return control.commands("POST", paths, ControlOptions.object(body));
+        }
+    }
+
+    private static List<String> paths(List<String> alarms, String verb) {
+        return alarms.stream()
+                .map(alarm -> ALARMS + ControlApi.part(alarm) + "/" + verb)
+                .toList();
     }
 }

@@ -1,6 +1,8 @@
 package io.furrow.cli.control;
 
 import java.time.Instant;
+import java.util.LinkedHashMap;
+import java.util.Map;
 import java.util.concurrent.Callable;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -16,6 +18,7 @@ import io.furrow.cli.control.table.AnswerText;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.cli.time.TimeConverter;
+import io.furrow.cli.time.Times;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code ./furrow audit}. */
@@ -71,8 +74,11 @@ public final class AuditCommand implements Callable<Integer> {
             throw control.refused("--limit is 1 to %d, not %d".formatted(MAX_LISTED, limit));
         }
         return control.run(api -> {
-            ControlApi.Page read =
-                    api.list("/api/audit?limit=" + limit + about("mission", mission) + about("device", device), limit);
+            Map<String, Object> query = new LinkedHashMap<>();
+            query.put("limit", limit);
+            query.put("mission", mission);
+            query.put("device", device);
+            ControlApi.Page read = api.list("/api/audit" + ControlApi.query(query), limit);
             ArrayNode shown = NgsiJson.array();
             read.elements().forEach(entry -> {
                 if (isRecent(entry)
@@ -88,10 +94,6 @@ public final class AuditCommand implements Callable<Integer> {
     }
 
     private boolean isRecent(JsonNode entry) {
-        return since == null || entry.path("time").asLong() >= since.toEpochMilli();
-    }
-
-    private static String about(String member, String name) {
-        return name == null ? "" : "&" + member + "=" + ControlApi.part(name).substring(1);
+        return since == null || !Times.instant(entry.path("time")).isBefore(since);
     }
 }

@@ -1,12 +1,9 @@
 package io.furrow.cli.control;
 
-import java.net.URLEncoder;
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
-import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import picocli.CommandLine.Command;
@@ -17,6 +14,7 @@ import picocli.CommandLine.Parameters;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.DeadLetterTable;
+import io.furrow.cli.control.table.RecordPage;
 import io.furrow.cli.option.CommandGroup;
 import io.furrow.cli.time.TimeConverter;
 
@@ -68,13 +66,14 @@ public final class DeadLetterCommandGroup extends CommandGroup {
             throw control.refused("--limit is 1 to %d, not %d".formatted(MAX_LISTED, limit));
         }
         Map<String, Object> query = new LinkedHashMap<>();
+        query.put("limit", limit);
         query.put("topic", topic);
         query.put("reason", reason);
         query.put("stage", stage);
         query.put("from", from);
         query.put("to", to);
         return control.run(api -> {
-            ControlApi.Page letters = api.list(PATH + query(limit, query), limit);
+            ControlApi.Page letters = api.list(PATH + ControlApi.query(query), limit);
             if (!letters.elements().isEmpty() || !letters.hasMore()) {
                 control.print(letters.elements(), DeadLetterTable::lines, DeadLetterTable::names);
             }
@@ -84,29 +83,11 @@ public final class DeadLetterCommandGroup extends CommandGroup {
         });
     }
 
-    private static String query(int limit, Map<String, ?> others) {
-        return "?limit=" + limit
-                + others.entrySet().stream()
-                        .filter(each -> each.getValue() != null)
-                        .map(each -> "&" + each.getKey() + "="
-                                + URLEncoder.encode(each.getValue().toString(), StandardCharsets.UTF_8))
-                        .collect(Collectors.joining());
-    }
-
     @Command(name = "show", description = "Shows a dead letter with its headers and its value.")
     int show(
             @Mixin ControlOptions control,
-            @Parameters(
-                            paramLabel = "LETTER",
-                            description =
-                                    "<topic>-<partition>@<offset>, as list shows it, for instance data.raw.dead-0@17.")
-                    String letter) {
-        if (!letter.matches(".+-[0-9]+@[0-9]+")) {
-            throw control.refused("a dead letter is <topic>-<partition>@<offset>, as list shows it, not " + letter);
-        }
-        int dash = letter.lastIndexOf('-');
-        String place = letter.substring(dash + 1).replace('@', '/');
-        return control.showPage(PATH + ControlApi.part(letter.substring(0, dash)) + "/" + place, DeadLetterTable::page);
+            @Parameters(paramLabel = "LETTER", description = RecordPlace.FORM + "data.raw.dead-0@17.") String letter) {
+        return control.showPage(PATH + RecordPlace.of(control, letter).path(""), RecordPage::of);
     }
 
     @Command(
@@ -114,7 +95,8 @@ public final class DeadLetterCommandGroup extends CommandGroup {
             abbreviateSynopsis = true,
             description = "Writes dead letters unchanged to the topic that they came from, each once. Use it after the "
                     + "cause has been repaired. Notifications of the NGSI source came from no topic: they are left "
-                    + "without --to.")
+                    + "without --to.",
+            footer = {"", "Example: ./furrow dead-letters redrive --topic data.raw.dead --reason not-json --dry-run"})
     int redrive(
             @Mixin ControlOptions control,
             @Option(

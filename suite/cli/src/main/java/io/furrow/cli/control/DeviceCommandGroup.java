@@ -3,8 +3,8 @@ package io.furrow.cli.control;
 import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.LinkedHashMap;
+import java.util.List;
 import java.util.Map;
-import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.TextNode;
@@ -17,14 +17,16 @@ import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.DevicePage;
+import io.furrow.cli.control.table.RecordPage;
 import io.furrow.cli.option.CommandGroup;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
 
 /** {@code ./furrow device}. */
 @Command(
         name = "device",
-        description = "Lists devices with their status, sends them commands, and gives them credentials.",
+        description = "Lists devices with their status and reports, sends them commands, and gives them credentials.",
         addMethodSubcommands = false,
         synopsisSubcommandLabel = "COMMAND")
 public final class DeviceCommandGroup extends CommandGroup {
@@ -36,6 +38,7 @@ public final class DeviceCommandGroup extends CommandGroup {
     @Command(name = "list", description = "Lists devices: status, last report, battery, whether silent.")
     int list(
             @Mixin ControlOptions control,
+            @Mixin ListWatch watch,
             @Option(names = "--domain", paramLabel = "DOMAIN", description = "Only those of this domain.")
                     String domain,
             @Option(names = "--mission", paramLabel = "MISSION", description = "Only those of this mission.")
@@ -43,13 +46,9 @@ public final class DeviceCommandGroup extends CommandGroup {
         Map<String, String> only = new LinkedHashMap<>();
         only.put("domain", domain);
         only.put("mission", mission);
-        String query = only.entrySet().stream()
-                .filter(each -> each.getValue() != null)
-                .map(each ->
-                        each.getKey() + "=" + ControlApi.part(each.getValue()).substring(1))
-                .collect(Collectors.joining("&"));
-        return control.show(
-                query.isEmpty() ? DEVICES : DEVICES + "?" + query,
+        return watch.show(
+                control,
+                DEVICES + ControlApi.query(only),
                 new ControlTable("There are no such devices.")
                         .text("DEVICE", "/id")
                         .text("TYPE", "/type")
@@ -71,12 +70,21 @@ public final class DeviceCommandGroup extends CommandGroup {
                 DEVICES + ControlApi.part(device) + scope.query(), shown -> DevicePage.of(shown, Instant.now()));
     }
 
+    @Command(name = "tail", description = "Prints the newest reports of a device: their times and attributes.")
+    int tail(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Mixin RecordTail tail) {
+        return tail.print(control, Topics.RAW, device, RecordPage::report);
+    }
+
     @Command(
             name = "credentials",
             description = {
                 "Shows what a device needs to report over MQTT: broker, login, topics, payloads and an example. Of "
                         + "all real devices of a mission with --mission, also as csv or env."
-            })
+            },
+            footer = {"", "Example: ./furrow device credentials --mission weeding -o csv"})
     int credentials(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "DEVICE", description = ID, arity = "0..1") String device,
@@ -105,28 +113,28 @@ public final class DeviceCommandGroup extends CommandGroup {
         return control.commandShown("POST", DEVICES + ControlApi.part(device) + "/credentials" + scope.query());
     }
 
-    @Command(name = "on", description = "Switches a device on.")
+    @Command(name = "on", description = "Switches devices on.")
     int on(
             @Mixin ControlOptions control,
-            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Parameters(paramLabel = "DEVICE", arity = "1..*", description = ID) List<String> devices,
             @Mixin DeviceScope scope) {
-        return command(control, device, "on", null, null, scope);
+        return commands(control, devices, Map.of("command", "on"), scope);
     }
 
-    @Command(name = "off", description = "Switches a device off.")
+    @Command(name = "off", description = "Switches devices off.")
     int off(
             @Mixin ControlOptions control,
-            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Parameters(paramLabel = "DEVICE", arity = "1..*", description = ID) List<String> devices,
             @Mixin DeviceScope scope) {
-        return command(control, device, "off", null, null, scope);
+        return commands(control, devices, Map.of("command", "off"), scope);
     }
 
-    @Command(name = "restart", description = "Restarts a device.")
+    @Command(name = "restart", description = "Restarts devices.")
     int restart(
             @Mixin ControlOptions control,
-            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Parameters(paramLabel = "DEVICE", arity = "1..*", description = ID) List<String> devices,
             @Mixin DeviceScope scope) {
-        return command(control, device, "restart", null, null, scope);
+        return commands(control, devices, Map.of("command", "restart"), scope);
     }
 
     @Command(name = "command", description = "Sends a device any command, as Stop to a robot.")
@@ -146,8 +154,14 @@ public final class DeviceCommandGroup extends CommandGroup {
         body.put("type", type);
         body.put("command", command);
         body.put("value", value == null ? null : valueOf(value));
-        return control.command(
-                "POST", DEVICES + ControlApi.part(device) + "/commands" + scope.query(), ControlOptions.object(body));
+        return commands(control, List.of(device), body, scope);
+    }
+
+    private static int commands(ControlOptions control, List<String> devices, Map<String, ?> body, DeviceScope scope) {
+        List<String> paths = devices.stream()
+                .map(device -> DEVICES + ControlApi.part(device) + "/commands" + scope.query())
+                .toList();
+        return control.commands("POST", paths, ControlOptions.object(body));
     }
 
     /** Parses JSON, else returns the value as text. */

@@ -1,10 +1,11 @@
 package io.furrow.cli.control;
 
-import java.net.URLEncoder;
-import java.nio.charset.StandardCharsets;
-import java.util.StringJoiner;
+import java.util.LinkedHashMap;
+import java.util.Map;
 
 import picocli.CommandLine.Option;
+
+import io.furrow.cli.control.client.ControlApi;
 
 /** Selects one of several entities with the same id. */
 final class DeviceScope {
@@ -19,15 +20,9 @@ final class DeviceScope {
 
     /** The query for the REST API; empty if no option is given. */
     String query() {
-        StringJoiner query = new StringJoiner("&", "?", "").setEmptyValue("");
-        add(query, "service", service);
-        add(query, "servicePath", servicePath);
-        return query.toString();
-    }
-
-    private static void add(StringJoiner query, String name, String value) {
-        if (value != null) {
-            query.add(name + "=" + URLEncoder.encode(value, StandardCharsets.UTF_8));
-        }
+        Map<String, String> query = new LinkedHashMap<>();
+        query.put("service", service);
+        query.put("servicePath", servicePath);
+        return ControlApi.query(query);
     }
 }

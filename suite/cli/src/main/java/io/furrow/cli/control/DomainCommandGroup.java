@@ -17,7 +17,9 @@ import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.JsonFile;
 import io.furrow.cli.option.CommandGroup;
+import io.furrow.cli.option.Confirmation;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.text.Counts;
 
 /** {@code ./furrow domain}. */
 @Command(
@@ -66,8 +68,9 @@ public final class DomainCommandGroup extends CommandGroup {
     }
 
     @Command(name = "list", description = "Lists all domains.")
-    int list(@Mixin ControlOptions control) {
-        return control.show(
+    int list(@Mixin ControlOptions control, @Mixin ListWatch watch) {
+        return watch.show(
+                control,
                 DOMAINS,
                 new ControlTable("There is no domain yet; ./furrow domain create makes one.")
                         .text("DOMAIN", "/domain")
@@ -110,10 +113,14 @@ public final class DomainCommandGroup extends CommandGroup {
     int delete(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "DOMAIN", description = NAME) String domain,
-            @Option(names = "--force", description = "Also if missions run in it; they are stopped.") boolean force) {
+            @Option(names = "--force", description = "Also if missions run in it; they are stopped.") boolean force,
+            @Mixin Confirmation confirmation) {
+        String path = DOMAINS + ControlApi.part(domain) + "?force=" + force;
         return control.run(api -> {
-            JsonNode answer =
-                    api.send("DELETE", DOMAINS + ControlApi.part(domain) + (force ? "?force=true" : ""), null);
+            if (confirmation.isAsked()) {
+                confirmation.ask(question(domain, api.send("DELETE", path + "&dryRun=true", null)));
+            }
+            JsonNode answer = api.send("DELETE", path, null);
             control.answered(
                     answer,
                     "deleted: domain %s; missions deleted: %s%s; fields ended: %s"
@@ -125,6 +132,17 @@ public final class DomainCommandGroup extends CommandGroup {
                                             : ", of which ran: " + names(answer.path("stopped")),
                                     counted(answer, "fieldCount", "fields")));
         });
+    }
+
+    /** @param answer of a dry run */
+    static String question(String domain, JsonNode answer) {
+        int running = answer.path("stopped").size();
+        return "Delete domain %s with %s%s, and end %s?"
+                .formatted(
+                        domain,
+                        Counts.of(answer.path("missionCount").asLong(), "mission"),
+                        running == 0 ? "" : ", of which %d %s".formatted(running, running == 1 ? "runs" : "run"),
+                        Counts.of(answer.path("fieldCount").asLong(), "field"));
     }
 
     /** A count, and the names if the answer contains them. */

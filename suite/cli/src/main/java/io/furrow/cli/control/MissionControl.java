@@ -4,7 +4,9 @@ import java.io.IOException;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.time.Instant;
+import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -21,9 +23,11 @@ import io.furrow.cli.control.table.DeviceListParts;
 import io.furrow.cli.control.table.JsonFile;
 import io.furrow.cli.control.table.MissionPage;
 import io.furrow.cli.option.CommandGroup;
+import io.furrow.cli.option.Confirmation;
 import io.furrow.cli.time.TimeConverter;
 import io.furrow.cli.time.Times;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.text.Counts;
 
 /** The commands of {@code ./furrow mission} that use the control plane. */
 @Command(addMethodSubcommands = false)
@@ -61,12 +65,12 @@ public class MissionControl extends CommandGroup {
     @Command(name = "list", description = "Lists missions with their state.")
     int list(
             @Mixin ControlOptions control,
+            @Mixin ListWatch watch,
             @Option(names = "--domain", paramLabel = "DOMAIN", description = "Only those of this domain.")
                     String domain) {
-        return control.show(
-                domain == null
-                        ? MISSIONS
-                        : MISSIONS + "?domain=" + ControlApi.part(domain).substring(1),
+        return watch.show(
+                control,
+                path(domain),
                 new ControlTable("There is no mission; ./furrow mission create makes one.")
                         .text("MISSION", "/mission")
                         .text("DOMAIN", "/domain")
@@ -77,6 +81,11 @@ public class MissionControl extends CommandGroup {
                         .time("SINCE", "/status/since")
                         .text("NEXT", MissionControl::next)
                         .text("REASON", "/status/reason"));
+    }
+
+    /** The path of the missions. @param domain null for those of all */
+    static String path(String domain) {
+        return domain == null ? MISSIONS : MISSIONS + ControlApi.query(Map.of("domain", domain));
     }
 
     /** Otherwise the devices in the desired state are those that have stopped. */
@@ -135,13 +144,20 @@ public class MissionControl extends CommandGroup {
         });
     }
 
-    @Command(name = "start", description = "Starts a mission; creates it if it does not exist.")
+    @Command(
+            name = "start",
+            description = "Starts a mission; creates it if it does not exist.",
+            footer = {
+                "",
+                "Example: ./furrow mission start weeding --domain north --template thesis-demo --at 06:00 --wait --timeout 24h"
+            })
     int start(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "MISSION", description = NAME) String mission,
             @Mixin Begin begin,
-            @Mixin Plan plan) {
-        return control.run(api -> {
+            @Mixin Plan plan,
+            @Mixin Wait wait) {
+        int code = control.run(api -> {
             ObjectNode json = plan.json(mission, begin.domain);
             if (DeviceListParts.requests(json).size() > 1) {
                 create(api, json);
@@ -149,6 +165,7 @@ public class MissionControl extends CommandGroup {
             }
             control.answered(api.send("POST", MISSIONS + ControlApi.part(mission) + "/start", begin.in(json)));
         });
+        return code == 0 ? wait.until(control, List.of(mission), "running") : code;
     }
 
     /** Start, duration and domain of a mission. */
@@ -174,14 +191,81 @@ public class MissionControl extends CommandGroup {
         }
     }
 
-    @Command(name = "stop", description = "Stops a mission.")
-    int stop(@Mixin ControlOptions control, @Parameters(paramLabel = "MISSION", description = NAME) String mission) {
-        return control.commandDone("POST", MISSIONS + ControlApi.part(mission) + "/stop", "stopped");
+    @Command(
+            name = "stop",
+            description =
+                    "Stops missions: those that are named, or those of a domain or all that run or are scheduled.",
+            footer = {"", "Example: ./furrow mission stop --domain north --wait"})
+    int stop(
+            @Mixin ControlOptions control,
+            @Mixin MissionChoice choice,
+            @Mixin Wait wait,
+            @Mixin Confirmation confirmation) {
+        choice.check(control);
+        List<String> stopped = new ArrayList<>();
+        int code = control.each(api -> choice.names(control, api, confirmation, "Stop"), (api, mission) -> {
+            control.done(api.send("POST", MISSIONS + ControlApi.part(mission) + "/stop", null), "stopped");
+            stopped.add(mission);
+        });
+        return Math.max(code, wait.until(control, stopped, "stopped"));
     }
 
-    @Command(name = "delete", description = "Deletes a mission that is not running. Its recording stays.")
-    int delete(@Mixin ControlOptions control, @Parameters(paramLabel = "MISSION", description = NAME) String mission) {
-        return control.command("DELETE", MISSIONS + ControlApi.part(mission), null);
+    /** The options to wait for the end of a start or stop. */
+    static final class Wait {
+        @Option(
+                names = "--wait",
+                description = "Wait until it is done, and print the progress. Exit code 1 if it fails or takes longer.")
+        private boolean wait;
+
+        @Option(
+                names = "--timeout",
+                paramLabel = "DURATION",
+                defaultValue = "10m",
+                description = "How long --wait waits at most. Default: ${DEFAULT-VALUE}.")
+        private Duration timeout;
+
+        /** Returns the exit code. */
+        int until(ControlOptions control, List<String> missions, String state) {
+            return wait ? MissionWatch.await(control, missions, state, timeout) : 0;
+        }
+    }
+
+    @Command(name = "delete", description = "Deletes missions that do not run. Their recordings stay.")
+    int delete(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "MISSION", arity = "1..*", description = NAME) List<String> missions,
+            @Mixin Confirmation confirmation) {
+        confirmation.ask("Delete %s?".formatted(Confirmation.named("mission", missions)));
+        return control.commands(
+                "DELETE",
+                missions.stream().map(each -> MISSIONS + ControlApi.part(each)).toList(),
+                null);
+    }
+
+    @Command(
+            name = "purge",
+            description = {
+                "Deletes the stored events and markers of missions, which no replay can play then. For admins; refused "
+                        + "while a mission or a replay of it runs. Events that arrive later are stored again.",
+                "Images stay; ./furrow images purge deletes them."
+            })
+    int purge(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "MISSION", arity = "1..*", description = "As 'replay missions' lists it.")
+                    List<String> missions,
+            @Mixin Confirmation confirmation) {
+        return control.each(api -> missions, (api, mission) -> {
+            String path = "/api/recordings" + ControlApi.part(mission);
+            if (confirmation.isAsked()) {
+                JsonNode found = api.send("DELETE", path + "?dryRun=true", null);
+                confirmation.ask("Delete %s and %s of mission %s?"
+                        .formatted(
+                                Counts.of(found.path("events").asLong(), "event"),
+                                Counts.of(found.path("markers").asLong(), "marker"),
+                                mission));
+            }
+            control.answered(api.send("DELETE", path, null));
+        });
     }
 
     @Command(
@@ -213,7 +297,6 @@ public class MissionControl extends CommandGroup {
                             defaultValue = "stopped",
                             description = "Ends with this state, for instance running. Default: ${DEFAULT-VALUE}.")
                     String until) {
-        MissionWatch watch = new MissionWatch(control, MISSIONS + ControlApi.part(mission), until);
-        return control.run(watch) == 0 && watch.isReached() ? 0 : 1;
+        return new MissionWatch(control, mission, until).run();
     }
 }

@@ -27,8 +27,9 @@ public final class ReplayCommandGroup extends CommandGroup {
     private static final String REPLAYS = "/api/replays";
 
     @Command(name = "list", description = "Lists replays, including those that wait at their end.")
-    int list(@Mixin ControlOptions control) {
-        return control.show(
+    int list(@Mixin ControlOptions control, @Mixin ListWatch watch) {
+        return watch.show(
+                control,
                 REPLAYS,
                 new ControlTable("There is no replay; ./furrow replay start MISSION asks for one.")
                         .text("REPLAY", "/replay")
@@ -43,8 +44,9 @@ public final class ReplayCommandGroup extends CommandGroup {
     @Command(
             name = "missions",
             description = "Lists the missions that can be played back, with their first and last times.")
-    int missions(@Mixin ControlOptions control) {
-        return control.show(
+    int missions(@Mixin ControlOptions control, @Mixin ListWatch watch) {
+        return watch.show(
+                control,
                 "/api/recordings",
                 new ControlTable("No mission is kept yet.")
                         .text("MISSION", "/mission")
@@ -59,7 +61,10 @@ public final class ReplayCommandGroup extends CommandGroup {
         return control.showOne(REPLAYS + ControlApi.part(replay));
     }
 
-    @Command(name = "start", description = "Starts a replay of a mission, or of several missions with one clock.")
+    @Command(
+            name = "start",
+            description = "Starts a replay of a mission, or of several missions with one clock.",
+            footer = {"", "Example: ./furrow replay start weeding --speed 10 --from -5m"})
     int start(@Mixin ControlOptions control, @Mixin ReplayStart start) {
         JsonNode body = start.body(control);
         return control.run(api -> {

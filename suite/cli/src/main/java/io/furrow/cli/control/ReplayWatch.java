@@ -52,7 +52,7 @@ final class ReplayWatch implements ControlOptions.Work {
         JsonNode first = api.get(path);
         try (ReplayEvents events = new ReplayEvents(api, path, first)) {
             events.start();
-            if (System.console() == null) {
+            if (System.console() == null || !control.isForPeople()) {
                 print(events);
                 return;
             }

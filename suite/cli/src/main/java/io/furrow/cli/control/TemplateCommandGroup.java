@@ -13,6 +13,7 @@ import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.JsonFile;
 import io.furrow.cli.option.CommandGroup;
+import io.furrow.cli.option.Confirmation;
 
 /** {@code ./furrow template}. */
 @Command(
@@ -25,8 +26,9 @@ public final class TemplateCommandGroup extends CommandGroup {
     private static final String NAME = "NAME of the template, its newest version, or NAME@VERSION.";
 
     @Command(name = "list", description = "Lists all versions of all templates.")
-    int list(@Mixin ControlOptions control) {
-        return control.show(
+    int list(@Mixin ControlOptions control, @Mixin ListWatch watch) {
+        return watch.show(
+                control,
                 TEMPLATES,
                 new ControlTable("There is no template; ./furrow template import FILE makes one.")
                         .text("TEMPLATE", "/template")
@@ -68,7 +70,10 @@ public final class TemplateCommandGroup extends CommandGroup {
     int delete(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "TEMPLATE", description = "NAME, for all versions, or NAME@VERSION.")
-                    String template) {
+                    String template,
+            @Mixin Confirmation confirmation) {
+        confirmation.ask((template.contains("@") ? "Delete template %s?" : "Delete all versions of template %s?")
+                .formatted(template));
         return control.command("DELETE", TEMPLATES + ControlApi.part(template), null);
     }
 }

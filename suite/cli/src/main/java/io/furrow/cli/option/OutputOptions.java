@@ -1,6 +1,7 @@
 package io.furrow.cli.option;
 
 import java.io.IOException;
+import java.io.PrintWriter;
 import java.util.List;
 import java.util.Locale;
 
@@ -43,6 +44,11 @@ public final class OutputOptions {
         return form == Form.TABLE || form == Form.WIDE;
     }
 
+    /** Whether the answer is printed as it is, in JSON or YAML. */
+    public boolean isForPrograms() {
+        return form == Form.JSON || form == Form.YAML;
+    }
+
     public boolean isName() {
         return form == Form.NAME;
     }
@@ -53,6 +59,13 @@ public final class OutputOptions {
 
     public boolean isEnv() {
         return form == Form.ENV;
+    }
+
+    /** Separates documents of YAML. @param before how many were printed before */
+    public void separate(PrintWriter out, int before) {
+        if (before > 0 && form == Form.YAML) {
+            out.println("---");
+        }
     }
 
     /** Returns an answer in YAML if that is the form, else in JSON. */

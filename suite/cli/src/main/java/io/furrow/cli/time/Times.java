@@ -21,14 +21,18 @@ public final class Times {
 
     /** @param time epoch ms or ISO 8601; any other text is returned as it is */
     public static String of(JsonNode time) {
-        if (time.isIntegralNumber()) {
-            return of(time.longValue());
-        }
         try {
-            return of(OffsetDateTime.parse(time.asText()).toInstant(), ZoneId.systemDefault());
+            return of(instant(time), ZoneId.systemDefault());
         } catch (DateTimeException e) {
             return time.asText();
         }
+    }
+
+    /** @param time epoch ms or ISO 8601 @throws DateTimeException if it is neither */
+    public static Instant instant(JsonNode time) {
+        return time.isIntegralNumber()
+                ? Instant.ofEpochMilli(time.longValue())
+                : OffsetDateTime.parse(time.asText()).toInstant();
     }
 
     static String of(Instant time, ZoneId zone) {

@@ -47,7 +47,11 @@ class MissionCommandGroupTest {
         assertThat(run("export", "weeding", directory.resolve("out.ndjson").toString()))
                 .isZero();
         assertThat(run("stored")).isZero();
+        assertThat(run("export", "weeding", directory.resolve("nodir/out").toString()))
+                .isNotZero();
 
+        assertThat(directory.resolve("nodir")).doesNotExist();
+        assertThat(err.toString()).contains("There is no folder " + directory.resolve("nodir"));
         assertThat(Files.readString(directory.resolve("out.ndjson"), UTF_8)).isEqualTo(lines);
         assertThat(out.toString()).contains("2 events of weeding in").containsPattern("weeding +2 events");
     }

@@ -224,6 +224,11 @@ class ControlCommandsIT {
                 .contains("collision-4")
                 .doesNotContain("collision-5");
         assertThat(run("alarm", "list", "--state", "acknowledged")).contains("collision-5");
+        assertThat(run("alarm", "list", "--from", "-1h"))
+                .contains("collision-5")
+                .doesNotContain("collision-4");
+        assertThat(run("alarm", "show", "collision-4")).contains("State:          closed");
+        assertThat(refused("alarm", "show", "collision-9")).contains("there is no alarm 'collision-9'");
         assertThat(refused("alarm", "list", "--state", "opne")).contains("--state", "opne", "ACKNOWLEDGED");
         assertThat(refused("alarm", "list", "--limit", "0")).contains("--limit");
     }
@@ -279,6 +284,23 @@ class ControlCommandsIT {
                 .contains(
                         "sent 1 dead letter from sown.dead to sown",
                         "left where they are: 1 from notifications to the NGSI source");
+    }
+
+    @Test
+    void showsHowItIsAndWhichRecordsThereAre() throws Exception {
+        run("domain", "create", "meadow");
+
+        assertThat(json("status").path("deadLetters").isObject()).isTrue();
+        assertThat(run("topic", "list")).containsPattern("service.domains +[0-9]+ +[0-9]+");
+        assertThat(run("topic", "tail", "service.domains", "--key", "meadow"))
+                .containsPattern("service.domains-[0-9]+@[0-9]+ +\\S+ +meadow +\\{");
+        String place = json("topic", "find", "service.domains", "--text", "meadow")
+                .path(0)
+                .path("offset")
+                .asText();
+        assertThat(place).matches("[0-9]+");
+        assertThat(json("domain", "show", "meadow").path("created").asText()).contains("T");
+        assertThat(refused("topic", "tail", "data.raw.dead")).contains("/api/dead-letters");
     }
 
     @Test

@@ -151,6 +151,9 @@ class MissionControlTest {
         assertThat(run(arguments.split(" "))).isZero();
 
         assertThat(output.toString().strip()).isEqualTo(printed.replace("\\n", "\n"));
+        assertThat(requested)
+                .as("times in ISO 8601 for programs")
+                .allMatch(request -> request.contains("/api/v1/") == arguments.matches(".* (yaml|json)"));
     }
 
     @Test

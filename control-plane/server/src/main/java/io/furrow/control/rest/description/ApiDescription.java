@@ -112,7 +112,8 @@ public final class ApiDescription {
                 .forEach(each -> each.path("parameters").forEach(parameter -> {
                     JsonNode resolved = MemberNames.resolved(json, parameter);
                     if ("query".equals(resolved.path("in").asText())) {
-                        parameters.put(resolved.path("name").asText(), resolved.path("schema"));
+                        parameters.put(
+                                resolved.path("name").asText(), MemberNames.resolved(json, resolved.path("schema")));
                     } else if ("header".equals(resolved.path("in").asText())) {
                         headers.add(resolved.path("name").asText());
                     }

@@ -5,20 +5,20 @@ import java.io.IOException;
 import java.io.InputStream;
 import java.io.InputStreamReader;
 import java.io.OutputStream;
-import java.net.ConnectException;
 import java.net.HttpURLConnection;
 import java.net.URI;
 import java.net.URLEncoder;
-import java.net.UnknownHostException;
+import java.util.Map;
 import java.util.Objects;
+import java.util.StringJoiner;
 import java.util.UUID;
 import java.util.concurrent.TimeUnit;
+import java.util.function.Predicate;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 import java.util.stream.Stream;
 import javax.net.ssl.HttpsURLConnection;
 import javax.net.ssl.SSLContext;
-import javax.net.ssl.SSLException;
 import javax.net.ssl.SSLSocketFactory;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -27,7 +27,6 @@ import com.fasterxml.jackson.databind.node.MissingNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
-import io.furrow.model.text.FailureText;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
@@ -41,6 +40,10 @@ public final class ControlApi {
     private static final int UNKNOWN = 404;
     private static final int AFTER_SECONDS = 1;
     private static final int MAX_PAGES = 20;
+    private static final String JSON = "application/json";
+    /** The dashboard answers the last of them, without a version. */
+    private static final Pattern UNVERSIONED = Pattern.compile("^/api/(?!v1/|platform$)");
+
     private static final Pattern NEXT = Pattern.compile("<(\\?[^>]*)>; ?rel=\"next\"");
 
     static {
@@ -50,6 +53,7 @@ public final class ControlApi {
 
     private final URI base;
     private final String token;
+    private final boolean isoTimes;
     /** One for all connections, for only those of the same factory are kept; null for that of Java. */
     private final SSLSocketFactory sockets;
 
@@ -64,19 +68,38 @@ public final class ControlApi {
      * @param token null if none is required
      */
     public ControlApi(URI base, String token) {
-        this(base, token, null);
+        this(base, token, null, false);
     }
 
-    /** @param trust the certificates to trust over https; null for those that Java trusts */
-    ControlApi(URI base, String token, SSLContext trust) {
+    /**
+     * @param trust the certificates to trust over https; null for those that Java trusts
+     * @param isoTimes whether times of answers are in ISO 8601, as version 1 has them, not in epoch ms
+     */
+    ControlApi(URI base, String token, SSLContext trust, boolean isoTimes) {
         this.base = base;
         this.token = token;
+        this.isoTimes = isoTimes;
         this.sockets = trust == null ? null : trust.getSocketFactory();
     }
 
     /** Escapes a name as a part of a path. */
     public static String part(String name) {
-        return "/" + URLEncoder.encode(name, UTF_8).replace("+", "%20");
+        return "/" + encoded(name);
+    }
+
+    private static String encoded(String text) {
+        return URLEncoder.encode(text, UTF_8).replace("+", "%20");
+    }
+
+    /** The query of the parameters that are present; empty if none is. */
+    public static String query(Map<String, ?> parameters) {
+        StringJoiner query = new StringJoiner("&", "?", "").setEmptyValue("");
+        parameters.forEach((name, value) -> {
+            if (value != null) {
+                query.add(name + "=" + encoded(value.toString()));
+            }
+        });
+        return query.toString();
     }
 
     /** @throws ControlPlaneException if it is unavailable or refuses */
@@ -84,12 +107,22 @@ public final class ControlApi {
         return send("GET", path, null);
     }
 
+    /** As {@link #get}, with one attempt. */
+    public JsonNode once(String path) {
+        return read(succeeded(exchange("GET", path, null, JSON, null)));
+    }
+
+    /** Gets {@code /ready}, whether it is or not. @throws ControlPlaneException if it is unavailable */
+    public JsonNode ready() {
+        return read(exchange("GET", "/ready", null, JSON, null));
+    }
+
     /**
      * @param body null for none
      * @throws ControlPlaneException if it is unavailable or refuses
      */
     public JsonNode send(String method, String path, JsonNode body) {
-        return read(answer(method, path, body, "application/json"));
+        return read(answer(method, path, body, JSON));
     }
 
     /**
@@ -108,11 +141,20 @@ public final class ControlApi {
      * @throws ControlPlaneException if it is unavailable or refuses
      */
     public Page list(String path, int limit) {
+        return list(path, limit, element -> false);
+    }
+
+    /** As {@link #list(String, int)}. @param isLast of an element: its page is the last that is read */
+    public Page list(String path, int limit, Predicate<JsonNode> isLast) {
         ArrayNode elements = NgsiJson.array();
         String next = path;
-        for (int page = 0; next != null && elements.size() < limit && page < MAX_PAGES; page++) {
-            Answer answer = answer("GET", next, null, "application/json");
-            read(answer).forEach(elements::add);
+        boolean ended = false;
+        for (int page = 0; next != null && !ended && elements.size() < limit && page < MAX_PAGES; page++) {
+            Answer answer = answer("GET", next, null, JSON);
+            for (JsonNode element : read(answer)) {
+                elements.add(element);
+                ended |= isLast.test(element);
+            }
             Matcher link = NEXT.matcher(answer.link());
             next = link.find() ? path.replaceFirst("\\?.*", "") + link.group(1) : null;
         }
@@ -130,6 +172,10 @@ public final class ControlApi {
             sleep(answer.retryAfter());
             answer = exchange(method, path, body, accept, key);
         }
+        return succeeded(answer);
+    }
+
+    private Answer succeeded(Answer answer) {
         if (answer.status() / 100 == 2) {
             return answer;
         }
@@ -167,7 +213,7 @@ public final class ControlApi {
                     .lines()
                     .onClose(connection::disconnect);
         } catch (IOException e) {
-            throw failure(e);
+            throw ControlPlaneException.noAnswer(base, e);
         }
     }
 
@@ -178,7 +224,7 @@ public final class ControlApi {
                 connection.setRequestProperty("Idempotency-Key", key);
             }
             if (body != null || method.equals("POST")) { // some proxies refuse a POST without a length
-                connection.setRequestProperty("Content-Type", "application/json");
+                connection.setRequestProperty("Content-Type", JSON);
                 connection.setDoOutput(true);
                 try (OutputStream out = connection.getOutputStream()) {
                     out.write(NgsiJson.write(body == null ? NgsiJson.object() : body));
@@ -191,13 +237,14 @@ public final class ControlApi {
                 return new Answer(status, retryAfter, link, answer == null ? new byte[0] : answer.readAllBytes());
             }
         } catch (IOException e) {
-            throw failure(e);
+            throw ControlPlaneException.noAnswer(base, e);
         }
     }
 
     /** Uses a client without threads of its own, for which the JVM would wait at the end, and without PATCH. */
     private HttpURLConnection open(String method, String path, String accept) throws IOException {
-        URI uri = URI.create(base.toString().replaceAll("/+$", "") + path);
+        String versioned = isoTimes ? UNVERSIONED.matcher(path).replaceFirst("/api/v1/") : path;
+        URI uri = URI.create(base.toString().replaceAll("/+$", "") + versioned);
         HttpURLConnection connection = (HttpURLConnection) uri.toURL().openConnection();
         if (sockets != null && connection instanceof HttpsURLConnection encrypted) {
             encrypted.setSSLSocketFactory(sockets);
@@ -214,21 +261,6 @@ public final class ControlApi {
             connection.setRequestProperty("Authorization", "Bearer " + token);
         }
         return connection;
-    }
-
-    private ControlPlaneException failure(IOException e) {
-        String why = FailureText.of(e);
-        String sentence;
-        if (e instanceof SSLException) {
-            sentence = "The control plane at %s cannot be trusted (%s). Name the certificate of its CA with --api-ca.";
-        } else if (e instanceof UnknownHostException) {
-            sentence = "No control plane is at %s: %s. Check --api.";
-        } else if (e instanceof ConnectException || "Connect timed out".equals(e.getMessage())) {
-            sentence = "No control plane answers at %s. Is it running? ./furrow up starts one; --api names another.";
-        } else {
-            sentence = "The control plane at %s has not answered (%s). It may have carried a command out.";
-        }
-        return new ControlPlaneException(sentence.formatted(base, why), e);
     }
 
     private static void sleep(String seconds) {

@@ -6,11 +6,8 @@ import java.io.UncheckedIOException;
 import java.net.URI;
 import java.nio.file.Path;
 import java.util.List;
-import java.util.Locale;
 import java.util.Map;
 import java.util.function.Function;
-import java.util.regex.Matcher;
-import java.util.regex.Pattern;
 import javax.net.ssl.SSLContext;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -32,8 +29,6 @@ import io.furrow.model.text.FailureText;
 
 /** Common options of the commands that use the control plane: its address, the credentials, and the format of the output. */
 public final class ControlOptions {
-    private static final Pattern MEMBER = Pattern.compile("(?:\\ba member |^)'(\\w+)'");
-
     @Spec(Spec.Target.MIXEE)
     private CommandSpec spec;
 
@@ -71,6 +66,11 @@ public final class ControlOptions {
         void with(ControlApi api) throws IOException;
     }
 
+    /** A use of the API for one of several names. */
+    public interface NamedWork {
+        void with(ControlApi api, String name) throws IOException;
+    }
+
     /** Prints the content of a path as rows of a table; one object is one row. */
     public int show(String path, ControlTable table) {
         return run(api -> print(api.get(path), table));
@@ -78,7 +78,7 @@ public final class ControlOptions {
 
     /** Prints the rows of a table. */
     public void print(JsonNode answer, ControlTable table) throws IOException {
-        print(answer, all -> table.lines(rows(all)), all -> table.names(rows(all)));
+        print(answer, all -> table.lines(ControlTable.rows(all)), all -> table.names(ControlTable.rows(all)));
     }
 
     /** Prints a list by its lines, which are as wide as the terminal, or its names. */
@@ -125,6 +125,11 @@ public final class ControlOptions {
         return run(api -> answered(api.send(method, path, body)));
     }
 
+    /** Sends a command to each path and prints the answers, a line each. */
+    public int commands(String method, List<String> paths, JsonNode body) {
+        return each(api -> paths, (api, path) -> answered(api.send(method, path, body)));
+    }
+
     /** Sends a command and prints the answer, and the members of the command. */
     public int commandEchoed(String method, String path, ObjectNode body) {
         return run(api -> {
@@ -139,10 +144,7 @@ public final class ControlOptions {
 
     /** Sends a command and prints the answer. @param done a sentence about the effect */
     public int commandDone(String method, String path, String done) {
-        return run(api -> {
-            JsonNode answer = api.send(method, path, null);
-            answered(answer, done + ": " + AnswerText.sentence(answer));
-        });
+        return run(api -> done(api.send(method, path, null), done));
     }
 
     /** Sends a command and prints the object in the answer, a member per line. */
@@ -152,7 +154,12 @@ public final class ControlOptions {
 
     /** Prints the answer to a command. */
     public void answered(JsonNode answer) throws IOException {
-        answered(answer, answer.path("status").asText("done") + ": " + AnswerText.sentence(answer));
+        done(answer, answer.path("status").asText("done"));
+    }
+
+    /** Prints the answer to a command. @param done a word about the effect */
+    public void done(JsonNode answer, String done) throws IOException {
+        answered(answer, done + ": " + AnswerText.sentence(answer));
     }
 
     /** Prints the answer to a command. @param sentence about the effect */
@@ -160,11 +167,12 @@ public final class ControlOptions {
         print(answer, any -> List.of(sentence));
     }
 
-    private void print(JsonNode answer, Function<JsonNode, List<String>> page) throws IOException {
+    /** Prints an object as a page. */
+    public void print(JsonNode answer, Function<JsonNode, List<String>> page) throws IOException {
         if (output.isForPeople()) {
             page.apply(answer).forEach(out()::println);
         } else if (output.isName()) {
-            rows(answer).forEach(row -> out().println(AnswerText.name(row)));
+            ControlTable.rows(answer).forEach(row -> out().println(AnswerText.name(row)));
         } else {
             print(answer);
         }
@@ -178,9 +186,34 @@ public final class ControlOptions {
         return runWith(work);
     }
 
+    /** Runs it for each name, also after one was refused. @return the exit code, 0 if none was */
+    public int each(Function<ControlApi, List<String>> names, NamedWork work) {
+        boolean[] refused = new boolean[1];
+        int code = run(api -> {
+            int done = 0;
+            for (String name : names.apply(api)) {
+                try {
+                    output.separate(out(), done++);
+                    work.with(api, name);
+                } catch (ControlPlaneException e) {
+                    if (e.problem() == null) {
+                        throw e; // it would be the same for the others
+                    }
+                    refused[0] = true;
+                    spec.commandLine().getErr().println(reason(e));
+                }
+            }
+        });
+        return refused[0] ? failed() : code;
+    }
+
+    private int failed() {
+        return spec.commandLine().getCommandSpec().exitCodeOnExecutionException();
+    }
+
     private int runWith(Work work) {
         try {
-            work.with(new ControlApi(api, token(), trust()));
+            work.with(new ControlApi(api, token(), trust(), output.isForPrograms()));
             out().flush();
             return 0;
         } catch (ControlPlaneException e) {
@@ -188,25 +221,17 @@ public final class ControlOptions {
         } catch (IOException e) {
             spec.commandLine().getErr().println("cannot read or write: " + FailureText.of(e));
         }
-        return spec.commandLine().getCommandSpec().exitCodeOnExecutionException();
+        return failed();
     }
 
     private String reason(ControlPlaneException rejection) {
         try {
-            return output.isForPeople() || output.isName() || rejection.problem() == null
-                    ? inOptions(rejection.getMessage())
-                    : output.text(rejection.problem());
+            return output.isForPrograms() && rejection.problem() != null
+                    ? output.text(rejection.problem())
+                    : rejection.sentence(spec);
         } catch (IOException e) { // it was read from JSON
             throw new UncheckedIOException(e);
         }
-    }
-
-    /** Names the option where the control plane names the member of the request that was made of it. */
-    private String inOptions(String message) {
-        return MEMBER.matcher(message).replaceAll(named -> {
-            String option = "--" + named.group(1).replaceAll("([A-Z])", "-$1").toLowerCase(Locale.ROOT);
-            return Matcher.quoteReplacement(spec.findOption(option) == null ? named.group() : option);
-        });
     }
 
     /** Rejects the arguments of a command. */
@@ -217,6 +242,11 @@ public final class ControlOptions {
     /** Prints a sentence below an answer, or beside it where that is for programs. */
     public void remark(String sentence) {
         (isForPeople() ? out() : spec.commandLine().getErr()).println(sentence);
+    }
+
+    /** Prints a sentence about what went wrong. */
+    public void warn(String sentence) {
+        spec.commandLine().getErr().println(sentence);
     }
 
     public boolean isForPeople() {
@@ -245,19 +275,6 @@ public final class ControlOptions {
             }
         });
         return json;
-    }
-
-    /** A list may be the answer itself, or the only list of an object. */
-    private static JsonNode rows(JsonNode answer) {
-        if (answer.isArray()) {
-            return answer;
-        }
-        for (JsonNode member : answer) {
-            if (member.isArray() && answer.size() == 1) {
-                return member;
-            }
-        }
-        return JsonNodeFactory.instance.arrayNode().add(answer);
     }
 
     private String token() {

@@ -9,6 +9,7 @@ import java.util.stream.Stream;
 
 import com.fasterxml.jackson.core.JsonPointer;
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.MissingNode;
 
 import io.furrow.cli.time.Times;
@@ -78,15 +79,40 @@ public final class ControlTable {
         }
         List<List<String>> cells = new ArrayList<>();
         cells.add(columns.stream().map(Column::title).toList());
-        rows.forEach(row ->
-                cells.add(columns.stream().map(column -> cell(column, row)).toList()));
+        rows.forEach(row -> cells.add(cells(row)));
+        int[] widths = widths(cells);
+        return cells.stream().map(line -> line(line, widths)).toList();
+    }
+
+    /** One line for each of some objects, each column as wide as for all of them. */
+    public List<String> lines(JsonNode some, JsonNode all) {
+        List<List<String>> cells = new ArrayList<>();
+        cells.add(columns.stream().map(Column::title).toList());
+        all.forEach(row -> cells.add(cells(row)));
+        int[] widths = widths(cells);
+        return some.valueStream().map(row -> line(cells(row), widths)).toList();
+    }
+
+    /** What a table shows of an object, except ages, which change by themselves. */
+    public List<String> content(JsonNode row) {
+        return columns.stream()
+                .filter(column -> column.kind() != Kind.AGE)
+                .map(column -> cell(column, row))
+                .toList();
+    }
+
+    private List<String> cells(JsonNode row) {
+        return columns.stream().map(column -> cell(column, row)).toList();
+    }
+
+    private int[] widths(List<List<String>> cells) {
         int[] widths = new int[columns.size()];
         for (List<String> line : cells) {
             for (int i = 0; i < widths.length; i++) {
                 widths[i] = Math.max(widths[i], line.get(i).length());
             }
         }
-        return cells.stream().map(line -> line(line, widths)).toList();
+        return widths;
     }
 
     /** The first cell of each object. */
@@ -124,6 +150,17 @@ public final class ControlTable {
             case AGE -> Times.age(Duration.ofMillis(clock.millis() - value.asLong()));
             case TEXT -> printable(textOf(value));
         };
+    }
+
+    /** Returns the list that an answer is or has as its only member, or a list of the answer. */
+    public static JsonNode rows(JsonNode answer) {
+        if (answer.isArray()) {
+            return answer;
+        }
+        JsonNode first = answer.iterator().hasNext() ? answer.iterator().next() : answer;
+        return answer.size() == 1 && first.isArray()
+                ? first
+                : JsonNodeFactory.instance.arrayNode().add(answer);
     }
 
     /** Returns a value without quotes, an object or a list as JSON. */

@@ -1,21 +1,16 @@
 package io.furrow.cli.control.table;
 
-import java.io.UncheckedIOException;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.StringJoiner;
 
-import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.cli.time.Times;
-import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.Counts;
 
-/** Prints dead letters: two lines for each in a list, because topics and messages are long, and a page for one. */
+/** Prints dead letters: two lines for each in a list, because topics and messages are long. */
 public final class DeadLetterTable {
-    private static final List<String> MEMBERS = List.of("reason", "stage", "message", "source", "key", "size");
-
     private DeadLetterTable() {}
 
     /** A line with place, time, reason and stage, and one with the message, for each letter. */
@@ -26,8 +21,12 @@ public final class DeadLetterTable {
         List<String> lines = new ArrayList<>();
         for (JsonNode letter : letters) {
             lines.add("%s  %s  %s  %s"
-                    .formatted(place(letter), time(letter), text(letter, "reason"), text(letter, "stage")));
-            lines.add("  " + text(letter, "message"));
+                    .formatted(
+                            RecordPage.place(letter),
+                            Times.of(letter.path("time")),
+                            RecordPage.text(letter.path("reason")),
+                            RecordPage.text(letter.path("stage"))));
+            lines.add("  " + RecordPage.text(letter.path("message")));
         }
         return lines;
     }
@@ -35,57 +34,8 @@ public final class DeadLetterTable {
     /** The place of each letter, as show takes it. */
     public static List<String> names(JsonNode letters) {
         List<String> names = new ArrayList<>();
-        letters.forEach(letter -> names.add(place(letter)));
+        letters.forEach(letter -> names.add(RecordPage.place(letter)));
         return names;
-    }
-
-    private static String place(JsonNode letter) {
-        return "%s-%s@%s"
-                .formatted(
-                        letter.path("topic").asText(),
-                        letter.path("partition").asText(),
-                        letter.path("offset").asText());
-    }
-
-    private static String time(JsonNode letter) {
-        return Times.of(letter.path("time").asLong());
-    }
-
-    private static String text(JsonNode letter, String member) {
-        JsonNode value = letter.path(member);
-        return value.isMissingNode() || value.isNull() ? "-" : ControlTable.printable(ControlTable.textOf(value));
-    }
-
-    /** A letter with its headers and its value. */
-    public static List<String> page(JsonNode letter) {
-        List<String> lines = new ArrayList<>();
-        lines.add("letter   " + place(letter));
-        lines.add("time     " + time(letter));
-        MEMBERS.forEach(member -> lines.add("%-8s %s".formatted(member, text(letter, member))));
-        lines.add("headers");
-        letter.path("headers")
-                .properties()
-                .forEach(header -> lines.add("  %s: %s"
-                        .formatted(
-                                ControlTable.printable(header.getKey()),
-                                ControlTable.printable(header.getValue().asText()))));
-        if (letter.has("value")) {
-            lines.add("value, as " + letter.path("encoding").asText()
-                    + (letter.path("cut").asBoolean() ? ", the beginning only" : ""));
-            lines.addAll(value(letter.path("value")));
-        }
-        return lines;
-    }
-
-    private static List<String> value(JsonNode value) {
-        try {
-            String text = value.isContainerNode()
-                    ? NgsiJson.mapper().writerWithDefaultPrettyPrinter().writeValueAsString(value)
-                    : value.asText();
-            return text.lines().map(ControlTable::printable).toList();
-        } catch (JsonProcessingException e) { // it was read from JSON
-            throw new UncheckedIOException(e);
-        }
     }
 
     /** Sentences about what a redrive has sent and left. */

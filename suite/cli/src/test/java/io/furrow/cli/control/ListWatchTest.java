@@ -1,0 +1,79 @@
+package io.furrow.cli.control;
+
+import java.util.concurrent.Callable;
+
+import org.junit.jupiter.api.AutoClose;
+import org.junit.jupiter.api.Test;
+import picocli.CommandLine;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+
+import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.table.ControlTable;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class ListWatchTest {
+    @AutoClose
+    private final StubControl control = new StubControl();
+
+    @Command(name = "list")
+    private static final class ListCommand implements Callable<Integer> {
+        @Mixin
+        private ControlOptions options;
+
+        @Mixin
+        private final ListWatch watch = new ListWatch(1);
+
+        @Override
+        public Integer call() {
+            return watch.show(
+                    options,
+                    "/api/list",
+                    new ControlTable("none")
+                            .text("NAME", "/name")
+                            .text("STATE", "/state")
+                            .age("AGE", "/since"));
+        }
+    }
+
+    @Test
+    void printsWhatIsNewOrHasChanged() {
+        control.answer("GET /api/list", "[{'name':'a','state':'off','since':0},{'name':'b','state':'on','since':0}]")
+                .answer("GET /api/list", "[{'name':'a','state':'off','since':9},{'name':'b','state':'off','since':0}]")
+                .answer("GET /api/list", "[{'name':'a','state':'off','since':0},{'name':'b','state':'off','since':0}]")
+                .answer("GET /api/list", "[{'name':'long-name','state':'on'},{'name':'a','state':'off'}]")
+                .answer("GET /api/list", 409, "{'error':'over','reason':'it ends'}");
+
+        assertThat(run("--watch")).isEqualTo(1);
+
+        assertThat(control.output().lines().map(line -> line.replaceAll("[0-9]+d", "days")))
+                .containsExactly(
+                        "NAME  STATE  AGE",
+                        "a     off    days",
+                        "b     on     days",
+                        "b     off    days",
+                        "long-name  on     -",
+                        "it ends (over)");
+    }
+
+    @Test
+    void printsNamesOfWhatIsNewAndEndsWithoutTheOption() {
+        control.answer("GET /api/list", "[{'name':'a'}]")
+                .answer("GET /api/list", "[{'name':'a'},{'name':'b'}]")
+                .answer("GET /api/list", 409, "{'error':'over','reason':'it ends'}");
+
+        run("-w", "-o", "name");
+        assertThat(control.output().lines()).containsExactly("a", "b", "it ends (over)");
+
+        control.answer("GET /api/list", "[]");
+        run();
+        control.output();
+        assertThat(run()).isZero();
+        assertThat(control.output()).isEqualToIgnoringNewLines("none");
+    }
+
+    private int run(String... arguments) {
+        return control.run(new CommandLine(new ListCommand()), arguments);
+    }
+}
