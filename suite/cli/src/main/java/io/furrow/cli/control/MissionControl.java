@@ -269,20 +269,6 @@ public class MissionControl extends CommandGroup {
     }
 
     @Command(
-            name = "purge",
-            description = {
-                "Deletes all events and markers of a stored mission that neither runs nor is replayed. Its images stay; ./furrow images purge deletes them.",
-                "Events that arrive late store it anew."
-            })
-    int purge(
-            @Mixin ControlOptions control,
-            @Parameters(paramLabel = "MISSION", description = NAME) String mission,
-            @Option(names = "--dry-run", description = "Count them, delete nothing.") boolean dryRun) {
-        return control.command(
-                "DELETE", "/api/recordings/" + ControlApi.part(mission) + (dryRun ? "?dryRun=true" : ""), null);
-    }
-
-    @Command(
             name = "watch",
             description = {
                 "Prints a line for each change of a mission until it has stopped or failed.",

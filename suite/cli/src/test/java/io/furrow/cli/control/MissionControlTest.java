@@ -37,18 +37,6 @@ class MissionControlTest {
     });
 
     @ParameterizedTest
-    @CsvSource({"'', ''", "--dry-run, ?dryRun=true"})
-    void purgesAStoredMission(String option, String query) {
-        answer = "{\"type\":\"response\",\"status\":\"purged\",\"mission\":\"m\",\"events\":4,\"markers\":1}";
-
-        assertThat(option.isEmpty() ? run("mission", "purge", "m") : run("mission", "purge", "m", option))
-                .isZero();
-
-        assertThat(output.toString()).contains("purged", "mission m", "events 4");
-        assertThat(requested).containsExactly("DELETE /api/recordings/m" + query);
-    }
-
-    @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
             created  | -
             starting | 2
