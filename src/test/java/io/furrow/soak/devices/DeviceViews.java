@@ -193,7 +193,12 @@ record DeviceViews(UpProcess up, ProgramPlan plan, CheckResults checkResults) {
         long now = System.currentTimeMillis();
         long min = Long.MAX_VALUE;
         for (ProgramPlan.Device each : quiet) {
-            min = Math.min(min, now - up.get("/api/devices/" + each.id()).at("/health/heard").asLong());
+            min = Math.min(
+                    min,
+                    now
+                            - up.get("/api/devices/" + each.id())
+                                    .at("/health/heard")
+                                    .asLong());
         }
         if (min < SILENT_WITHOUT_A_PERIOD_MILLIS) {
             differences.add("the quiet devices were not quiet for long enough");

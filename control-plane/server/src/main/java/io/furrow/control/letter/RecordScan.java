@@ -72,9 +72,7 @@ final class RecordScan {
         int max = query.whole() ? Math.max(1, MAX_VALUES / Math.max(1, starts.size())) : MAX_WINDOW;
         int size = Math.min(max, 2 + 2 * query.limit() / Math.max(1, starts.size()));
         List<TopicPartition> unread = unread();
-        for (long records = 0;
-                !unread.isEmpty() && records < MAX_READ && !isFull() && !isLate(2);
-                unread = unread()) {
+        for (long records = 0; !unread.isEmpty() && records < MAX_READ && !isFull() && !isLate(2); unread = unread()) {
             read(unread, size);
             records += (long) size * unread.size();
             size = Math.min(max, 2 * size);

@@ -168,7 +168,8 @@ class TimelineIT {
                                 .formatted(i, TIME + i))
                 .collect(Collectors.joining());
         assertThat(load("sown", lines).path("events").asInt()).isEqualTo(3_000);
-        byte[] exported = client.send("GET", "/api/recordings/sown/events", null).body();
+        byte[] exported =
+                client.send("GET", "/api/recordings/sown/events", null).body();
         assertThat(new String(exported, UTF_8)).isEqualTo(lines);
         load("copy", lines);
         load("copy", lines);

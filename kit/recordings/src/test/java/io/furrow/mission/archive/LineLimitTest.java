@@ -19,8 +19,8 @@ class LineLimitTest {
         byte[] longest = new byte[LineLimit.MAX_BYTES + 1];
         Arrays.fill(longest, (byte) 'x');
         longest[longest.length - 1] = '\n';
-        try (InputStream lines = new LineLimit(new SequenceInputStream(
-                new ByteArrayInputStream(longest), new ByteArrayInputStream(longest)))) {
+        try (InputStream lines = new LineLimit(
+                new SequenceInputStream(new ByteArrayInputStream(longest), new ByteArrayInputStream(longest)))) {
             assertThat(lines.readAllBytes()).hasSize(2 * longest.length);
         }
 
