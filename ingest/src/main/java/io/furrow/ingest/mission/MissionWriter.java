@@ -33,6 +33,8 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
     private static final int MAX_BYTES = 8 * 1024 * 1024;
     /** Age of the oldest document at which a bulk is sent to an idle server, which syncs its disk for each bulk. */
     private static final long GATHERING_NANOS = Duration.ofSeconds(1).toNanos();
+    /** Number of documents likewise: the work of larger bulks delays the events of that moment. */
+    private static final int GATHERED_DOCUMENTS = 128;
 
     private final BulkSender<MissionDocument> sender;
     private final SinkWriter<TopicRecord> deadLetters;
@@ -68,7 +70,8 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
         gathered.add(document);
         gatheredBytes += document.bson().length;
         boolean full = gathered.size() >= MAX_DOCUMENTS || gatheredBytes >= MAX_BYTES;
-        if (full || underWay.isDone() && System.nanoTime() - gatheredSince >= GATHERING_NANOS) {
+        boolean due = gathered.size() >= GATHERED_DOCUMENTS || System.nanoTime() - gatheredSince >= GATHERING_NANOS;
+        if (full || due && underWay.isDone()) {
             sendGathered();
         }
     }

@@ -110,6 +110,15 @@ class MissionWriterTest {
     }
 
     @Test
+    void sendsManyDocumentsAtOnceToAServerThatIsIdle() throws Exception {
+        for (int i = 0; i < 128; i++) {
+            writer.write(Events.document("m", i), null);
+        }
+
+        await().until(() -> collections.get("mission_m").countDocuments() > 0);
+    }
+
+    @Test
     void letsACheckpointPassInTheTimeOfAFewAnswersHoweverManyMissionsThereAre() throws Exception {
         MongoClient slow = InterceptedMongo.answeringAfter(client, Duration.ofMillis(50));
         writer = writer(new MissionCollections(slow, Retention.FOR_EVER, Clock.systemUTC()));
