@@ -53,9 +53,9 @@ public final class MissionCommandGroup extends MissionControl {
         @Option(
                 names = "--mongo",
                 paramLabel = "URI",
-                defaultValue = "mongodb://127.0.0.1:27017",
-                description = "MongoDB; @FILE reads the URI, and so its password, from a file. "
-                        + "Default: that of a suite on this machine, ${DEFAULT-VALUE}.")
+                defaultValue = "${env:FURROW_MONGO:-mongodb://127.0.0.1:27017}",
+                description = "MongoDB; @FILE reads the URI, and so its password, from a file. Default: $FURROW_MONGO, "
+                        + "else that of a suite on this machine, mongodb://127.0.0.1:27017.")
         private String mongo;
 
         @Mixin

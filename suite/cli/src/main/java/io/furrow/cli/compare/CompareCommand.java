@@ -58,8 +58,12 @@ public final class CompareCommand implements Callable<Integer> {
     @Parameters(index = "1", paramLabel = "B", description = SIDE)
     private String b;
 
-    @Option(names = "--kafka", paramLabel = "HOST:PORT", description = "Kafka to read from. Default: ${DEFAULT-VALUE}.")
-    private String kafka = "127.0.0.1:9092";
+    @Option(
+            names = "--kafka",
+            paramLabel = "HOST:PORT",
+            defaultValue = KafkaClient.DEFAULT,
+            description = "Kafka to read from. " + KafkaClient.DEFAULTS)
+    private String kafka;
 
     @Option(
             names = "--kafka-properties",

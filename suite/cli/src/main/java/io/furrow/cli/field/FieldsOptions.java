@@ -23,8 +23,9 @@ public final class FieldsOptions {
     @Option(
             names = "--kafka",
             paramLabel = "HOST:PORT",
-            description = "Kafka that holds service.fields. Default: ${DEFAULT-VALUE}.")
-    private String kafka = "127.0.0.1:9092";
+            defaultValue = KafkaClient.DEFAULT,
+            description = "Kafka that holds service.fields. " + KafkaClient.DEFAULTS)
+    private String kafka;
 
     @Option(
             names = "--kafka-properties",
