@@ -4,7 +4,6 @@ import java.util.Arrays;
 import java.util.List;
 import java.util.stream.Stream;
 
-import picocli.AutoComplete.GenerateCompletion;
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.HelpCommand;
@@ -84,7 +83,7 @@ public final class Furrow {
             replay.addSubcommand(new AnalyticsCommand());
         }
         furrow.addSubcommand(new HelpCommand());
-        furrow.addSubcommand(new GenerateCompletion());
+        furrow.addSubcommand(new CompletionCommand());
         furrow.getCommandSpec().version(Version.TEXT);
         IExecutionStrategy strategy = furrow.getExecutionStrategy();
         return furrow.setExecutionStrategy(parsed -> {
