@@ -59,7 +59,10 @@ public final class Furrow {
     public static void main(String... args) {
         // Kafka and Connect log through log4j, which must know its file before the first of them loads.
         System.setProperty("java.awt.headless", "true");
-        int exitCode = commandLine(args).execute(args);
+        int exitCode = commandLine(args)
+                .setOut(AsciiWriter.to(System.out))
+                .setErr(AsciiWriter.to(System.err))
+                .execute(args);
         System.exit(exitCode);
     }
 
