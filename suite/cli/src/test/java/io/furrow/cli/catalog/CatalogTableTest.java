@@ -49,6 +49,23 @@ class CatalogTableTest {
     }
 
     @Test
+    void makesRoomForLongNames() throws Exception {
+        String entry = """
+                {"domain": "%s", "mission": "weeding", "type": "Thermometer", "attributes": {"%s": {"unit": "CEL"}}}""";
+        String name = "a".repeat(40);
+
+        List<String> lines = CatalogTable.lines(List.of(
+                NgsiJson.read(entry.formatted(name, name).getBytes(UTF_8)),
+                NgsiJson.read(entry.formatted("b", "b").getBytes(UTF_8))));
+
+        assertThat(lines).hasSize(6);
+        assertThat(List.of(lines.get(0).indexOf("TYPE"), lines.get(4).indexOf("Thermometer")))
+                .containsOnly(lines.get(2).indexOf("Thermometer"));
+        assertThat(List.of(lines.get(1).indexOf("unit"), lines.get(5).indexOf("CEL")))
+                .containsOnly(lines.get(3).indexOf("CEL"));
+    }
+
+    @Test
     void reportsThatNothingIsStored() {
         assertThat(CatalogTable.lines(List.of())).containsExactly("Nothing is stored yet.");
     }
