@@ -1,7 +1,6 @@
 package io.furrow.cli.field;
 
 import java.io.IOException;
-import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.List;
 
@@ -42,14 +41,13 @@ public final class FieldsOptions {
 
     /** Prints lines, ids, JSON or YAML, depending on the option. */
     public void print(List<String> lines, JsonNode json) throws IOException {
-        PrintWriter out = spec.commandLine().getOut();
-        if (output.isName()) {
-            json.path("features").forEach(field -> out.println(field.path("id").asText()));
-        } else if (output.isForPeople()) {
-            output.table(lines).forEach(out::println);
-        } else {
-            out.println(output.text(json));
-        }
-        out.flush();
+        output.print(
+                spec.commandLine().getOut(),
+                json,
+                lines,
+                json.path("features")
+                        .valueStream()
+                        .map(field -> field.path("id").asText())
+                        .toList());
     }
 }

@@ -333,7 +333,7 @@ class CommandLineTest {
         assertThat(furrow.execute("generate-completion")).isZero();
 
         assertThat(out.toString())
-                .contains("(\"table\" \"json\"", "(\"open\" \"acknowledged\"")
+                .contains("(\"table\" \"wide\" \"json\"", "(\"open\" \"acknowledged\"")
                 .doesNotContain("\"TABLE\"", "\"OPEN\"", "\"JSONL\"");
     }
 

@@ -181,7 +181,7 @@ public final class ControlOptions {
     /** Runs it and prints a sentence if it fails. @return the exit code */
     public int run(Work work) {
         if (output.isCsv() || output.isEnv()) {
-            throw refused("--output csv and env are for 'device credentials'; use table, wide, json, yaml or name");
+            throw refused(OutputOptions.CREDENTIALS_ONLY);
         }
         return runWith(work);
     }
