@@ -87,6 +87,7 @@ public final class Furrow {
         }
         furrow.addSubcommand(new HelpCommand());
         furrow.addSubcommand(new CompletionCommand());
+        HelpExamples.addTo(furrow);
         furrow.getCommandSpec().version(Version.TEXT);
         IExecutionStrategy strategy = furrow.getExecutionStrategy();
         return furrow.setExecutionStrategy(parsed -> {
