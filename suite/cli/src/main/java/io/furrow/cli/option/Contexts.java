@@ -7,7 +7,6 @@ import java.nio.file.Path;
 import java.util.Collections;
 import java.util.List;
 import java.util.Map;
-import java.util.Objects;
 import java.util.Properties;
 import java.util.TreeMap;
 import java.util.stream.Stream;
@@ -125,18 +124,19 @@ public final class Contexts implements IDefaultValueProvider {
         if (!(argument instanceof OptionSpec option)) {
             return null;
         }
+        String name = option.longestName().replaceFirst("^--", "");
+        return OPTIONS.containsKey(name) ? defaults(option).get(name) : null;
+    }
+
+    private Map<String, String> defaults(OptionSpec option) {
         try {
             if (defaults == null) {
                 defaults = defaults();
             }
+            return defaults;
         } catch (IOException e) {
             throw new ParameterException(option.command().commandLine(), e.getMessage(), e);
         }
-        return Stream.of(option.names())
-                .map(name -> defaults.get(name.replaceFirst("^--", "")))
-                .filter(Objects::nonNull)
-                .findFirst()
-                .orElse(null);
     }
 
     private Map<String, String> defaults() throws IOException {

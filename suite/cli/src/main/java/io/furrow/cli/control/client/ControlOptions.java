@@ -37,7 +37,10 @@ public final class ControlOptions {
             paramLabel = "URL",
             converter = HttpUriConverter.class,
             defaultValue = "${env:FURROW_API:-http://127.0.0.1:8085}",
-            description = "REST API of the control plane. Default: $FURROW_API, else http://127.0.0.1:8085.")
+            description = {
+                "REST API of the control plane.",
+                "Default: $FURROW_API, else http://127.0.0.1:8085." // a line of its own: it would be divided at a dot
+            })
     private URI api;
 
     @Option(
