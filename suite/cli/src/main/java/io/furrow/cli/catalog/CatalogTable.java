@@ -51,7 +51,10 @@ public final class CatalogTable {
         ArrayNode all = NgsiJson.array();
         attributes.forEach(all::addAll);
         Iterator<String> attributeLines = ATTRIBUTES.lines(all).iterator();
-        List<String> lines = new ArrayList<>(List.of(entryLines.get(0), INDENT + attributeLines.next()));
+        List<String> lines = new ArrayList<>(List.of(entryLines.get(0)));
+        if (!all.isEmpty()) {
+            lines.add(INDENT + attributeLines.next());
+        }
         for (int i = 0; i < entries.size(); i++) {
             lines.add(entryLines.get(i + 1));
             attributes.get(i).forEach(any -> lines.add(INDENT + attributeLines.next()));

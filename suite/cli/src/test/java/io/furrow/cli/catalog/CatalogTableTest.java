@@ -2,6 +2,7 @@ package io.furrow.cli.catalog;
 
 import java.util.List;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -63,6 +64,16 @@ class CatalogTableTest {
                 .containsOnly(lines.get(2).indexOf("Thermometer"));
         assertThat(List.of(lines.get(1).indexOf("unit"), lines.get(5).indexOf("CEL")))
                 .containsOnly(lines.get(3).indexOf("CEL"));
+    }
+
+    @Test
+    void showsTypesWithoutAttributes() throws Exception {
+        JsonNode entry = NgsiJson.read("{\"domain\": \"north\", \"type\": \"Camera\"}".getBytes(UTF_8));
+
+        assertThat(CatalogTable.lines(List.of(entry)))
+                .satisfiesExactly(
+                        line -> assertThat(line).startsWith("DOMAIN / MISSION"),
+                        line -> assertThat(line).startsWith("north / -         Camera"));
     }
 
     @Test
