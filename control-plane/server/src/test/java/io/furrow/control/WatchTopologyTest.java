@@ -127,7 +127,7 @@ class WatchTopologyTest {
         JsonNode alarm = farm.newest(Topics.ALARMS);
         assertThat(alarm.path("kind").asText()).isEqualTo("clock-behind");
         assertThat(alarm.path("text").asText())
-                .isEqualTo("reports of t arrive 7200.0 s too late and are dropped: check its clock and its link");
+                .isEqualTo("reports of t arrive 2 h too late and are dropped: check its clock and its link");
     }
 
     @Test

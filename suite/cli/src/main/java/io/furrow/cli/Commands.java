@@ -6,12 +6,14 @@ import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.Comparator;
 import java.util.List;
+import java.util.stream.Stream;
 
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Model.CommandSpec;
 
 import io.furrow.cli.command.CatalogCommand;
+import io.furrow.cli.command.ContextCommandGroup;
 import io.furrow.cli.command.FieldsCommandGroup;
 import io.furrow.cli.command.ImagesCommand;
 import io.furrow.cli.command.MissionCommandGroup;
@@ -25,6 +27,7 @@ import io.furrow.cli.control.StatusCommand;
 import io.furrow.cli.control.TemplateCommandGroup;
 import io.furrow.cli.control.TopicCommandGroup;
 import io.furrow.cli.option.CommandException;
+import io.furrow.cli.option.Contexts;
 import io.furrow.cli.time.TimeConverter;
 import io.furrow.flink.job.JobCommandLine;
 
@@ -43,7 +46,8 @@ public final class Commands {
             FieldsCommandGroup.class,
             TopicCommandGroup.class,
             DeadLetterCommandGroup.class,
-            AuditCommand.class);
+            AuditCommand.class,
+            ContextCommandGroup.class);
 
     private Commands() {}
 
@@ -82,7 +86,11 @@ public final class Commands {
             // -5m is a time.
             command.getSubcommands().get("marker").setUnmatchedOptionsArePositionalParams(true);
         }
-        return command;
+        // Servers start with what they are given only, and a context that cannot be read is no reason to show no help.
+        boolean help = Stream.of(args).anyMatch(List.of("-h", "--help")::contains);
+        return ALL.contains(type) && type != ContextCommandGroup.class && !help
+                ? command.setDefaultValueProvider(new Contexts())
+                : command;
     }
 
     /** Returns the commands of a type, those of its superclass first, each sorted by name. */

@@ -4,7 +4,6 @@ import java.util.Arrays;
 import java.util.List;
 import java.util.stream.Stream;
 
-import picocli.AutoComplete.GenerateCompletion;
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.HelpCommand;
@@ -60,7 +59,10 @@ public final class Furrow {
     public static void main(String... args) {
         // Kafka and Connect log through log4j, which must know its file before the first of them loads.
         System.setProperty("java.awt.headless", "true");
-        int exitCode = commandLine(args).execute(args);
+        int exitCode = commandLine(args)
+                .setOut(AsciiWriter.to(System.out))
+                .setErr(AsciiWriter.to(System.err))
+                .execute(args);
         System.exit(exitCode);
     }
 
@@ -84,7 +86,8 @@ public final class Furrow {
             replay.addSubcommand(new AnalyticsCommand());
         }
         furrow.addSubcommand(new HelpCommand());
-        furrow.addSubcommand(new GenerateCompletion());
+        furrow.addSubcommand(new CompletionCommand());
+        HelpExamples.addTo(furrow);
         furrow.getCommandSpec().version(Version.TEXT);
         IExecutionStrategy strategy = furrow.getExecutionStrategy();
         return furrow.setExecutionStrategy(parsed -> {

@@ -1,67 +1,92 @@
 package io.furrow.cli.catalog;
 
 import java.util.ArrayList;
+import java.util.Iterator;
 import java.util.List;
 import java.util.Locale;
-import java.util.Map;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.fasterxml.jackson.databind.node.TextNode;
 
+import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.time.Times;
+import io.furrow.model.ngsi.NgsiJson;
 
 /** The catalog as text: a line for each type of a mission, and one for each of its attributes. */
 public final class CatalogTable {
-    private static final String ENTRY = "%-28s %-22s %8s %10s %9s %8s %9s  %-25s  %-25s";
-    private static final String ATTRIBUTE = "    %-24s %-22s %8s %10s %9s %18s  %-25s  %-25s";
+    private static final ControlTable ENTRIES = new ControlTable("Nothing is stored yet.")
+            .text("DOMAIN / MISSION", entry -> TextNode.valueOf(place(entry)))
+            .text("TYPE", "/type")
+            .text("ENTITIES", "/entities")
+            .text("EVENTS", "/events")
+            .text("SIZE", entry -> TextNode.valueOf(size(entry.path("bytes").asLong())))
+            .text("IMAGES", "/images")
+            .text(
+                    "OF SIZE",
+                    entry -> TextNode.valueOf(size(entry.path("imageBytes").asLong())))
+            .time("FIRST", "/first")
+            .text("LAST", entry -> TextNode.valueOf(last(entry)));
+    private static final ControlTable ATTRIBUTES = new ControlTable("")
+            .text("attribute", "/name")
+            .text("type, kind", attribute -> TextNode.valueOf(kind(attribute)))
+            .text("unit", "/unit")
+            .text("values", "/values")
+            .text("per s", CatalogTable::rate)
+            .text("range", CatalogTable::range)
+            .time("first", "/first")
+            .time("last", "/last");
+    private static final String INDENT = "    ";
 
     private CatalogTable() {}
 
     public static List<String> lines(List<JsonNode> entries) {
-        List<String> lines = new ArrayList<>();
+        List<List<ObjectNode>> attributes =
+                entries.stream().map(CatalogTable::attributes).toList();
+        List<String> entryLines = ENTRIES.lines(NgsiJson.array().addAll(entries));
         if (entries.isEmpty()) {
-            return List.of("Nothing is stored yet.");
+            return entryLines;
         }
-        lines.add(line(
-                ENTRY, "DOMAIN / MISSION", "TYPE", "ENTITIES", "EVENTS", "SIZE", "IMAGES", "OF SIZE", "FIRST", "LAST"));
-        lines.add(line(ATTRIBUTE, "attribute", "type, kind", "unit", "values", "per s", "range", "first", "last"));
-        for (JsonNode entry : entries) {
-            lines.add(line(
-                    ENTRY,
-                    place(entry),
-                    entry.path("type").asText(),
-                    entry.path("entities").asText(),
-                    entry.path("events").asText(),
-                    size(entry.path("bytes").asLong()),
-                    entry.path("images").asText(),
-                    size(entry.path("imageBytes").asLong()),
-                    Times.of(entry.path("first")),
-                    Times.of(entry.path("last"))
-                            + (entry.has("deleted") ? "  deleted " + Times.of(entry.path("deleted")) : "")));
-            for (Map.Entry<String, JsonNode> attribute :
-                    entry.path("attributes").properties()) {
-                lines.add(attribute(attribute.getKey(), attribute.getValue()));
-            }
+        ArrayNode all = NgsiJson.array();
+        attributes.forEach(all::addAll);
+        Iterator<String> attributeLines = ATTRIBUTES.lines(all).iterator();
+        List<String> lines = new ArrayList<>(List.of(entryLines.get(0)));
+        if (!all.isEmpty()) {
+            lines.add(INDENT + attributeLines.next());
+        }
+        for (int i = 0; i < entries.size(); i++) {
+            lines.add(entryLines.get(i + 1));
+            attributes.get(i).forEach(any -> lines.add(INDENT + attributeLines.next()));
         }
         return lines;
     }
 
-    private static String attribute(String name, JsonNode profile) {
-        return line(
-                ATTRIBUTE,
-                name,
-                (profile.path("type").asText() + ", " + profile.path("kind").asText()).replaceFirst("^, ", ""),
-                profile.path("unit").asText(),
-                profile.path("values").asText(),
-                profile.has("rate")
-                        ? String.format(
-                                Locale.ROOT, "%.3f", profile.path("rate").asDouble())
-                        : "",
-                profile.has("min")
-                        ? profile.path("min").asText() + " … "
-                                + profile.path("max").asText()
-                        : "",
-                Times.of(profile.path("first")),
-                Times.of(profile.path("last")));
+    private static List<ObjectNode> attributes(JsonNode entry) {
+        return entry.path("attributes").properties().stream()
+                .map(each -> ((ObjectNode) each.getValue()).deepCopy().put("name", each.getKey()))
+                .toList();
+    }
+
+    private static String last(JsonNode entry) {
+        return Times.of(entry.path("last"))
+                + (entry.has("deleted") ? "  deleted " + Times.of(entry.path("deleted")) : "");
+    }
+
+    private static String kind(JsonNode attribute) {
+        return (attribute.path("type").asText() + ", " + attribute.path("kind").asText()).replaceFirst("^, ", "");
+    }
+
+    private static JsonNode rate(JsonNode attribute) {
+        JsonNode rate = attribute.path("rate");
+        return rate.isMissingNode() ? rate : TextNode.valueOf(String.format(Locale.ROOT, "%.3f", rate.asDouble()));
+    }
+
+    private static JsonNode range(JsonNode attribute) {
+        JsonNode min = attribute.path("min");
+        return min.isMissingNode()
+                ? min
+                : TextNode.valueOf(min.asText() + " … " + attribute.path("max").asText());
     }
 
     static String place(JsonNode entry) {
@@ -80,9 +105,5 @@ public final class CatalogTable {
             unit++;
         }
         return unit == 0 ? bytes + " B" : String.format(Locale.ROOT, "%.1f %s", size, units[unit]);
-    }
-
-    private static String line(String format, Object... cells) {
-        return String.format(Locale.ROOT, format, cells).stripTrailing();
     }
 }

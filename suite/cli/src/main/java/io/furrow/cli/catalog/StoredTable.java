@@ -1,66 +1,63 @@
 package io.furrow.cli.catalog;
 
 import java.time.Duration;
-import java.util.ArrayList;
 import java.util.List;
-import java.util.Locale;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.TextNode;
 
-import io.furrow.cli.time.Times;
+import io.furrow.cli.control.table.ControlTable;
+import io.furrow.model.ngsi.NgsiJson;
 
 /** Prints stored data as text: a line for each mission in MongoDB, and for the images of each domain and mission. */
 public final class StoredTable {
-    private static final String MISSION = "%-28s %10s %9s  %-25s  %-25s  %-10s  %s";
-    private static final String IMAGES = "%-28s %10s %10s %9s";
+    private static final ControlTable MISSIONS = new ControlTable("There is no mission in MongoDB.")
+            .text("MISSION IN MONGODB", "/mission")
+            .text("DOCUMENTS", "/documents")
+            .text("SIZE", mission -> size(mission.path("bytes").asLong()))
+            .time("FIRST", "/first")
+            .time("LAST", "/last")
+            .text("RETENTION", mission -> retention(mission.path("retentionSeconds")))
+            .text("INDEXES", mission -> indexes(mission.path("indexes")));
+    private static final ControlTable IMAGES = new ControlTable("There are no images.")
+            .text("IMAGES IN FILES", usage -> TextNode.valueOf(CatalogTable.place(usage)))
+            .text("ENTITIES", "/entities")
+            .text("IMAGES", "/images")
+            .text("SIZE", usage -> size(usage.path("bytes").asLong()));
 
     private StoredTable() {}
 
     /** @param lines as of {@link StoredAssets#missions} */
     public static List<String> missions(List<JsonNode> lines) {
-        List<String> table = new ArrayList<>(List.of(""));
-        table.add(line(MISSION, "MISSION IN MONGODB", "DOCUMENTS", "SIZE", "FIRST", "LAST", "RETENTION", "INDEXES"));
-        for (JsonNode one : lines) {
-            List<String> indexes = new ArrayList<>();
-            one.path("indexes").forEach(index -> indexes.add(index.asText()));
-            table.add(line(
-                    MISSION,
-                    one.path("mission").asText(),
-                    one.path("documents").asText(),
-                    one.path("bytes").asLong() < 0
-                            ? "?"
-                            : CatalogTable.size(one.path("bytes").asLong()),
-                    Times.of(one.path("first")),
-                    Times.of(one.path("last")),
-                    one.has("retentionSeconds")
-                            ? retention(one.path("retentionSeconds").asLong())
-                            : "-",
-                    String.join(", ", indexes)));
-        }
-        return table;
+        return below(MISSIONS.lines(NgsiJson.array().addAll(lines)));
     }
 
     /** @param lines as of {@link StoredAssets#images} */
     public static List<String> images(List<JsonNode> lines) {
-        List<String> table = new ArrayList<>(List.of(""));
-        table.add(line(IMAGES, "IMAGES IN FILES", "ENTITIES", "IMAGES", "SIZE"));
-        for (JsonNode one : lines) {
-            table.add(line(
-                    IMAGES,
-                    CatalogTable.place(one),
-                    one.path("entities").asText(),
-                    one.path("images").asText(),
-                    CatalogTable.size(one.path("bytes").asLong())));
-        }
-        return table;
+        return below(IMAGES.lines(NgsiJson.array().addAll(lines)));
     }
 
-    private static String retention(long seconds) {
+    /** With an empty line before it. */
+    private static List<String> below(List<String> table) {
+        return Stream.concat(Stream.of(""), table.stream()).toList();
+    }
+
+    /** @param bytes -1 if unknown */
+    private static JsonNode size(long bytes) {
+        return TextNode.valueOf(bytes < 0 ? "?" : CatalogTable.size(bytes));
+    }
+
+    private static JsonNode retention(JsonNode retention) {
         long day = Duration.ofDays(1).toSeconds();
-        return seconds % day == 0 ? seconds / day + "d" : seconds + "s";
+        long seconds = retention.asLong();
+        return retention.isMissingNode()
+                ? retention
+                : TextNode.valueOf(seconds % day == 0 ? seconds / day + "d" : seconds + "s");
     }
 
-    private static String line(String format, Object... cells) {
-        return String.format(Locale.ROOT, format, cells).stripTrailing();
+    private static JsonNode indexes(JsonNode indexes) {
+        return TextNode.valueOf(indexes.valueStream().map(JsonNode::asText).collect(Collectors.joining(", ")));
     }
 }

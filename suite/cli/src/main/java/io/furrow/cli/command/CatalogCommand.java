@@ -38,8 +38,12 @@ public final class CatalogCommand implements Callable<Integer> {
     @Spec
     private CommandSpec spec;
 
-    @Option(names = "--kafka", paramLabel = "HOST:PORT", description = "Kafka to read from. Default: ${DEFAULT-VALUE}.")
-    private String kafka = "127.0.0.1:9092";
+    @Option(
+            names = "--kafka",
+            paramLabel = "HOST:PORT",
+            defaultValue = KafkaClient.DEFAULT,
+            description = "Kafka to read from. " + KafkaClient.DEFAULTS)
+    private String kafka;
 
     @Option(
             names = "--kafka-properties",

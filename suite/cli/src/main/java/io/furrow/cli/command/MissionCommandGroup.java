@@ -8,6 +8,7 @@ import java.io.UncheckedIOException;
 import java.util.List;
 import java.util.function.LongConsumer;
 
+import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.mongodb.MongoException;
 import org.apache.flink.core.fs.Path;
 import picocli.CommandLine.Command;
@@ -20,13 +21,16 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.cli.control.MarkerCommand;
 import io.furrow.cli.control.MissionControl;
+import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.option.ExportFormat;
+import io.furrow.cli.option.OutputOptions;
 import io.furrow.flink.job.FileSystemOptions;
 import io.furrow.mission.archive.MissionArchive;
 import io.furrow.mission.archive.MissionFiles;
 import io.furrow.mission.archive.StoredMissions;
 import io.furrow.mission.export.ExportResult;
 import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.Counts;
 import io.furrow.model.text.FailureText;
 
@@ -40,6 +44,11 @@ import io.furrow.model.text.FailureText;
         subcommands = MarkerCommand.class)
 public final class MissionCommandGroup extends MissionControl {
     private static final String MISSION = "Name of the mission, as its entities or as 'mission list' have it.";
+    private static final ControlTable STORED = new ControlTable("No mission is stored.")
+            .text("MISSION", "/mission")
+            .text("EVENTS", "/events")
+            .time("FIRST", "/first")
+            .time("LAST", "/last");
     private static final String FILES = ", on any file system of Flink: a path, file:, hdfs:, s3: …";
 
     @Spec
@@ -53,9 +62,9 @@ public final class MissionCommandGroup extends MissionControl {
         @Option(
                 names = "--mongo",
                 paramLabel = "URI",
-                defaultValue = "mongodb://127.0.0.1:27017",
-                description = "MongoDB; @FILE reads the URI, and so its password, from a file. "
-                        + "Default: that of a suite on this machine, ${DEFAULT-VALUE}.")
+                defaultValue = "${env:FURROW_MONGO:-mongodb://127.0.0.1:27017}",
+                description = "MongoDB; @FILE reads the URI, and so its password, from a file. Default: $FURROW_MONGO, "
+                        + "else that of a suite on this machine, mongodb://127.0.0.1:27017.")
         private String mongo;
 
         @Mixin
@@ -70,13 +79,16 @@ public final class MissionCommandGroup extends MissionControl {
     @Command(
             name = "stored",
             description = "Lists the stored missions: how many events each one has and from when to when.")
-    int listStored(@Mixin StoreOptions store) {
+    int listStored(@Mixin StoreOptions store, @Mixin OutputOptions output) {
         return run(store, missions -> {
-            for (StoredMissions.Summary mission : missions.all()) {
-                out().printf(
-                                "%-32s %,12d events  %s … %s%n",
-                                mission.mission(), mission.events(), mission.first(), mission.last());
-            }
+            ArrayNode stored = NgsiJson.array();
+            missions.all()
+                    .forEach(mission -> stored.addObject()
+                            .put("mission", mission.mission())
+                            .put("events", mission.events())
+                            .put("first", mission.first().toString())
+                            .put("last", mission.last().toString()));
+            output.print(out(), stored, STORED.lines(stored), STORED.names(stored));
         });
     }
 

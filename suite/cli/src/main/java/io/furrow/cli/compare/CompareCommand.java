@@ -1,17 +1,16 @@
 package io.furrow.cli.compare;
 
 import java.io.IOException;
-import java.io.PrintWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Instant;
 import java.util.List;
-import java.util.Locale;
 import java.util.OptionalLong;
 import java.util.Properties;
 import java.util.concurrent.Callable;
 
 import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
@@ -20,8 +19,8 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.KafkaClient;
+import io.furrow.cli.option.OutputOptions;
 import io.furrow.cli.time.TimeConverter;
-import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code ./furrow replay compare}. */
 @Command(
@@ -33,21 +32,9 @@ import io.furrow.model.ngsi.NgsiJson;
                     + "pair, averages by field and window, stays by device and field, all in original event time. Reads "
                     + "from Kafka what is there now; of a replay, the newest epoch.",
             "Exit code: 0 where both are the same, 1 where they differ, 2 where they cannot be compared."
-        },
-        footer = {"", "Example: ./furrow replay compare weeding.0a1b2c3d live --from -5m --html difference.html"})
+        })
 public final class CompareCommand implements Callable<Integer> {
     private static final String SIDE = "A replay, MISSION.ID; its topic; or live.";
-
-    private enum Format {
-        TABLE,
-        JSON;
-
-        /** As it is written on the command line. */
-        @Override
-        public String toString() {
-            return name().toLowerCase(Locale.ROOT);
-        }
-    }
 
     @Spec
     private CommandSpec spec;
@@ -58,8 +45,12 @@ public final class CompareCommand implements Callable<Integer> {
     @Parameters(index = "1", paramLabel = "B", description = SIDE)
     private String b;
 
-    @Option(names = "--kafka", paramLabel = "HOST:PORT", description = "Kafka to read from. Default: ${DEFAULT-VALUE}.")
-    private String kafka = "127.0.0.1:9092";
+    @Option(
+            names = "--kafka",
+            paramLabel = "HOST:PORT",
+            defaultValue = KafkaClient.DEFAULT,
+            description = "Kafka to read from. " + KafkaClient.DEFAULTS)
+    private String kafka;
 
     @Option(
             names = "--kafka-properties",
@@ -77,7 +68,7 @@ public final class CompareCommand implements Callable<Integer> {
     @Option(
             names = "--to",
             paramLabel = "TIME",
-            description = "Only results before this original event time. Required with live.")
+            description = "Only results before this original event time. Default: with live now.")
     private Instant to;
 
     @Option(
@@ -100,12 +91,8 @@ public final class CompareCommand implements Callable<Integer> {
                             + "field. Default: the mission of the replay.")
     private String mission;
 
-    @Option(
-            names = {"-o", "--output", "--format"},
-            paramLabel = "FORM",
-            defaultValue = "table",
-            description = "table or json. Default: ${DEFAULT-VALUE}.")
-    private Format format;
+    @Mixin
+    private final OutputOptions output = new OutputOptions();
 
     @Option(
             names = "--limit",
@@ -165,27 +152,23 @@ public final class CompareCommand implements Callable<Integer> {
     }
 
     private void print(Comparison comparison) throws IOException {
-        PrintWriter out = spec.commandLine().getOut();
-        if (format == Format.JSON) {
-            out.println(NgsiJson.mapper()
-                    .writerWithDefaultPrettyPrinter()
-                    .writeValueAsString(ComparisonJson.of(comparison)));
-        } else {
-            new ComparisonTable(limit).lines(comparison).forEach(out::println);
-        }
-        out.flush();
+        output.print(
+                spec.commandLine().getOut(),
+                ComparisonJson.of(comparison),
+                new ComparisonTable(limit).lines(comparison),
+                List.of(comparison.a().name(), comparison.b().name()));
     }
 
     private TimeRange range() {
         boolean live = a.equals(Side.LIVE) || b.equals(Side.LIVE);
-        if (live && (from == null || to == null)) {
-            throw refused("live goes on all the time: say which part of it with --from and --to");
+        if (live && from == null) {
+            throw refused("live goes on all the time: say since when with --from");
         } else if (a.equals(b) && epochA == null && epochB == null) {
             throw refused("A and B are the same; name two of them, or two epochs with --epoch-a and --epoch-b");
         }
         TimeRange range = new TimeRange(
                 from == null ? TimeRange.ALL.from() : from.toEpochMilli(),
-                to == null ? TimeRange.ALL.to() : to.toEpochMilli());
+                to != null ? to.toEpochMilli() : live ? System.currentTimeMillis() : TimeRange.ALL.to());
         if (range.from() >= range.to()) {
             throw refused("--to must be after --from");
         }

@@ -1,5 +1,6 @@
 package io.furrow.cli.compare;
 
+import java.time.Instant;
 import java.util.Collection;
 import java.util.List;
 
@@ -13,7 +14,7 @@ import io.furrow.cli.compare.ResultMatch.Verdict;
 
 /**
  * Writes a comparison as JSON: {@code {same, a, b, encounters, averages, stays}}, where each kind has the number of
- * {@code same} results and the list of {@code differences}; times in epoch ms, distances in meters.
+ * {@code same} results and the list of {@code differences}; times in ISO 8601, distances in meters.
  */
 final class ComparisonJson {
     private ComparisonJson() {}
@@ -56,9 +57,9 @@ final class ComparisonJson {
         if (span == null) {
             return null;
         }
-        ObjectNode json = JsonNodeFactory.instance.objectNode().put("start", span.start());
+        ObjectNode json = JsonNodeFactory.instance.objectNode().put("start", time(span.start()));
         if (!span.isOpen()) {
-            json.put("end", span.end());
+            json.put("end", time(span.end()));
         }
         if (span instanceof Encounter one) {
             json.put("closest", one.closest());
@@ -70,6 +71,10 @@ final class ComparisonJson {
             json.put("quality", one.quality());
         }
         return json;
+    }
+
+    private static String time(long millis) {
+        return Instant.ofEpochMilli(millis).toString();
     }
 
     private static void texts(ArrayNode json, Collection<String> texts) {

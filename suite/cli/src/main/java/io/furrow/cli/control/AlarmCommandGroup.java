@@ -19,7 +19,7 @@ import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.AlarmPage;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.option.CommandGroup;
-import io.furrow.cli.time.TimeConverter;
+import io.furrow.cli.time.TimeRangeOptions;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code ./furrow alarm}. */
@@ -58,25 +58,20 @@ public final class AlarmCommandGroup extends CommandGroup {
 
     @Command(
             name = "list",
-            description = "Lists alarms by severity, the newest first.",
-            footer = {"", "Example: ./furrow alarm list --since -24h"})
+            description = {
+                "Lists alarms by severity, the newest first.",
+                "A time selects those that were not closed before --since and were raised before --to. A closed alarm is kept for a day."
+            })
     int list(
             @Mixin ControlOptions control,
             @Option(
                             names = "--state",
                             paramLabel = "STATE",
-                            description = "open, acknowledged, closed or all. Default: open; with --from or --to all.")
+                            description = "open, acknowledged, closed or all. Default: open; with --since or --to all.")
                     State state,
             @Option(names = "--kind", paramLabel = "KIND", description = "Only those of a kind, as silent-device.")
                     String kind,
-            @Option(
-                            names = {"--from", "--since"},
-                            paramLabel = "TIME",
-                            description = "Only those that were not closed before this time, " + TimeConverter.FORMS
-                                    + " A closed alarm is kept for a day.")
-                    Instant from,
-            @Option(names = "--to", paramLabel = "TIME", description = "Only those that were raised before this time.")
-                    Instant to,
+            @Mixin TimeRangeOptions range,
             @Option(
                             names = "--limit",
                             paramLabel = "N",
@@ -87,13 +82,12 @@ public final class AlarmCommandGroup extends CommandGroup {
         if (limit < 1 || limit > MAX_LISTED) {
             throw control.refused("--limit is 1 to %d, not %d".formatted(MAX_LISTED, limit));
         }
-        State desired = state != null ? state : from == null && to == null ? State.OPEN : State.ALL;
+        State desired = state != null ? state : range.isGiven() ? State.ALL : State.OPEN;
         Map<String, Object> query = new LinkedHashMap<>();
         query.put("limit", limit + 1);
         query.put("state", desired == State.ALL ? null : desired);
         query.put("kind", kind);
-        query.put("from", from);
-        query.put("to", to);
+        range.addTo(query);
         String path = ALARMS + ControlApi.query(query);
         return control.run(api -> {
             JsonNode alarms = api.get(path);
@@ -137,8 +131,7 @@ public final class AlarmCommandGroup extends CommandGroup {
             name = "mute",
             description =
                     "Mutes alarms, or a kind of alarms, those to come too: the webhook does not get them for some "
-                            + "time.",
-            footer = {"", "Example: ./furrow alarm mute --kind silent-device --for 8h"})
+                            + "time.")
     int mute(
             @Mixin ControlOptions control,
             @Mixin Muted muted,

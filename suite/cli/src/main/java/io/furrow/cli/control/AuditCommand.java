@@ -1,6 +1,5 @@
 package io.furrow.cli.control;
 
-import java.time.Instant;
 import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.concurrent.Callable;
@@ -17,7 +16,7 @@ import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.AnswerText;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.option.HelpOption;
-import io.furrow.cli.time.TimeConverter;
+import io.furrow.cli.time.TimeRangeOptions;
 import io.furrow.cli.time.Times;
 import io.furrow.model.ngsi.NgsiJson;
 
@@ -52,11 +51,8 @@ public final class AuditCommand implements Callable<Integer> {
             description = "Of the commands that are read, only those of this user.")
     private String user;
 
-    @Option(
-            names = "--since",
-            paramLabel = "TIME",
-            description = "Only those not before this time, " + TimeConverter.FORMS)
-    private Instant since;
+    @Mixin
+    private TimeRangeOptions range;
 
     @Option(
             names = "--limit",
@@ -81,19 +77,16 @@ public final class AuditCommand implements Callable<Integer> {
             ControlApi.Page read = api.list("/api/audit" + ControlApi.query(query), limit);
             ArrayNode shown = NgsiJson.array();
             read.elements().forEach(entry -> {
-                if (isRecent(entry)
+                if (range.contains(Times.instant(entry.path("time")))
                         && (user == null || user.equals(entry.path("user").asText()))) {
                     shown.add(entry);
                 }
             });
             control.print(shown, TABLE);
-            if (read.hasMore() && isRecent(read.elements().path(read.elements().size() - 1))) {
+            JsonNode oldest = read.elements().path(read.elements().size() - 1).path("time");
+            if (read.hasMore() && (oldest.isMissingNode() || !range.beginsAfter(Times.instant(oldest)))) {
                 control.remark("There may be more; --limit reads more of them.");
             }
         });
-    }
-
-    private boolean isRecent(JsonNode entry) {
-        return since == null || !Times.instant(entry.path("time")).isBefore(since);
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.cli.control;
 
-import java.time.Instant;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
@@ -16,7 +15,7 @@ import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.DeadLetterTable;
 import io.furrow.cli.control.table.RecordPage;
 import io.furrow.cli.option.CommandGroup;
-import io.furrow.cli.time.TimeConverter;
+import io.furrow.cli.time.TimeRangeOptions;
 
 /** {@code ./furrow dead-letters}. */
 @Command(
@@ -46,16 +45,7 @@ public final class DeadLetterCommandGroup extends CommandGroup {
                             paramLabel = "NAME",
                             description = "Only those of this stage, for instance ngsi-source.")
                     String stage,
-            @Option(
-                            names = "--from",
-                            paramLabel = "TIME",
-                            description = "Only those not before this time, " + TimeConverter.FORMS)
-                    Instant from,
-            @Option(
-                            names = "--to",
-                            paramLabel = "TIME",
-                            description = "Only those before this time, " + TimeConverter.FORMS)
-                    Instant to,
+            @Mixin TimeRangeOptions range,
             @Option(
                             names = "--limit",
                             paramLabel = "N",
@@ -70,15 +60,14 @@ public final class DeadLetterCommandGroup extends CommandGroup {
         query.put("topic", topic);
         query.put("reason", reason);
         query.put("stage", stage);
-        query.put("from", from);
-        query.put("to", to);
+        range.addTo(query);
         return control.run(api -> {
             ControlApi.Page letters = api.list(PATH + ControlApi.query(query), limit);
             if (!letters.elements().isEmpty() || !letters.hasMore()) {
                 control.print(letters.elements(), DeadLetterTable::lines, DeadLetterTable::names);
             }
             if (letters.hasMore()) {
-                control.remark("There may be more; --limit, --from and --to show others.");
+                control.remark("There may be more; --limit, --since and --to show others.");
             }
         });
     }
@@ -95,8 +84,7 @@ public final class DeadLetterCommandGroup extends CommandGroup {
             abbreviateSynopsis = true,
             description = "Writes dead letters unchanged to the topic that they came from, each once. Use it after the "
                     + "cause has been repaired. Notifications of the NGSI source came from no topic: they are left "
-                    + "without --to.",
-            footer = {"", "Example: ./furrow dead-letters redrive --topic data.raw.dead --reason not-json --dry-run"})
+                    + "without --to.")
     int redrive(
             @Mixin ControlOptions control,
             @Option(

@@ -5,6 +5,7 @@ import java.time.Instant;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.TextNode;
@@ -58,7 +59,11 @@ public final class DeviceCommandGroup extends CommandGroup {
                         .time("LAST SEEN", "/health/lastSeen")
                         .text("BATTERY", "/health/battery")
                         .text("SILENT", "/health/silent")
-                        .text("REASON", "/status/reason"));
+                        .text("REASON", "/status/reason"),
+                Stream.concat(
+                                Stream.ofNullable(mission).map(name -> "/api/missions" + ControlApi.part(name)),
+                                Stream.ofNullable(domain).map(name -> "/api/domains" + ControlApi.part(name)))
+                        .toArray(String[]::new));
     }
 
     @Command(name = "show", description = "Shows one device: why it is silent, its last report, its connection.")
@@ -83,8 +88,7 @@ public final class DeviceCommandGroup extends CommandGroup {
             description = {
                 "Shows what a device needs to report over MQTT: broker, login, topics, payloads and an example. Of "
                         + "all real devices of a mission with --mission, also as csv or env."
-            },
-            footer = {"", "Example: ./furrow device credentials --mission weeding -o csv"})
+            })
     int credentials(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "DEVICE", description = ID, arity = "0..1") String device,

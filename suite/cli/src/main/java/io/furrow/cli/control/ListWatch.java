@@ -5,6 +5,7 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.function.Supplier;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
@@ -32,10 +33,13 @@ final class ListWatch {
         this.pollMillis = pollMillis;
     }
 
-    /** Prints the list at a path as a table. */
-    int show(ControlOptions control, String path, ControlTable table) {
+    /** Prints the list at a path as a table. @param selectors paths of what selects its rows, which must exist */
+    int show(ControlOptions control, String path, ControlTable table, String... selectors) {
         return control.run(api -> {
             JsonNode listed = api.get(path);
+            if (ControlTable.rows(listed).isEmpty()) {
+                Stream.of(selectors).forEach(api::get);
+            }
             control.print(listed, table);
             follow(control, listed, () -> api.get(path), table);
         });

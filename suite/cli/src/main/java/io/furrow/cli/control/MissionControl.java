@@ -7,6 +7,7 @@ import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -80,7 +81,10 @@ public class MissionControl extends CommandGroup {
                         .text("DEVICES", "/deviceCount")
                         .time("SINCE", "/status/since")
                         .text("NEXT", MissionControl::next)
-                        .text("REASON", "/status/reason"));
+                        .text("REASON", "/status/reason"),
+                Stream.ofNullable(domain)
+                        .map(name -> "/api/domains" + ControlApi.part(name))
+                        .toArray(String[]::new));
     }
 
     /** The path of the missions. @param domain null for those of all */
@@ -144,13 +148,7 @@ public class MissionControl extends CommandGroup {
         });
     }
 
-    @Command(
-            name = "start",
-            description = "Starts a mission; creates it if it does not exist.",
-            footer = {
-                "",
-                "Example: ./furrow mission start weeding --domain north --template thesis-demo --at 06:00 --wait --timeout 24h"
-            })
+    @Command(name = "start", description = "Starts a mission; creates it if it does not exist.")
     int start(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "MISSION", description = NAME) String mission,
@@ -194,8 +192,7 @@ public class MissionControl extends CommandGroup {
     @Command(
             name = "stop",
             description =
-                    "Stops missions: those that are named, or those of a domain or all that run or are scheduled.",
-            footer = {"", "Example: ./furrow mission stop --domain north --wait"})
+                    "Stops missions: those that are named, or those of a domain or all that run or are scheduled.")
     int stop(
             @Mixin ControlOptions control,
             @Mixin MissionChoice choice,
@@ -253,10 +250,14 @@ public class MissionControl extends CommandGroup {
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "MISSION", arity = "1..*", description = "As 'replay missions' lists it.")
                     List<String> missions,
+            @Option(names = "--dry-run", description = "Show what would be deleted and delete nothing.") boolean dryRun,
             @Mixin Confirmation confirmation) {
         return control.each(api -> missions, (api, mission) -> {
             String path = "/api/recordings" + ControlApi.part(mission);
-            if (confirmation.isAsked()) {
+            if (dryRun) {
+                control.done(api.send("DELETE", path + "?dryRun=true", null), "would be deleted");
+                return;
+            } else if (confirmation.isAsked()) {
                 JsonNode found = api.send("DELETE", path + "?dryRun=true", null);
                 confirmation.ask("Delete %s and %s of mission %s?"
                         .formatted(

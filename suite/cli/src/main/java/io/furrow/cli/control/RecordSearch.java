@@ -1,6 +1,6 @@
 package io.furrow.cli.control;
 
-import java.time.Instant;
+import java.time.Duration;
 import java.util.ArrayList;
 import java.util.LinkedHashMap;
 import java.util.List;
@@ -9,13 +9,14 @@ import java.util.Map;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.TextNode;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.RecordPage;
-import io.furrow.cli.time.TimeConverter;
+import io.furrow.cli.time.TimeRangeOptions;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.TopicRules;
 import io.furrow.model.topic.Topics;
@@ -42,12 +43,8 @@ final class RecordSearch {
     @Option(names = "--text", paramLabel = "TEXT", description = "A text that the value contains.")
     private String text;
 
-    @Option(
-            names = "--since",
-            paramLabel = "TIME",
-            defaultValue = "-1h",
-            description = "Only records not before this time, " + TimeConverter.FORMS + " Default: ${DEFAULT-VALUE}.")
-    private Instant since;
+    @Mixin
+    private TimeRangeOptions range;
 
     @Option(
             names = {"-n", "--limit"},
@@ -69,7 +66,7 @@ final class RecordSearch {
         query.put("values", selects ? true : null);
         query.put("limit", selects ? PAGE : limit);
         query.put("text", device == null ? text : device);
-        query.put("from", since);
+        range.addTo(query, Duration.ofHours(1));
         return control.run(api -> {
             ArrayNode found = NgsiJson.array();
             boolean more = false;

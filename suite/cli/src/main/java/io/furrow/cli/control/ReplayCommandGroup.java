@@ -61,10 +61,7 @@ public final class ReplayCommandGroup extends CommandGroup {
         return control.showOne(REPLAYS + ControlApi.part(replay));
     }
 
-    @Command(
-            name = "start",
-            description = "Starts a replay of a mission, or of several missions with one clock.",
-            footer = {"", "Example: ./furrow replay start weeding --speed 10 --from -5m"})
+    @Command(name = "start", description = "Starts a replay of a mission, or of several missions with one clock.")
     int start(@Mixin ControlOptions control, @Mixin ReplayStart start) {
         JsonNode body = start.body(control);
         return control.run(api -> {

@@ -82,7 +82,7 @@ final class ReplayStart {
     private String stamps;
 
     @Option(
-            names = "--start-at",
+            names = {"--at", "--start-at"},
             paramLabel = "TIME",
             converter = TimeConverter.Next.class,
             description = "Wall-clock time of the first event, as 06:00 or +2h. Default: at once.")

@@ -36,10 +36,7 @@ public final class TopicCommandGroup extends CommandGroup {
                         .text("RECORDS", "/records"));
     }
 
-    @Command(
-            name = "tail",
-            description = "Prints the newest records of a topic, with their values.",
-            footer = {"", "Example: ./furrow topic tail data.collision -f"})
+    @Command(name = "tail", description = "Prints the newest records of a topic, with their values.")
     int tail(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "TOPIC", description = TOPIC) String topic,
@@ -63,8 +60,7 @@ public final class TopicCommandGroup extends CommandGroup {
             name = "find",
             description =
                     "Finds the newest records about a device, or with a text: in the topics that are named, else in "
-                            + "all data.* except those of replays.",
-            footer = {"", "Example: ./furrow topic find --device urn:ngsi-ld:Thermometer:weeding-1 --since -1h"})
+                            + "all data.* except those of replays. Without --since and --to, in the last hour.")
     int find(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "TOPIC", arity = "0..*", description = TOPIC) List<String> topics,

@@ -1,7 +1,6 @@
 package io.furrow.cli.field;
 
 import java.io.IOException;
-import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.List;
 
@@ -23,8 +22,9 @@ public final class FieldsOptions {
     @Option(
             names = "--kafka",
             paramLabel = "HOST:PORT",
-            description = "Kafka that holds service.fields. Default: ${DEFAULT-VALUE}.")
-    private String kafka = "127.0.0.1:9092";
+            defaultValue = KafkaClient.DEFAULT,
+            description = "Kafka that holds service.fields. " + KafkaClient.DEFAULTS)
+    private String kafka;
 
     @Option(
             names = "--kafka-properties",
@@ -41,14 +41,13 @@ public final class FieldsOptions {
 
     /** Prints lines, ids, JSON or YAML, depending on the option. */
     public void print(List<String> lines, JsonNode json) throws IOException {
-        PrintWriter out = spec.commandLine().getOut();
-        if (output.isName()) {
-            json.path("features").forEach(field -> out.println(field.path("id").asText()));
-        } else if (output.isForPeople()) {
-            output.table(lines).forEach(out::println);
-        } else {
-            out.println(output.text(json));
-        }
-        out.flush();
+        output.print(
+                spec.commandLine().getOut(),
+                json,
+                lines,
+                json.path("features")
+                        .valueStream()
+                        .map(field -> field.path("id").asText())
+                        .toList());
     }
 }

@@ -14,6 +14,10 @@ import io.furrow.model.ngsi.NgsiJson;
 
 /** The option {@code --output}: the form in which a command prints its answer. */
 public final class OutputOptions {
+    /** The reason why csv and env are refused. */
+    public static final String CREDENTIALS_ONLY =
+            "--output csv and env are for 'device credentials'; use table, wide, json, yaml or name";
+
     private enum Form {
         TABLE,
         WIDE,
@@ -68,8 +72,23 @@ public final class OutputOptions {
         }
     }
 
+    /** Prints an answer in its form. @param lines a table @param names a line each */
+    public void print(PrintWriter out, JsonNode answer, List<String> lines, List<String> names) throws IOException {
+        if (isName()) {
+            names.forEach(out::println);
+        } else if (isForPeople()) {
+            table(lines).forEach(out::println);
+        } else {
+            out.println(text(answer));
+        }
+        out.flush();
+    }
+
     /** Returns an answer in YAML if that is the form, else in JSON. */
     public String text(JsonNode answer) throws IOException {
+        if (isCsv() || isEnv()) {
+            throw new CommandException(CREDENTIALS_ONLY);
+        }
         return form == Form.YAML
                 ? new YAMLMapper()
                         .disable(YAMLGenerator.Feature.WRITE_DOC_START_MARKER)

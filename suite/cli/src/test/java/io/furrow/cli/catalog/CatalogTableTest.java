@@ -2,6 +2,7 @@ package io.furrow.cli.catalog;
 
 import java.util.List;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -46,6 +47,33 @@ class CatalogTableTest {
                         "-3.5 … 31.0",
                         "2023-11-14T22:13:20Z",
                         "2023-11-14T23:13:20Z");
+    }
+
+    @Test
+    void makesRoomForLongNames() throws Exception {
+        String entry = """
+                {"domain": "%s", "mission": "weeding", "type": "Thermometer", "attributes": {"%s": {"unit": "CEL"}}}""";
+        String name = "a".repeat(40);
+
+        List<String> lines = CatalogTable.lines(List.of(
+                NgsiJson.read(entry.formatted(name, name).getBytes(UTF_8)),
+                NgsiJson.read(entry.formatted("b", "b").getBytes(UTF_8))));
+
+        assertThat(lines).hasSize(6);
+        assertThat(List.of(lines.get(0).indexOf("TYPE"), lines.get(4).indexOf("Thermometer")))
+                .containsOnly(lines.get(2).indexOf("Thermometer"));
+        assertThat(List.of(lines.get(1).indexOf("unit"), lines.get(5).indexOf("CEL")))
+                .containsOnly(lines.get(3).indexOf("CEL"));
+    }
+
+    @Test
+    void showsTypesWithoutAttributes() throws Exception {
+        JsonNode entry = NgsiJson.read("{\"domain\": \"north\", \"type\": \"Camera\"}".getBytes(UTF_8));
+
+        assertThat(CatalogTable.lines(List.of(entry)))
+                .satisfiesExactly(
+                        line -> assertThat(line).startsWith("DOMAIN / MISSION"),
+                        line -> assertThat(line).startsWith("north / -         Camera"));
     }
 
     @Test

@@ -47,13 +47,16 @@ class MissionCommandGroupTest {
         assertThat(run("export", "weeding", directory.resolve("out.ndjson").toString()))
                 .isZero();
         assertThat(run("stored")).isZero();
+        assertThat(run("stored", "-o", "yaml")).isZero();
         assertThat(run("export", "weeding", directory.resolve("nodir/out").toString()))
                 .isNotZero();
 
         assertThat(directory.resolve("nodir")).doesNotExist();
         assertThat(err.toString()).contains("There is no folder " + directory.resolve("nodir"));
         assertThat(Files.readString(directory.resolve("out.ndjson"), UTF_8)).isEqualTo(lines);
-        assertThat(out.toString()).contains("2 events of weeding in").containsPattern("weeding +2 events");
+        assertThat(out.toString())
+                .contains("2 events of weeding in", "- mission: \"weeding\"\n  events: 2\n")
+                .containsPattern("weeding +2 +\\S+ +\\S+");
     }
 
     @Test

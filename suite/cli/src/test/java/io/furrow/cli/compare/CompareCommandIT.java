@@ -111,6 +111,9 @@ class CompareCommandIT {
                 .isZero();
 
         assertThat(output.toString()).contains("1 same", "A and B are the same.");
+        assertThat(run(output, "weeding.0000000b", "live", "--from", "2026-05-01", "--to", "2026-05-02", "-o", "yaml"))
+                .isZero();
+        assertThat(output.toString()).contains("same: true\na:\n  name: \"weeding.0000000b\"\n");
         assertThat(Files.readString(html)).startsWith("<!doctype html>").doesNotContain("{{");
     }
 
@@ -119,16 +122,18 @@ class CompareCommandIT {
         StringWriter output = new StringWriter();
 
         assertThat(run(output, "weeding.0000000a", "live")).isEqualTo(2);
+        assertThat(run(output, "weeding.0000000b", "live", "--from", "-5m")).isEqualTo(2);
         assertThat(run(output, "weeding.0000000a", "weeding.0000000a")).isEqualTo(2);
         assertThat(run(output, "weeding.0000000a", "weeding.0000000c")).isEqualTo(2);
         assertThat(run(output, "weeding.0000000b", "live", "--from", "2026-04-01T00:00:00Z", "--to", "1777000000000"))
                 .isEqualTo(2);
         assertThat(output.toString())
                 .contains(
-                        "say which part of it with --from and --to",
+                        "live goes on all the time: say since when with --from",
                         "A and B are the same; name two",
                         "There is no topic",
                         "Nothing was compared: neither weeding.0000000b nor live has a result there.");
+        assertThat(output.toString().split("Nothing was compared")).hasSize(3);
     }
 
     private static int run(StringWriter output, String... args) {

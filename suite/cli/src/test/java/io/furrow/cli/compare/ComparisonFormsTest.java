@@ -68,8 +68,12 @@ class ComparisonFormsTest {
         assertThat(json.at("/stays/same").asInt()).isEqualTo(1);
         assertThat(json.at("/encounters/differences/0").toString())
                 .isEqualTo(
-                        "{\"verdict\":\"changed\",\"subject\":\"x – y\",\"a\":{\"start\":%d,\"end\":%d,\"closest\":2.0},\"b\":{\"start\":%d,\"end\":%d,\"closest\":2.25},\"changes\":[\"closest\",\"end\"]}"
-                                .formatted(T0, T0 + 10_000, T0, T0 + 7000));
+                        "{\"verdict\":\"changed\",\"subject\":\"x – y\",\"a\":{\"start\":\"%s\",\"end\":\"%s\",\"closest\":2.0},\"b\":{\"start\":\"%s\",\"end\":\"%s\",\"closest\":2.25},\"changes\":[\"closest\",\"end\"]}"
+                                .formatted(
+                                        "2026-05-01T01:46:40Z",
+                                        "2026-05-01T01:46:50Z",
+                                        "2026-05-01T01:46:40Z",
+                                        "2026-05-01T01:46:47Z"));
         assertThat(json.at("/encounters/differences/1/b").isNull()).isTrue();
         assertThat(json.at("/averages/differences/0/b/suspects").isEmpty()).isTrue();
     }

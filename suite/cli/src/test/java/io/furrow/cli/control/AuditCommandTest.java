@@ -52,6 +52,9 @@ class AuditCommandTest {
         run("--user", "ann", "--limit", "2", "--since", "2026-11-27T05:00:00Z");
 
         assertThat(output.toString()).contains("ann").doesNotContain("bob", "There may be more");
+        output.getBuffer().setLength(0);
+        run("--to", "2026-11-27T05:00:00Z");
+        assertThat(output.toString()).contains("bob").doesNotContain("ann");
         assertThat(run("--limit", "0")).isEqualTo(2);
     }
 

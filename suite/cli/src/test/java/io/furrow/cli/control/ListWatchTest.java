@@ -4,6 +4,8 @@ import java.util.concurrent.Callable;
 
 import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
@@ -71,6 +73,24 @@ class ListWatchTest {
         control.output();
         assertThat(run()).isZero();
         assertThat(control.output()).isEqualToIgnoringNewLines("none");
+    }
+
+    /** Otherwise a misspelled name looks like a mission without devices. */
+    @ParameterizedTest
+    @CsvSource({
+        "device list --mission=typo, /api/devices?mission=typo, /api/missions/typo",
+        "device list --domain=typo, /api/devices?domain=typo, /api/domains/typo",
+        "mission list --domain=typo, /api/missions?domain=typo, /api/domains/typo"
+    })
+    void rejectsWhatSelectsNothingBecauseItDoesNotExist(String command, String list, String selector) {
+        control.answer("GET " + list, "[]");
+
+        assertThat(control.run(command.split(" "))).isEqualTo(1);
+        assertThat(control.output()).isEqualToIgnoringNewLines("there is no GET %s (unknown)".formatted(selector));
+
+        control.answer("GET " + selector, "{}");
+        assertThat(control.run(command.split(" "))).isZero();
+        assertThat(control.output()).startsWith("There ");
     }
 
     private int run(String... arguments) {

@@ -163,7 +163,7 @@ class MissionControlTest {
 
         run("dead-letters", "list");
         assertThat(output.toString())
-                .isEqualToIgnoringNewLines("There may be more; --limit, --from and --to show others.");
+                .isEqualToIgnoringNewLines("There may be more; --limit, --since and --to show others.");
         assertThat(requested).hasSize(20);
 
         link = null;

@@ -135,7 +135,7 @@ class ReplayCommandGroupTest {
     void requestsAllThatAReplayCanBe() {
         run(
                 ("replay start m --topic data.m.replay.0a1b2c3d --from 5 --to 2026-05-01T00:00:00Z --speed max --loop --devices a,b --max-gap 30s "
-                                + "--stamps now --start-at 7 --analytics collision,presence --source-file f.jsonl")
+                                + "--stamps now --at 7 --analytics collision,presence --source-file f.jsonl")
                         .split(" "));
 
         assertThat(requested)

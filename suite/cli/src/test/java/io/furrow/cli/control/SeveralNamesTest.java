@@ -88,6 +88,17 @@ class SeveralNamesTest {
     }
 
     @Test
+    void countsWhatAPurgeWouldDelete() {
+        control.answer(
+                "DELETE /api/recordings/a?dryRun=true",
+                "{'status':'purged','mission':'a','events':5,'markers':1,'dryRun':true}");
+
+        assertThat(control.run("mission", "purge", "a", "--dry-run")).isZero();
+
+        assertThat(control.output()).isEqualToIgnoringNewLines("would be deleted: mission a, events 5, markers 1");
+    }
+
+    @Test
     void waitsUntilAMissionRuns() {
         String wait = "?wait=starting&wait=running&wait=stopping&wait=stopped&wait=failed&timeout=30";
         control.answer("POST /api/missions/m/start", "{'status':'scheduled','mission':'m'}")

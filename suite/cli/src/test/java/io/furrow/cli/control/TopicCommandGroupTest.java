@@ -123,6 +123,20 @@ class TopicCommandGroupTest {
         assertThat(control.output()).contains("Name a device with --device, or a text with --text.");
     }
 
+    @Test
+    void asksForRecordsAndDeadLettersOfATime() {
+        control.run("topic", "find", "data.raw", "--text", "x");
+        control.run("topic", "find", "data.raw", "--text", "x", "--to", "2026-11-27");
+        control.run("dead-letters", "list", "--since", "2026-11-26", "--to", "2026-11-27");
+
+        assertThat(control.requested())
+                .satisfiesExactly(
+                        hour -> assertThat(hour).matches("GET .*/records\\?limit=20&text=x&from=20\\S+Z"),
+                        to -> assertThat(to).endsWith("/records?limit=20&text=x&to=2026-11-27T00%3A00%3A00Z"),
+                        letters -> assertThat(letters)
+                                .endsWith("?limit=50&from=2026-11-26T00%3A00%3A00Z&to=2026-11-27T00%3A00%3A00Z"));
+    }
+
     private static String recordAt(int partition, long offset, String key, String value) {
         return "{'topic':'data.raw','partition':%d,'offset':%d,'time':'2026-11-27T05:00:00Z','key':'%s','size':3,'value':%s}"
                 .formatted(partition, offset, key, value);

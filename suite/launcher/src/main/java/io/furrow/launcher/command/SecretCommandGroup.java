@@ -6,8 +6,13 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.time.Instant;
 import java.time.temporal.ChronoUnit;
+import java.util.ArrayList;
+import java.util.List;
 
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
@@ -16,11 +21,14 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.CommandGroup;
+import io.furrow.cli.option.OutputOptions;
+import io.furrow.cli.time.Times;
 import io.furrow.launcher.suite.FarmSecretFile;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.FarmSecretCodec;
 import io.furrow.model.file.FileProblem;
 import io.furrow.model.file.PrivateFile;
+import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code ./furrow secret}. */
 @Command(
@@ -50,20 +58,29 @@ public final class SecretCommandGroup extends CommandGroup {
     }
 
     @Command(name = "show", description = "Shows fingerprints and times of the keys of a secret, not the keys.")
-    int show(@Parameters(paramLabel = "FILE", description = FILE) Path file) {
+    int show(@Parameters(paramLabel = "FILE", description = FILE) Path file, @Mixin OutputOptions output)
+            throws IOException {
         FarmSecret secret = read(file);
         Instant now = Instant.now();
+        ArrayNode keys = NgsiJson.array();
+        List<String> lines = new ArrayList<>();
         for (FarmSecret.KeyInfo key : secret.describe()) {
+            ObjectNode json = keys.addObject().put("key", key.number()).put("fingerprint", key.fingerprint());
+            json.put("makesPasswords", key.until() == null).put("makesApiKeys", key.makesApiKeys());
             String passwords = "makes passwords";
             if (key.until() != null) {
+                json.put("acceptedUntil", key.until().toString());
                 passwords = key.until().isAfter(now)
-                        ? "its passwords are accepted until " + key.until()
+                        ? "its passwords are accepted until " + Times.of(json.path("acceptedUntil"))
                         : "its passwords are no longer accepted";
             }
-            print("key %d  %s  %s%s"
+            lines.add("key %d  %s  %s%s"
                     .formatted(
                             key.number(), key.fingerprint(), passwords, key.makesApiKeys() ? ", makes API keys" : ""));
         }
+        List<String> names =
+                secret.describe().stream().map(FarmSecret.KeyInfo::fingerprint).toList();
+        output.print(spec.commandLine().getOut(), keys, lines, names);
         return 0;
     }
 
@@ -106,7 +123,9 @@ public final class SecretCommandGroup extends CommandGroup {
                 retained.isZero()
                         ? "Passwords of key %d are refused from now on.".formatted(secret.newestKey())
                         : "Passwords of key %d are accepted until %s."
-                                .formatted(secret.newestKey(), now.plus(retained)));
+                                .formatted(
+                                        secret.newestKey(),
+                                        Times.of(now.plus(retained).toEpochMilli())));
         print(
                 "Give a copy to every process of the farm, the control plane first; then give each device its new credentials: ./furrow device credentials DEVICE");
         return 0;

@@ -50,7 +50,7 @@ public final class AnalyticsCommand implements Callable<Integer> {
     private Path jar;
 
     @Option(
-            names = "--bootstrap-servers",
+            names = {"--kafka", "--bootstrap-servers"},
             paramLabel = "HOST:PORT",
             description = "Kafka, as reached by this command and the cluster. Default: ${DEFAULT-VALUE}.")
     private String kafka = "127.0.0.1:9092";

@@ -17,9 +17,12 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine;
 
+import io.furrow.cli.time.Times;
 import io.furrow.launcher.Furrow;
 import io.furrow.model.device.FarmSecret;
+import io.furrow.model.ngsi.NgsiJson;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class SecretCommandGroupTest {
@@ -111,7 +114,19 @@ class SecretCommandGroupTest {
                         "key 2  %s  makes passwords".formatted(keys.get(0).fingerprint()),
                         "key 1  %s  its passwords are accepted until %s, makes API keys"
                                 .formatted(
-                                        keys.get(1).fingerprint(), keys.get(1).until()));
+                                        keys.get(1).fingerprint(),
+                                        Times.of(keys.get(1).until().toEpochMilli())));
+        out.getBuffer().setLength(0);
+
+        assertThat(secret("show", "-o", "json")).isZero();
+
+        assertThat(NgsiJson.read(out.toString().getBytes(UTF_8))).isEqualTo(NgsiJson.read("""
+                        [{"key": 2, "fingerprint": "%s", "makesPasswords": true, "makesApiKeys": false},
+                         {"key": 1, "fingerprint": "%s", "makesPasswords": false, "makesApiKeys": true, "acceptedUntil": "%s"}]""".formatted(
+                        keys.get(0).fingerprint(),
+                        keys.get(1).fingerprint(),
+                        keys.get(1).until())
+                .getBytes(UTF_8)));
     }
 
     @Test

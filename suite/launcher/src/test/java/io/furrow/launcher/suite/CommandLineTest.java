@@ -176,6 +176,20 @@ class CommandLineTest {
         assertThat(err.toString()).contains("--kafka");
     }
 
+    @Test
+    void startsServersWithoutAContext() {
+        CommandLine replay = furrow.getSubcommands().get("replay");
+
+        assertThat(List.of(
+                        furrow.getSubcommands().get("up"),
+                        furrow.getSubcommands().get("control-plane"),
+                        replay.getSubcommands().get("analytics")))
+                .allSatisfy(
+                        server -> assertThat(server.getDefaultValueProvider()).isNull());
+        assertThat(replay.getSubcommands().get("compare").getDefaultValueProvider())
+                .isNotNull();
+    }
+
     @Tag("full")
     @ParameterizedTest
     @ValueSource(strings = {"control-plane --control-port 0 --health-port 0", "dashboard --port 0 --log /dev/null"})
@@ -333,7 +347,7 @@ class CommandLineTest {
         assertThat(furrow.execute("generate-completion")).isZero();
 
         assertThat(out.toString())
-                .contains("(\"table\" \"json\"", "(\"open\" \"acknowledged\"")
+                .contains("(\"table\" \"wide\" \"json\"", "(\"open\" \"acknowledged\"")
                 .doesNotContain("\"TABLE\"", "\"OPEN\"", "\"JSONL\"");
     }
 

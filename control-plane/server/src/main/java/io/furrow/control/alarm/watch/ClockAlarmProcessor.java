@@ -43,16 +43,26 @@ record ClockAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> 
                         () -> new UnreadableException(Reason.NOT_AN_EVENT, "the report has no attribute 'device'"));
         String text = String.format(
                 Locale.ROOT,
-                "%s of %s arrive %.1f s too late and are dropped: check its clock and its link",
+                "%s of %s arrive %s too late and are dropped: check its clock and its link",
                 entity.number(ClockResult.REPORTS).isPresent() ? ClockResult.REPORTS : "positions",
                 device,
-                entity.number(ClockResult.LATE).orElse(0.0) / 1000);
+                delay(entity.number(ClockResult.LATE).orElse(0.0) / 1000));
         String type = entity.text(ClockResult.DEVICE_TYPE).orElse("");
         String existing = type.isEmpty() ? types.apply(scope.identity(device)) : type;
         List<Cause.AffectedDevice> devices = List.of(Cause.AffectedDevice.of(device, existing, scope));
         Cause cause = new Cause(AlarmKind.CLOCK_BEHIND, device, text, devices, validity(entity))
                 .identifiedBy(scope.identity(type, device));
         alarms.raise(cause.inGroup(AlarmGroup.of(entity.text("Mission").orElse(""), "")), now);
+    }
+
+    private static String delay(double seconds) {
+        Duration delay = Duration.ofSeconds((long) seconds);
+        if (delay.toMinutes() < 2) {
+            return String.format(Locale.ROOT, "%.1f s", seconds);
+        } else if (delay.toHours() < 2) {
+            return delay.toMinutes() + " min";
+        }
+        return delay.toDays() < 2 ? delay.toHours() + " h" : delay.toDays() + " days";
     }
 
     private static Duration validity(Entity report) {

@@ -37,7 +37,10 @@ public final class ControlOptions {
             paramLabel = "URL",
             converter = HttpUriConverter.class,
             defaultValue = "${env:FURROW_API:-http://127.0.0.1:8085}",
-            description = "REST API of the control plane. Default: $FURROW_API, else http://127.0.0.1:8085.")
+            description = {
+                "REST API of the control plane.",
+                "Default: $FURROW_API, else http://127.0.0.1:8085." // a line of its own: it would be divided at a dot
+            })
     private URI api;
 
     @Option(
@@ -181,7 +184,7 @@ public final class ControlOptions {
     /** Runs it and prints a sentence if it fails. @return the exit code */
     public int run(Work work) {
         if (output.isCsv() || output.isEnv()) {
-            throw refused("--output csv and env are for 'device credentials'; use table, wide, json, yaml or name");
+            throw refused(OutputOptions.CREDENTIALS_ONLY);
         }
         return runWith(work);
     }

@@ -14,6 +14,7 @@ import io.furrow.cli.time.Times;
 public final class AnswerText {
     /** Members of answers that are epoch ms. */
     private static final Set<String> TIMES = Set.of(
+            "at",
             "changed",
             "created",
             "due",
@@ -22,6 +23,7 @@ public final class AnswerText {
             "from",
             "last",
             "position",
+            "shows",
             "since",
             "start",
             "startAt",
@@ -30,7 +32,7 @@ public final class AnswerText {
             "until");
 
     /** Members that every answer has. */
-    private static final Set<String> COMMON = Set.of("type", "status", "requestId");
+    private static final Set<String> COMMON = Set.of("type", "status", "requestId", "dryRun");
 
     private static final long MIN_TIME = 100_000_000_000L;
 
@@ -40,7 +42,7 @@ public final class AnswerText {
     public static String sentence(JsonNode answer) {
         return answer.properties().stream()
                 .filter(each -> !COMMON.contains(each.getKey()))
-                .map(each -> each.getKey().replace('_', ' ') + " " + text(each))
+                .map(each -> each.getKey().replace('_', ' ') + " " + text(each, " "))
                 .collect(Collectors.joining(", "));
     }
 
@@ -49,12 +51,17 @@ public final class AnswerText {
         return answer.properties().stream()
                 .filter(each -> !COMMON.contains(each.getKey()))
                 .findFirst()
-                .map(AnswerText::text)
+                .map(each -> text(each, " "))
                 .orElse("");
     }
 
-    private static String text(Map.Entry<String, JsonNode> member) {
+    /** @param separator of the elements of a list */
+    private static String text(Map.Entry<String, JsonNode> member, String separator) {
         JsonNode value = member.getValue();
+        if (value.isArray() && value.valueStream().allMatch(JsonNode::isTextual)) {
+            String elements = value.valueStream().map(JsonNode::asText).collect(Collectors.joining(separator));
+            return elements.isEmpty() ? "-" : ControlTable.printable(elements);
+        }
         boolean time = TIMES.contains(member.getKey()) && value.isIntegralNumber() && value.longValue() >= MIN_TIME;
         return time ? Times.of(value) : ControlTable.printable(ControlTable.textOf(value));
     }
@@ -75,7 +82,7 @@ public final class AnswerText {
             if (each.getValue().isObject()) {
                 addMembers(before + each.getKey() + ".", each.getValue(), members);
             } else {
-                members.put(before + each.getKey(), text(each));
+                members.put(before + each.getKey(), text(each, ", "));
             }
         }
     }
