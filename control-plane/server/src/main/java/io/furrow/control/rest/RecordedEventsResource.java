@@ -172,8 +172,7 @@ public final class RecordedEventsResource {
 
     private void start(AsyncResponse response, Transfer transfer) {
         if (mongo == null) {
-            throw new ProblemException(
-                    501, "no-mongodb", "this control plane was started without --mongo, where missions are stored");
+            throw ProblemException.noMongo();
         }
         if (!free.tryAcquire()) {
             throw new ProblemException(
