@@ -73,6 +73,9 @@ public final class Dashboard implements AutoCloseable {
             "/config.json",
             SOCKETS + "*");
 
+    /** The control plane's API, and the description that its page at /api shows. */
+    private static final List<String> FORWARDED = List.of("/api/*", "/openapi.json");
+
     private static final List<String> STATUS = List.of(StatusPages.HEALTH, StatusPages.READY, StatusPages.METRICS);
     /** The page fetches images with the user's token and shows them as blobs. */
     private static final String CONTENT_POLICY =
@@ -129,8 +132,8 @@ public final class Dashboard implements AutoCloseable {
         for (String path : OWN_PATHS) {
             paths.addMapping(new ServletPathSpec(path), servlets);
         }
-        paths.addMapping(
-                new ServletPathSpec("/api/*"), new ControlPlaneProxy(settings.controlPlane(), settings.rules()));
+        Handler proxy = new ControlPlaneProxy(settings.controlPlane(), settings.rules());
+        FORWARDED.forEach(path -> paths.addMapping(new ServletPathSpec(path), proxy));
         Handler status = new StatusPages(readiness, streams);
         STATUS.forEach(path -> paths.addMapping(new ServletPathSpec(path), status));
         if (settings.page().tileFile() != null) {

@@ -43,6 +43,9 @@ class DashboardCommandsIT extends DashboardFixture {
                 .isEqualTo("403 forbidden");
         assertThat(get("/api/me", VERA).headers().firstValue("Content-Security-Policy"))
                 .isPresent();
+        for (String file : List.of("/api", "/api/page/page.js", "/openapi.json")) { // without a token
+            assertThat(get(file, null).statusCode()).as(file).isIn(200, 302);
+        }
     }
 
     @Test

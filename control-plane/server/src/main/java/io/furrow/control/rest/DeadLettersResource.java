@@ -100,17 +100,9 @@ public final class DeadLettersResource {
     @RolesAllowed(Role.OPERATORS)
     @GET
     @Path("{topic}/{partition}/{offset}")
-    public Response show(
-            @PathParam("topic") String topic,
-            @PathParam("partition") String partition,
-            @PathParam("offset") String offset) {
+    public Response show(@Context UriInfo uri, @PathParam("topic") String topic) {
         checkTopic(topic);
-        return JsonResponses.ok(RecordPages.find(reads, reader, topic, partition, offset)
-                .orElseThrow(() -> new ProblemException(
-                        404,
-                        "unknown-dead-letter",
-                        "'%s' has no dead letter at partition '%s' and offset '%s', or has it no longer; GET /api/dead-letters lists those that there are"
-                                .formatted(topic, partition, offset))));
+        return JsonResponses.ok(RecordPages.one(uri, reads, reader, "dead letter"));
     }
 
     private static void checkTopic(String topic) {

@@ -57,13 +57,25 @@ final class RecordPages {
         return answer.build();
     }
 
-    /** Returns a record; empty if there is none, or partition and offset are no numbers. */
-    static Optional<ObjectNode> find(
-            KafkaReads reads, RecordReader reader, String topic, String partition, String offset) {
+    /**
+     * Returns the record that the path names, with its headers and value.
+     *
+     * @param kind what it is called
+     * @throws ProblemException 404 if there is none, or partition and offset are no numbers
+     */
+    static ObjectNode one(UriInfo uri, KafkaReads reads, RecordReader reader, String kind) {
+        String topic = uri.getPathParameters().getFirst("topic");
+        String partition = uri.getPathParameters().getFirst("partition");
+        String offset = uri.getPathParameters().getFirst("offset");
         boolean isPlace = NUMBER.matcher(partition).matches()
                 && LONG_NUMBER.matcher(offset).matches();
-        return isPlace
+        Optional<ObjectNode> record = isPlace
                 ? reads.run(() -> reader.find(topic, Integer.parseInt(partition), Long.parseLong(offset)))
                 : Optional.empty();
+        return record.orElseThrow(() -> new ProblemException(
+                404,
+                "unknown-" + kind.replace(' ', '-'),
+                "'%s' has no %s at partition '%s' and offset '%s', or has it no longer"
+                        .formatted(topic, kind, partition, offset)));
     }
 }

@@ -3,7 +3,6 @@ package io.furrow.control.rest;
 import java.io.IOException;
 import java.io.InputStream;
 import java.io.OutputStream;
-import java.io.UncheckedIOException;
 import java.util.concurrent.Semaphore;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -91,6 +90,7 @@ public final class RecordedEventsResource {
             StreamingOutput events = out -> write(missions, mission, isMcap, out, connection);
             response.resume(Response.ok(events, isMcap ? MediaType.APPLICATION_OCTET_STREAM : LINES)
                     .header("Cache-Control", "no-store")
+                    .header("Transfer-Encoding", "chunked") // else a connection that is not reused just ends after it
                     .build());
         });
     }
@@ -104,7 +104,7 @@ public final class RecordedEventsResource {
             } else {
                 missions.export(mission, out, ignored -> {});
             }
-        } catch (IOException | UncheckedIOException | MongoException e) {
+        } catch (IOException | RuntimeException e) { // also a bug must not look like the end
             LOG.warn("the export of mission '{}' has ended early: {}", mission, FailureText.of(e), e);
             connection.sendError(ABORT);
         }
@@ -172,8 +172,7 @@ public final class RecordedEventsResource {
 
     private void start(AsyncResponse response, Transfer transfer) {
         if (mongo == null) {
-            throw new ProblemException(
-                    501, "no-mongodb", "this control plane was started without --mongo, where missions are stored");
+            throw ProblemException.noMongo();
         }
         if (!free.tryAcquire()) {
             throw new ProblemException(

@@ -43,10 +43,6 @@ import io.furrow.model.topic.Topics;
 public final class RecordingsResource {
     private static final String MISSION = "mission";
     private static final int BUCKETS = 240;
-    /** Target and command in the audit. */
-    private static final String RECORDINGS = "recordings";
-
-    private static final String PURGE = "purge";
     private static final String PURGED = "purged";
     /** States of missions with devices. */
     private static final Set<String> ACTIVE = Set.of("starting", "running", "stopping");
@@ -90,8 +86,7 @@ public final class RecordingsResource {
             @QueryParam("to") List<String> tos,
             @QueryParam("buckets") List<String> buckets) {
         if (events == null) {
-            throw new ProblemException(
-                    501, "no-mongodb", "this control plane was started without --mongo, where missions are stored");
+            throw ProblemException.noMongo();
         }
         MissionTimeline.Extent extent = extent(mission);
         long from = ParameterValues.time("from", froms, extent.first());
@@ -117,28 +112,22 @@ public final class RecordingsResource {
             @QueryParam(CommandResult.DRY_RUN) boolean dryRun) {
         RequestContext caller = RequestContext.of(request);
         ObjectNode about = NgsiJson.object().put(MISSION, mission);
-        try {
-            checkUnused(mission);
-            return store.purge(mission, dryRun).handle((purge, failure) -> {
-                Throwable cause = FailureText.unwrap(failure);
-                if (cause == null) {
-                    about.put("events", purge.events()).put("markers", purge.markers());
-                }
-                managers.audit(caller, RECORDINGS, PURGE, about, dryRun ? "dry-run" : PURGED, cause);
-                if (cause != null) {
-                    throw cause instanceof ProblemException problem ? problem : new CompletionException(cause);
-                }
-                if (!dryRun) {
-                    events.forget();
-                }
-                ObjectNode answer = CommandResult.of(PURGED).json();
-                answer.setAll(about);
-                return JsonResponses.ok(dryRun ? answer.put(CommandResult.DRY_RUN, true) : answer);
-            });
-        } catch (ProblemException problem) {
-            managers.audit(caller, RECORDINGS, PURGE, about, null, problem);
-            throw problem;
-        }
+        return store.purge(mission, dryRun, () -> checkUnused(mission)).handle((purge, failure) -> {
+            Throwable cause = FailureText.unwrap(failure);
+            if (cause == null) {
+                about.put("events", purge.events()).put("markers", purge.markers());
+            }
+            managers.audit(caller, "recordings", "purge", about, dryRun ? "dry-run" : PURGED, cause);
+            if (cause != null) {
+                throw cause instanceof ProblemException problem ? problem : new CompletionException(cause);
+            }
+            if (!dryRun) {
+                events.forget();
+            }
+            ObjectNode answer = CommandResult.of(PURGED).json();
+            answer.setAll(about);
+            return JsonResponses.ok(dryRun ? answer.put(CommandResult.DRY_RUN, true) : answer);
+        });
     }
 
     private void checkUnused(String mission) {

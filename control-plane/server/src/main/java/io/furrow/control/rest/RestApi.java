@@ -40,6 +40,7 @@ import io.furrow.control.rest.access.TlsListener;
 import io.furrow.control.rest.access.TokenFilter;
 import io.furrow.control.rest.access.VersionFilter;
 import io.furrow.control.rest.description.ApiDescription;
+import io.furrow.control.rest.description.ApiPage;
 import io.furrow.control.rest.description.IsoTimeFilter;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.EventTiles;
@@ -226,7 +227,7 @@ public final class RestApi implements AutoCloseable {
         AccessRule rule = AccessRule.allowing(rest.allowed(), OptionNames.FLAGS)
                 .servedAs(rest.host())
                 .withProbes("/health", "/ready");
-        GzipHandler compressed = new GzipHandler(context);
+        GzipHandler compressed = new GzipHandler(ApiPage.before(context));
         compressed.setMinGzipSize(MIN_COMPRESSED_BYTES);
         compressed.setIncludedMethods("GET", "POST", "PATCH", "DELETE"); // of these it restores the tag in If-Match
         // Applies to requests with tokens too, because a page may have one that its user entered.

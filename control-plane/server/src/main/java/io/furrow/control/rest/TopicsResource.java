@@ -100,18 +100,9 @@ public final class TopicsResource {
     /** Returns a record with its headers and value. */
     @GET
     @Path("{topic}/records/{partition}/{offset}")
-    public Response show(
-            @PathParam("topic") String topic,
-            @PathParam("partition") String partition,
-            @PathParam("offset") String offset) {
+    public Response show(@Context UriInfo uri, @PathParam("topic") String topic) {
         checkTopic(topic);
-        return JsonResponses.ok(RecordPages.find(reads, reader, topic, partition, offset)
-                .map(TopicsResource::withoutFailure)
-                .orElseThrow(() -> new ProblemException(
-                        404,
-                        "unknown-record",
-                        "'%s' has no record at partition '%s' and offset '%s', or has it no longer"
-                                .formatted(topic, partition, offset))));
+        return JsonResponses.ok(withoutFailure(RecordPages.one(uri, reads, reader, "record")));
     }
 
     private static ObjectNode json(StoredRecord record) {

@@ -58,6 +58,35 @@ class OpenApiTest {
                 .containsExactlyInAnyOrderElementsOf(AnalyticsKind.jobNames());
     }
 
+    /** A reader of the description, and the page at /api, see requests and answers as they are. */
+    @Test
+    void hasAFittingExampleOfEachRequestAndAnswer() throws Exception {
+        OpenApiDocument served = OpenApiDocument.version1();
+        for (String operation : served.operations()) {
+            JsonNode described = served.operation(operation);
+            checkExamples(served, operation + ", request", described.path("requestBody"));
+            described.path("responses").properties().stream()
+                    .filter(answer -> answer.getKey().startsWith("2"))
+                    .forEach(answer -> checkExamples(served, operation + ", " + answer.getKey(), answer.getValue()));
+            assertThat(described.path("parameters").valueStream().map(served::resolved))
+                    .as(operation)
+                    .filteredOn(parameter -> parameter.path("in").asText().equals("path"))
+                    .hasSize(operation.split("\\{", -1).length - 1)
+                    .allMatch(parameter -> parameter.has("example"));
+        }
+    }
+
+    private static void checkExamples(OpenApiDocument document, String description, JsonNode described) {
+        Map<String, JsonNode> bodies = document.bodies(described);
+        List<String> withExample = new ArrayList<>();
+        bodies.forEach((type, body) -> document.example(body).ifPresent(example -> {
+            withExample.add(type);
+            document.check(description + " " + type, body.path("schema"), example);
+        }));
+        bodies.keySet().removeAll(List.of("application/octet-stream", "application/geopackage+sqlite3"));
+        assertThat(withExample).as(description).containsAll(bodies.keySet());
+    }
+
     private static List<String> texts(JsonNode values) {
         List<String> texts = new ArrayList<>();
         values.forEach(value -> texts.add(value.asText()));
@@ -77,6 +106,7 @@ class OpenApiTest {
     @Test
     void describesPeriodsBelowASecond() throws Exception {
         assertThat(OpenApiDocument.read().json().findValues("period"))
+                .filteredOn(JsonNode::isObject) // the others are examples
                 .hasSize(2)
                 .allMatch(period -> "PT0.5S".matches(period.path("pattern").asText("none")));
     }
@@ -131,9 +161,7 @@ class OpenApiTest {
         Map<String, String> roles = roles();
         OpenApiDocument document = OpenApiDocument.read();
         for (String operation : document.operations()) {
-            String[] parts = operation.split(" ");
-            JsonNode described =
-                    document.json().path("paths").path(parts[1]).path(parts[0].toLowerCase(java.util.Locale.ROOT));
+            JsonNode described = document.operation(operation);
             String role = described.path("security").isArray() ? "" : roles.get(operation);
             assertThat(described.path("x-role").asText()).as(operation).isEqualTo(role);
         }

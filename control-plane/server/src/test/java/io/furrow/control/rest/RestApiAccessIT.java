@@ -8,6 +8,7 @@ import java.nio.file.Path;
 import java.time.Clock;
 import java.util.Arrays;
 import java.util.List;
+import java.util.regex.Pattern;
 
 import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
@@ -138,6 +139,7 @@ class RestApiAccessIT {
                 assertThat(anonymous.raw(path, "localhost")).as(path).containsAnyOf(" 401 ", " 400 ");
             }
             assertThat(anonymous.raw("/api/domains", "farm.example.org")).contains(" 401 ");
+            checkPage(anonymous);
             assertThat(anonymous.raw("/api/domains", "evil.example")).contains(" 403 ", "foreign-host");
             assertThat(ann.error("GET", "/api/domains", null, "Origin", "https://evil.example"))
                     .isEqualTo("403 foreign-origin");
@@ -153,5 +155,27 @@ class RestApiAccessIT {
         await().untilAsserted(() -> assertThat(running.get("/api/audit?limit=1000"))
                 .anyMatch(entry -> entry.path("user").asText().equals("ann")
                         && entry.at("/about/domain").asText().equals("ann-s")));
+    }
+
+    /** The page that shows the description is public like this, and loads nothing from elsewhere. */
+    private static void checkPage(ApiClient anonymous) throws Exception {
+        String page = anonymous.raw("/api/", "localhost");
+        assertThat(page).startsWith("HTTP/1.1 200 ").contains("Content-Security-Policy: default-src 'self';");
+        assertThat(anonymous.raw("/api", "localhost")).contains("\r\nLocation: /api/\r\n");
+        List<String> files = Pattern.compile("(?:src|href)=\"(/[^\"]*)\"")
+                .matcher(page)
+                .results()
+                .map(found -> found.group(1))
+                .toList();
+        assertThat(files).hasSize(3);
+        for (String file : files) {
+            assertThat(anonymous.raw(file, "localhost"))
+                    .as(file)
+                    .startsWith("HTTP/1.1 200 ")
+                    .contains("Content-Security-Policy: ", "X-Content-Type-Options: nosniff");
+        }
+        assertThat(anonymous.raw("/api/page/swagger-ui-bundle.js.LICENSE.txt", "localhost"))
+                .contains("MIT");
+        assertThat(anonymous.raw("/api/page/none.js", "localhost")).startsWith("HTTP/1.1 404 ");
     }
 }

@@ -172,6 +172,8 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
                     .getBytes(UTF_8));
         }
         running.write("data.catalog", "|north|c3|T", null);
+        running.write("data.catalog", "other", "not an entry".getBytes(UTF_8));
+        running.write("data.catalog", "another", "{\"mission\":5}".getBytes(UTF_8));
         await().until(() -> running.get("/api/catalog?mission=c3").isEmpty());
 
         assertThat(missionsOf(client.send("GET", "/api/catalog", null))).containsExactlyInAnyOrder("c1", "c2");

@@ -204,6 +204,7 @@ class TimelineIT {
                                 .formatted(i, TIME + i, "x".repeat(200)))
                 .collect(Collectors.joining());
         load("broken", lines);
+        load("whole", lines);
         try (MongoClient documents = MongoClients.create(mongo.uri())) {
             documents
                     .getDatabase("persistence")
@@ -211,10 +212,20 @@ class TimelineIT {
                     .insertOne(new Document("_time", new Date(TIME + 9_999)));
         }
 
-        for (int i = 0; i < 3; i++) { // a failure occupies no transfer
-            assertThatThrownBy(() -> client.send("GET", "/api/recordings/broken/events", null))
+        String path = "/api/recordings/broken/events";
+        for (String query : List.of("", "?format=jsonl")) { // a failure occupies no transfer
+            assertThatThrownBy(() -> client.send("GET", path + query, null)).isInstanceOf(IOException.class);
+            assertThatThrownBy(() -> client.send("GET", path + query, null, "Accept-Encoding", "gzip"))
                     .isInstanceOf(IOException.class);
         }
+        String lastChunk = "\r\n0\r\n\r\n";
+        assertThat(client.raw("/api/recordings/whole/events", "127.0.0.1"))
+                .contains("chunked", "\"e2999\"")
+                .endsWith(lastChunk);
+        assertThat(client.raw(path, "127.0.0.1"))
+                .startsWith("HTTP/1.1 200")
+                .contains("chunked", "\"e1\"")
+                .doesNotContain(lastChunk);
     }
 
     private void assertRejected(String path, String error) throws Exception {

@@ -1,14 +1,17 @@
 package io.furrow.kafka.catalog;
 
-import java.io.IOException;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
+import java.util.Objects;
+import java.util.Optional;
 import java.util.Properties;
 import java.util.TreeMap;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
 import io.furrow.model.ngsi.NgsiJson;
@@ -17,33 +20,35 @@ import io.furrow.model.topic.Topics;
 
 /** Reads the topic {@code data.catalog} to its end. */
 public final class Catalog {
+    private static final Logger LOG = LoggerFactory.getLogger(Catalog.class);
     private static final Duration TIMEOUT = Duration.ofSeconds(10);
 
     private Catalog() {}
 
     /**
-     * The newest entry of each tenant, domain, mission and type, in this order; empty without the topic.
+     * The newest entry of each tenant, domain, mission and type, in this order; empty without the topic. Of records that are no
+     * entries the log has the number and a key.
      *
-     * @throws IOException if the topic holds something else; the message says what to do
      * @throws org.apache.kafka.common.KafkaException if Kafka does not answer
      */
-    public static List<JsonNode> read(Properties client) throws IOException {
+    public static List<JsonNode> read(Properties client) {
         Properties properties = new Properties();
         properties.putAll(client);
         properties.setProperty("default.api.timeout.ms", Long.toString(TIMEOUT.toMillis()));
         Map<String, byte[]> newest = new TreeMap<>();
         try (CommittedReader<String> reader = CommittedReader.openExisting(properties, Topics.CATALOG)) {
-            reader.readToEnd(record -> {
-                if (record.value() == null) {
-                    newest.remove(record.key());
-                } else {
-                    newest.put(record.key(), record.value());
-                }
-            });
+            reader.readToEnd(record -> newest.put(Objects.requireNonNullElse(record.key(), ""), record.value()));
         }
+        newest.values().removeIf(Objects::isNull);
         List<JsonNode> entries = new ArrayList<>();
-        for (Map.Entry<String, byte[]> one : newest.entrySet()) {
-            entries.add(entry(one.getKey(), one.getValue()));
+        List<String> others = new ArrayList<>();
+        newest.forEach((key, value) -> entry(value).ifPresentOrElse(entries::add, () -> others.add(key)));
+        if (!others.isEmpty()) {
+            LOG.warn(
+                    "{} records of {} are no entries, one with the key '{}'; find out who else writes there",
+                    others.size(),
+                    Topics.CATALOG,
+                    others.get(0));
         }
         return entries;
     }
@@ -56,14 +61,13 @@ public final class Catalog {
                 && (mission == null || mission.equals(entry.path("mission").asText()));
     }
 
-    private static JsonNode entry(String key, byte[] value) throws IOException {
+    private static Optional<JsonNode> entry(byte[] value) {
         try {
-            return NgsiJson.read(value);
+            return Optional.of(NgsiJson.read(value))
+                    .filter(entry -> entry.path("mission").isTextual()
+                            && entry.path("type").isTextual());
         } catch (UnreadableException e) {
-            throw new IOException(
-                    "%s holds something else than a catalog at key %s. Check who else writes to it."
-                            .formatted(Topics.CATALOG, key),
-                    e);
+            return Optional.empty();
         }
     }
 }

@@ -51,6 +51,13 @@ public final class ProblemException extends RuntimeException {
                 ErrorCode.OVERLOADED, "too many requests wait to be carried out; ask again in a moment");
     }
 
+    public static ProblemException noMongo() {
+        return new ProblemException(
+                501,
+                "no-mongodb",
+                "this control plane was started without --mongo, where missions and their markers are stored");
+    }
+
     public static ProblemException keyReused() {
         return new ProblemException(
                 ErrorCode.REQUEST_ID_REUSED,

@@ -14,6 +14,7 @@ import java.util.function.UnaryOperator;
 import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.MissingNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.fasterxml.jackson.dataformat.yaml.YAMLMapper;
@@ -29,6 +30,7 @@ public final class ApiDescription {
     static final String EPOCH_MS = "epoch-ms";
 
     private static final String PATHS = "paths";
+    private static final String PARAMETERS = "parameters";
 
     private final JsonNode json;
     /** By method and declared path. */
@@ -50,10 +52,23 @@ public final class ApiDescription {
         ObjectNode paths = version.putObject(PATHS);
         json.path(PATHS).properties().forEach(path -> {
             String name = path.getKey().replaceFirst("^/api/", "/" + VersionFilter.VERSION);
-            paths.set(name, path.getValue().deepCopy());
+            paths.set(name, withParametersOfThePath(path.getValue().deepCopy()));
         });
         describeTimes(version);
         return NgsiJson.write(version);
+    }
+
+    /** Gives each operation the parameters of its path: of references there, Swagger UI shows nothing. */
+    private static ObjectNode withParametersOfThePath(ObjectNode path) {
+        JsonNode shared = path.remove(PARAMETERS);
+        if (shared != null) {
+            path.forEach(operation -> {
+                JsonNode own = operation.path(PARAMETERS);
+                ArrayNode all = ((ObjectNode) operation).putArray(PARAMETERS);
+                Stream.of(shared, own).forEach(parameters -> parameters.forEach(all::add));
+            });
+        }
+        return path;
     }
 
     private static void describeTimes(JsonNode node) {
@@ -109,7 +124,7 @@ public final class ApiDescription {
         Map<String, JsonNode> parameters = new TreeMap<>();
         Set<String> headers = new HashSet<>();
         Stream.of(methods, operation)
-                .forEach(each -> each.path("parameters").forEach(parameter -> {
+                .forEach(each -> each.path(PARAMETERS).forEach(parameter -> {
                     JsonNode resolved = MemberNames.resolved(json, parameter);
                     if ("query".equals(resolved.path("in").asText())) {
                         parameters.put(

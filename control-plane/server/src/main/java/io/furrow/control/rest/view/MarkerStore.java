@@ -51,8 +51,7 @@ public final class MarkerStore implements AutoCloseable {
      */
     public <T> CompletionStage<T> request(Query<T> query) {
         if (settings.mongo() == null) {
-            throw new ProblemException(
-                    501, "no-mongodb", "this control plane was started without --mongo, where markers are kept");
+            throw ProblemException.noMongo();
         }
         CompletableFuture<T> answer = new CompletableFuture<>();
         try {
@@ -70,12 +69,14 @@ public final class MarkerStore implements AutoCloseable {
      * Deletes the events and markers of a mission.
      *
      * @param dryRun whether they are only counted
+     * @param check fails if the mission is in use; called at the last moment
      * @return fails as {@link #request}, and with 404 if the mission is not stored
      */
-    public CompletionStage<Purge> purge(String mission, boolean dryRun) {
+    public CompletionStage<Purge> purge(String mission, boolean dryRun, Runnable check) {
         return request(stored -> {
             try (MissionCatalog catalog = MissionCatalog.open(settings.mongo(), settings.database())) {
                 long events = catalog.events(mission).orElseThrow(() -> EventTiles.unknown(mission));
+                check.run();
                 if (dryRun) {
                     return new Purge(events, stored.list(mission).size());
                 }
