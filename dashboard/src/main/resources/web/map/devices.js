@@ -140,9 +140,11 @@ export class DeviceDrawing {
       const needsAttention = entity.state === 'attention';
       const stale = entity.state === 'stale';
       const text = stale ? `${entity.name} · ${age(store.now() - entity.time)}` : entity.name;
-      context.font = `${needsAttention || entity.id === store.selection ? 600 : 400} 13px ${palette.family}`;
+      context.font = `${needsAttention || entity.id === store.selection ? 600 : 400} ${palette.label} ${palette.family}`;
       const ring = entity.id === store.selection || entity.id === store.hovered ? RING : 0;
-      const place = places.beside(x, y, SIZE[shapeOf(entity)] + ring, widthOf(context, text), frame.width);
+      const half = SIZE[shapeOf(entity)] + ring;
+      // the selected device has its name in any case
+      const place = places.beside(x, y, half, widthOf(context, text), frame.width) ?? (entity.id === store.selection && { x: x + half + 6, y });
       if (place) {
         drawText(context, text, place.x, place.y, needsAttention ? palette.warning : stale ? palette.muted : palette.text, palette.background);
       }

@@ -4,7 +4,9 @@ import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { isOnMap, project } from './projection.js';
 
+/** Time for which an encounter that is over is shown, ms, and the part of it, as 1 / FADE, in which it fades. */
 const FADE_MILLIS = 10_000;
+const FADE = 5;
 /** Height of the text above a ring with its gap, and half of its width, px. */
 const PILL = 26;
 const HALF_PILL = 64;
@@ -67,7 +69,7 @@ export function drawEncounter(frame, { encounter, from, to, x, y, radius, style 
   context.stroke();
   context.setLineDash([]);
   const above = { x, y: y - radius - 14 };
-  drawPill(frame, textOf(encounter), isOver(encounter) ? [above, { x, y: y + radius + 14 }] : [above], style, palette, places);
+  drawPill(frame, textOf(encounter), [above, { x, y: y + radius + 14 }], style, places, !isOver(encounter));
   context.globalAlpha = 1;
 }
 
@@ -76,8 +78,9 @@ function styleOf(encounter, palette) {
     return { alpha: 0 };
   }
   if (isOver(encounter)) {
-    const alpha = 0.9 * (1 - (store.now() - encounter.time) / FADE_MILLIS);
-    return { color: palette.muted, ink: palette.background, dash: [], alpha: Math.min(0.9, alpha) };
+    // legible for most of the time
+    const alpha = FADE * (1 - (store.now() - encounter.time) / FADE_MILLIS);
+    return { color: palette.muted, ink: palette.background, dash: [], alpha: Math.min(1, alpha) };
   }
   return encounter.phase === 'predicted'
     ? { color: palette.warning, ink: palette.background, dash: [7, 5], alpha: 1 }
@@ -107,8 +110,8 @@ function currentDistance(encounter) {
   return Math.hypot(x, b.position[1] - a.position[1]) * radians * 6_371_008.8;
 }
 
-/** Draws a text, moved into view at the edge of the map. Draws it at the first of several positions that is free, or not at all. */
-function drawPill(frame, text, positions, style, palette, places) {
+/** Draws a text, moved into view at the edge of the map, at the first of several positions that is free; without one, only if it must be shown. */
+function drawPill(frame, text, positions, style, places, isRequired) {
   const { context } = frame;
   context.font = `700 13px ${palette.family}`;
   const half = context.measureText(text).width / 2 + 12;
@@ -118,7 +121,7 @@ function drawPill(frame, text, positions, style, palette, places) {
     const y = isInView ? Math.max(14, place.y) : place.y;
     return { x, y, box: [x - half, y - 12, x + half, y + 12] };
   });
-  const place = boxes.length > 1 ? boxes.find(({ box }) => places.isFree(...box)) : boxes[0];
+  const place = boxes.find(({ box }) => places.isFree(...box)) ?? (isRequired && boxes[0]);
   if (!place) {
     return;
   }
