@@ -2,7 +2,7 @@
 import { age } from '../core/format.js';
 import { store } from '../core/store.js';
 import { cluster, drawCluster } from './clusters.js';
-import { drawEncounter, isOver, placeEncounters } from './encounters.js';
+import { drawEncounters, isOver, placeEncounters } from './encounters.js';
 import { FieldLabels } from './field-labels.js';
 import { LabelPlaces, drawText, widthOf } from './labels.js';
 import { colorOf } from './palette.js';
@@ -56,7 +56,7 @@ export class DeviceDrawing {
     const encounters = placeEncounters(frame, palette, (id) => this.byId.get(id));
     this.fieldLabels.draw(frame, palette, places, moving.map(symbolBox), encounters);
     moving.forEach((spot) => places.block(...symbolBox(spot)));
-    encounters.forEach((each) => drawEncounter(frame, each, palette, places));
+    drawEncounters(frame, encounters, palette, places);
     for (const each of clusters) {
       each.radius = drawCluster(context, each, palette);
       places.block(each.x - each.radius, each.y - each.radius, each.x + each.radius, each.y + each.radius);

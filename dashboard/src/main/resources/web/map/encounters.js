@@ -52,8 +52,14 @@ function reported(frame, [lon, lat]) {
   return { x: frame.x(x, y), y: frame.y(x, y) };
 }
 
-export function drawEncounter(frame, { encounter, from, to, x, y, radius, style }, palette, places) {
-  const { context } = frame;
+/** Draws the lines of all encounters, and above them their texts. @param {Object[]} placed by {@link placeEncounters} */
+export function drawEncounters(frame, placed, palette, places) {
+  placed.forEach((each) => drawLines(frame.context, each));
+  placed.forEach((each) => drawText(frame, each, palette, places));
+  frame.context.globalAlpha = 1;
+}
+
+function drawLines(context, { from, to, x, y, radius, style }) {
   context.globalAlpha = style.alpha;
   context.strokeStyle = style.color;
   context.lineWidth = 3;
@@ -68,9 +74,12 @@ export function drawEncounter(frame, { encounter, from, to, x, y, radius, style 
   context.arc(x, y, radius, 0, 2 * Math.PI);
   context.stroke();
   context.setLineDash([]);
+}
+
+function drawText(frame, { encounter, x, y, radius, style }, palette, places) {
   const above = { x, y: y - radius - 14 };
-  drawPill(frame, textOf(encounter), [above, { x, y: y + radius + 14 }], style, places, !isOver(encounter));
-  context.globalAlpha = 1;
+  frame.context.globalAlpha = style.alpha;
+  drawPill(frame, textOf(encounter), [above, { x, y: y + radius + 14 }], style, palette, places, !isOver(encounter));
 }
 
 function styleOf(encounter, palette) {
@@ -111,7 +120,7 @@ function currentDistance(encounter) {
 }
 
 /** Draws a text, moved into view at the edge of the map, at the first of several positions that is free; without one, only if it must be shown. */
-function drawPill(frame, text, positions, style, places, isRequired) {
+function drawPill(frame, text, positions, style, palette, places, isRequired) {
   const { context } = frame;
   context.font = `700 13px ${palette.family}`;
   const half = context.measureText(text).width / 2 + 12;

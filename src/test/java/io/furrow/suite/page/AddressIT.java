@@ -82,6 +82,7 @@ class AddressIT {
     void removesFromTheAddressWhatIsNotChosenAnyMore() {
         FarmPage page = farm.open("#/map?scope=farm&select=" + ROBOT + "1&place=40.3125,-3.4822,18", 1440, 900);
         assertThat(page.card(ROBOT + 1)).hasClass(Pattern.compile("selected"));
+        page.until(() -> page.is("Boolean(document.querySelector('furrow-map').view)"));
         assertThat(page.number(LATITUDE)).isCloseTo(40.3125, METER);
         page.store("store.select(null)");
         page.store("store.setScope({})");
