@@ -32,7 +32,7 @@ final class Crowd implements AutoCloseable {
               Object.assign(window, { moves: 0, shift: 0, shifts: 0, drawn: 0 });
               let place = null;
               const look = () => {
-                const { x, y } = document.querySelector(`li.card[data-id="${id}"] .card-commands .button`)?.getBoundingClientRect() ?? {};
+                const { x, y } = document.querySelector(`li.card[data-id="${id}"] .card-commands .button`).getBoundingClientRect();
                 window.moves += place !== null && place !== `${x} ${y}`;
                 place = `${x} ${y}`;
                 requestAnimationFrame(look);
