@@ -195,16 +195,18 @@ class FurrowMap extends Pointing(HTMLElement) {
     if (entity?.position && isOnMap(...entity.position)) {
       const center = project(...entity.position);
       store.reveal = false;
-      const isFar = this.view.getResolution() > FAR;
-      if (isFar || !this.isInView(center)) {
-        this.moved = true;
-        this.view.animate({ center, ...(isFar ? { zoom: 18 } : {}), duration: reducedMotion.matches ? 0 : 350 });
-      }
+      this.moved = true;
+      const near = this.view.getResolution() > FAR ? { zoom: 18 } : {};
+      this.view.animate({ center, ...near, duration: reducedMotion.matches ? 0 : 350 });
     }
   }
 
-  isInView(center) {
-    const [x, y] = this.map.getPixelFromCoordinate(center) ?? [];
+  /** Whether a device can be seen, so that the map need not move. */
+  isInView({ position }) {
+    if (!position || !isOnMap(...position) || this.view.getResolution() > FAR) {
+      return false;
+    }
+    const [x, y] = this.map.getPixelFromCoordinate(project(...position)) ?? [];
     const [width, height] = this.map.getSize() ?? [];
     return x > EDGE && y > EDGE && x < width - EDGE && y < height - EDGE;
   }
@@ -214,7 +216,7 @@ class FurrowMap extends Pointing(HTMLElement) {
     const [device] = [...store.entities.values()].filter((each) => store.inScope(each) && store.matches(each)).sort((a, b) => (a.name < b.name ? -1 : 1));
     const extent = this.fields.extent([...store.fields.values()].filter(isFound).slice(0, 1));
     if (device) {
-      store.select(device.id, { reveal: true });
+      store.select(device.id, { reveal: !this.isInView(device) });
     } else if (extent) {
       this.open(extent);
     }

@@ -109,6 +109,21 @@ class StubbedViewsIT {
         page.until(() -> page.mapPixels(0xb3261e) > 1_000);
     }
 
+    /** Else a search would push the farm out of the map. */
+    @Test
+    void selectsAFoundDeviceThatIsInViewWithoutMovingTheMap() {
+        farm.hasRobot(1).hasRobot(2);
+        FarmPage page = farm.open("", 1440, 900);
+        assertThat(page.card("urn:ngsi-ld:Robot:2")).isVisible();
+        page.until(() -> page.is("document.querySelector('furrow-map').devices?.spots.length === 2"));
+        page.find("input[type=search]").first().fill("robot 2");
+        page.find("input[type=search]").first().press("Enter");
+
+        assertThat(page.card("urn:ngsi-ld:Robot:2")).hasClass(Pattern.compile("selected"));
+        assertThat(page.page()).hasURL(Pattern.compile("select="));
+        assertThat(page.is("document.querySelector('furrow-map').moved ?? false")).isFalse();
+    }
+
     @Test
     void deletesAMarker() {
         farm.hasReplay("weeding", "", "paused", START, START + MINUTE, START + 1_000)
