@@ -1,10 +1,11 @@
 /** The frame of the page: navigation, search, scope, mode (live or replay) and notices; starts the page. */
+import { keepAddress } from './core/address.js';
 import { api } from './core/api.js';
 import { feeds, loadUser } from './core/feeds.js';
 import { clock, day, duration, zone } from './core/format.js';
 import { h, replace, setText } from './core/dom.js';
 import { icon } from './core/icons.js';
-import { keepInAddress, linkTo, navigate, onRoute, route } from './core/router.js';
+import { amendAddress, linkTo, navigate, onRoute, route } from './core/router.js';
 import { store } from './core/store.js';
 import { arrange } from './alarms/order.js';
 import { stopAllButton } from './cards/stop-all.js';
@@ -32,13 +33,15 @@ const WITH_TIMELINE = new Set(['map', 'replays', 'analyses']);
 class App extends HTMLElement {
   connectedCallback() {
     this.view = null;
+    this.announcer = h('div.visually-hidden', { role: 'status', 'aria-live': 'polite' });
+    this.subscriptions = keepAddress((words) => this.announce(words)); // first, so that the parts show what it says
     this.mode = h('span.mode');
     this.leave = h('button.button.small.mode-leave', { type: 'button', hidden: true, title: t('app.toLive'), 'aria-label': t('app.toLive'), on: { click: () => store.leaveReplay() } }, icon('close', 16), h('span', null, t('app.toLive')));
-    this.crumbs = h('nav.crumbs', { 'aria-label': t('views.topics') });
+    this.crumbs = h('nav.crumbs', { 'aria-label': t('app.scope') });
     this.time = h('span.now.numbers');
     this.alarms = h('a.alarm-count', { href: linkTo('map') });
     this.find = h('input', {
-      type: 'search', placeholder: t('app.find'), 'aria-label': t('app.find'), autocomplete: 'off', spellcheck: 'false',
+      type: 'search', placeholder: t('app.find'), 'aria-label': t('app.find'), autocomplete: 'off', spellcheck: 'false', value: store.filter,
       on: { input: () => this.findChanged(), keydown: (event) => this.findKey(event) },
     });
     const narrow = matchMedia('(max-width: 560px)');
@@ -47,17 +50,17 @@ class App extends HTMLElement {
     setPlaceholder();
     this.rail = h('nav.rail', { 'aria-label': t('app.places') }, PLACES.map(([name, symbol]) =>
       h('a', { href: linkTo(name), 'aria-label': t(`views.${name}`), data: { view: name } }, icon(symbol, 22), h('span', { 'aria-hidden': 'true' }, t(`views.${name}`)))));
-    this.viewPlace = h('div.view-place', { hidden: true, tabindex: '0' });
+    this.viewPlace = h('div.view-place', { hidden: true, tabindex: '0', role: 'group' });
     this.notice = h('div.notice', { hidden: true });
     this.liveNote = h('p.live-note', { hidden: true }, icon('info', 16), h('span'), h('a', { href: linkTo('map') }, t('app.toReplay')));
-    this.announcer = h('div.visually-hidden', { role: 'status', 'aria-live': 'polite' });
     this.map = this.load('furrow-map');
     this.middle = h('main.middle', { id: 'content', tabindex: '-1' }, this.map, this.viewPlace);
-    this.side = h('aside.side', { 'aria-label': t('app.panel') }, this.load('furrow-alarms'), this.load('furrow-cards'));
+    this.side = h('aside.side', { id: 'panel', tabindex: '-1', 'aria-label': t('app.panel') }, this.load('furrow-alarms'), this.load('furrow-cards'));
     this.timelinePlace = h('section.timeline-place', { 'aria-label': t('app.timeline') }, this.load('furrow-timeline'));
 
     replace(this,
       h('a.skip.button', { href: '#content', on: { click: (event) => { event.preventDefault(); this.middle.focus(); } } }, t('app.skip')),
+      h('a.skip.button.skip-panel', { href: '#panel', on: { click: (event) => { event.preventDefault(); this.side.focus(); } } }, t('app.skipPanel')),
       h('header.topbar', null,
         h('a.brand', { href: linkTo('map'), 'aria-label': t('app.title') }, icon('furrow', 22), h('span', null, t('app.title'))),
         this.crumbs, this.mode, this.leave, h('span.spacer'),
@@ -65,13 +68,13 @@ class App extends HTMLElement {
         this.time, this.alarms, stopAllButton(), settingsMenu()),
       h('div.notices', null, this.notice, this.liveNote), this.rail, this.middle, this.side, this.timelinePlace, this.announcer);
 
-    this.subscriptions = [
+    this.subscriptions.push(
       onRoute(() => this.show()),
       store.on('mode', () => this.showMode()),
       store.on('clock', () => this.showTime()), store.on('connection', () => this.showConnection()),
       store.on('alarms', () => this.showAlarms()), store.on('scope', () => this.showScope()),
-      store.on('replays', () => this.followLink()),
-    ];
+      store.on('filter', () => document.activeElement === this.find || (this.find.value = store.filter)),
+    );
     document.addEventListener('keydown', (event) => this.key(event));
     this.show();
     this.showAlarms();
@@ -95,10 +98,11 @@ class App extends HTMLElement {
   }
 
   show() {
-    const { view, query } = route;
+    const { view } = route;
     const isMap = view === 'map';
     this.classList.toggle('plain', !isMap);
     this.viewPlace.hidden = isMap;
+    this.viewPlace.setAttribute('aria-label', t(`views.${view}`));
     this.map.hidden = !isMap;
     this.timelinePlace.hidden = !WITH_TIMELINE.has(view);
     for (const link of this.rail.children) {
@@ -111,28 +115,6 @@ class App extends HTMLElement {
       isMap || this.middle.focus({ preventScroll: true });
       this.showMode();
       this.showTime();
-    }
-    if (query.select) {
-      store.select(query.select, { reveal: true });
-    }
-    this.followLink();
-  }
-
-  /** Follows a link to a moment of a replay: `#/map?replay=R&at=ISO`. */
-  async followLink() {
-    const { replay, at } = route.query;
-    const existing = replay && store.replays.get(replay);
-    const link = `${replay} ${at}`;
-    if (!existing?.topic || this.followed === link) {
-      return;
-    }
-    this.followed = link;
-    if (store.mode.replay !== replay) {
-      store.enterReplay(existing);
-    }
-    if (at && store.may('operate')) {
-      const to = Number.isNaN(Number(at)) ? at : Number(at);
-      await api.post(`/api/replays/${encodeURIComponent(replay)}/seek`, { to }).catch((error) => this.announce(error.message));
     }
   }
 
@@ -152,15 +134,9 @@ class App extends HTMLElement {
     this.leave.hidden = !recorded;
     this.liveNote.hidden = recorded || !replaying;
     setText(this.liveNote.children[1], t('app.liveView', { mission: name }));
-    if (recorded && route.view !== 'replays' && (store.mode.replay !== this.kept || !route.query.replay)) {
-      this.kept = store.mode.replay;
-      this.kept === route.query.replay || keepInAddress({ ...route.query, at: null, replay: this.kept });
-    }
     if (this.wasReplaying !== undefined && this.wasReplaying !== replaying) {
       setText(this.announcer, replaying ? t('app.enteredReplay', { mission: name }) : t('app.enteredLive'));
-      if (!replaying && route.query.replay) {
-        navigate(route.view);
-      }
+      replaying || route.view !== 'map' || amendAddress({ mission: null, at: null }); // of the link to it
     }
     this.wasReplaying = replaying;
   }
@@ -183,7 +159,7 @@ class App extends HTMLElement {
   showScope() {
     const { domain, mission } = store.scope;
     replace(this.crumbs,
-      h('a.cut', { href: linkTo('topics'), 'aria-current': mission ? null : 'true' }, domain ?? t('app.allDomains')),
+      h('a.cut', { href: linkTo('missions', { tab: 'domains' }), 'aria-current': mission ? null : 'true' }, domain ?? t('app.allDomains')),
       mission && [h('span.muted', { 'aria-hidden': 'true' }, '›'), h('span.cut', { 'aria-current': 'true' }, mission)],
       domain && h('button.button.quiet.square.small', { type: 'button', 'aria-label': t('topics.showAll'), title: t('topics.showAll'), on: { click: () => store.setScope({}) } }, icon('close', 16)));
     this.classList.toggle('scoped', Boolean(domain));

@@ -3,12 +3,13 @@
 export const texts = {
   app: {
     title: 'Furrow',
-    skip: 'Skip to content',
+    skip: 'Skip to content', skipPanel: 'Skip to alarms and devices',
     find: 'Find a device, field or alarm', findShort: 'Find …',
     live: 'Live', notConnected: 'Not connected',
     replayOf: 'Replay of {mission} · {day}',
     toLive: 'Back to live',
     liveView: 'This view is live. The map shows a replay of {mission}.', toReplay: 'To the replay',
+    scope: 'What is shown', others: '{count} outside of {scope}: show all', only: 'Only {scope}.',
     alarms: '{count} open alarms',
     places: 'Places',
     settings: 'Settings',
@@ -82,7 +83,7 @@ export const texts = {
   // ------------------------------------------------------------------------------------------------------------------
 
   cards: {
-    title: 'Devices', silent: '{count device|devices} silent or off', count: '{count} · {reporting} reporting', filter: 'Show only', loading: 'Devices are being read',
+    title: 'Devices', silent: '{count device|devices} silent or off', count: '{count} · {reporting} reporting', found: '{found} of {count}', unknown: '{device} has never reported, or was deleted.', filter: 'Show only', loading: 'Devices are being read',
     state: 'State', fieldMean: 'Field mean', suspect: 'suspect', noPosition: 'no position', details: 'All attributes of {name}',
     line: '{label}: now {now} {unit}, between {min} and {max} {unit}',
     lineConstant: '{label}: {now} {unit} all the time',
@@ -109,7 +110,7 @@ export const texts = {
   // ------------------------------------------------------------------------------------------------------------------
 
   alarms: {
-    title: 'Alarms', reading: 'Alarms are being read …', failed: 'The alarms cannot be read: {reason}', open: '{count} open', none: 'No open alarms', noMatch: 'No open alarm matches the search.', quiet: '{count} acknowledged, muted or explained by another', liveInReplay: 'Live, not from the replay: {count alarm|alarms}', further: 'Show {count} more',
+    title: 'Alarms', reading: 'Alarms are being read …', failed: 'The alarms cannot be read: {reason}', open: '{count} open', none: 'No open alarms', noMatch: 'No open alarm matches the search.', noneHere: 'No open alarm here.', quiet: '{count} acknowledged, muted or explained by another', liveInReplay: 'Live, not from the replay: {count alarm|alarms}', further: 'Show {count} more',
     acknowledge: 'Acknowledge', more: 'Mute or close', mute10: 'Mute for 10 minutes', mute60: 'Mute for an hour', mute480: 'Mute for 8 hours', unmute: 'Unmute', close: 'Close',
     seen: '{count} times', affected: '{count} of {total}', by: 'acknowledged by {user}', mutedUntil: 'muted until {time}', inhibited: 'explained by another alarm',
     announced: 'New alarm, {severity}: {text}', notify: 'Tell me when this page is in the background', notification: 'Furrow: {severity} alarm',
@@ -142,7 +143,7 @@ export const texts = {
     none: 'No missions yet', noneHint: 'A mission says which devices work where. Create one from a template.',
     states: { created: 'not started', starting: 'starting', running: 'running', stopping: 'stopping', stopped: 'stopped', failed: 'failed' },
     confirmed: '{confirmed} of {devices device|devices}', missing: '{count} missing', since: 'for {age}', notYet: 'not yet', progress: 'Devices in the desired state',
-    startedAt: 'started {time}', lasts: 'for {duration}', start: 'Start', stop: 'Stop', delete: 'Delete', replay: 'Replay',
+    startedAt: 'started {time}', lasts: 'for {duration}', left: '{duration} left', start: 'Start', stop: 'Stop', delete: 'Delete', replay: 'Replay',
     credentials: 'Logins', startTitle: 'Start {mission}?', stopTitle: 'Stop {mission}?', stopText: 'Simulated devices are switched off; the logins of real ones end until it is started again. What it recorded stays.', deleteTitle: 'Delete {mission}?', deleteText: 'Its plan and its devices are deleted. What it recorded stays in MongoDB.',
     devices: 'Devices', deviceColumns: { device: 'Device', state: 'State', health: 'Health', battery: 'Battery', seen: 'Heard', audit: 'Commands' }, onMap: 'Show {device} on the map', auditOfDevice: 'Who commanded {device}',
     viewer: 'You can view everything. Commands require the role of an operator', noDevicesYet: 'Its devices are being created.', planned: '{count device|devices} planned, created when it starts.', moreDevices: 'and {count} more',
@@ -227,7 +228,7 @@ export const texts = {
     noDensity: 'Cannot show the events: {reason}',
     tipEncounter: '{pair} · closest {distance}',
     flag: 'Marker {note}, {time}',
-    markTitle: 'Mark this moment', markNote: 'What happens here?', markSave: 'Add marker', cancel: 'Cancel',
+    markTitle: 'Mark this moment', markDelete: 'Delete marker {note}', markNote: 'What happens here?', markSave: 'Add marker', cancel: 'Cancel',
   },
 
   // ------------------------------------------------------------------------------------------------------------------
@@ -248,7 +249,7 @@ export const texts = {
     suspectMark: 'Triangle: a device was suspect in this window', hide: 'Show or hide {field}',
     when: 'When', pair: 'Devices', closest: 'Closest', duration: 'Duration', phase: 'Phase', sort: 'Sort by {column}',
     phases: { started: 'ongoing', ongoing: 'ongoing', ended: 'ended', crossed: 'crossed' },
-    toMoment: 'To the moment', toMomentOf: 'Show the moment of {pair} at {time} on the map',
+    toMoment: 'To the moment', toMomentOf: 'To the moment of {pair} at {time}',
     noRecording: 'not recorded', more: '{shown} of {count} are shown',
     stay: '{device} in {field}, {from} to {to}', stillIn: 'still there', device: 'Device', entered: 'Entered', left: 'Left', stayed: 'Stayed',
     at: '{value} at {time}', chartLabel: 'Averages per field over time; the table has the same numbers',
@@ -261,7 +262,7 @@ export const texts = {
     parts: 'Parts', partNames: { api: 'REST API', iotAgent: 'IoT Agent', kafka: 'Kafka' }, states: { up: 'up', down: 'down', dead: 'dead' },
     lag: 'Lag', lagHint: 'Records that a consumer group has not committed yet; jobs commit with each checkpoint.', noGroups: 'No consumer group has committed anything yet.', ofReplays: '{count group|groups} of replays without a lag',
     letters: 'Dead letters', noLetters: 'None in {count topic|topics}', lettersHint: 'Their headers describe the error and its place. When it is fixed, redrive them:', lettersCommand: 'Commands that redrive dead letters', notKnown: 'Not known while it does not answer.',
-    hops: 'How long a report takes', hop: 'Hop', samples: '{count report|reports} of the last minute', hopsWait: 'Waiting for reports …',
+    hops: 'How long a report takes', hop: 'Hop', axis: 'On one axis', samples: '{count report|reports} of the last minute', hopsWait: 'Waiting for reports …',
     hopNames: { device: 'Device to Kafka', source: 'Kafka to domain', page: 'Domain to this page', all: 'Together' },
     hopsHint: 'By the times in the records’ headers: when the device measured, when the NGSI source received the report, when ingest had routed it, and when this page received it. The bright part is half of all reports, the faint ones are 95 and 99 of 100. Clocks that differ show as delay.',
   },

@@ -4,6 +4,7 @@ import { age, clock, label, readable } from '../core/format.js';
 import { h, isHeld, replace, setText } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { isIn, scope } from '../core/identities.js';
+import { others } from '../core/scope.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { arrange, isMuted } from './order.js';
@@ -23,15 +24,16 @@ class FurrowAlarms extends HTMLElement {
     this.fold = h('details.alarm-fold', { hidden: true }, h('summary'), h('ul.alarm-list'));
     this.none = h('p.alarm-none', null, icon('check', 18), h('span', null, t('alarms.reading')));
     this.further = h('button.button.quiet.small', { type: 'button', hidden: true, on: { click: () => { this.shown += SHOWN; this.draw(); } } });
+    this.elsewhere = h('div', { hidden: true });
     this.polite = h('div.visually-hidden', { 'aria-live': 'polite' });
     this.assertive = h('div.visually-hidden', { 'aria-live': 'assertive' });
     this.notify = h('button.button.quiet.square.small', { type: 'button', hidden: true, 'aria-label': t('alarms.notify'), title: t('alarms.notify'), on: { click: () => this.requestPermission() } }, icon('bell', 16));
-    replace(this, h('div.alarm-head', null, h('h2.section-title', null, h('span', null, t('alarms.title')), this.count), this.notify), this.none, this.list, this.further, this.fold, this.polite, this.assertive);
+    replace(this, h('div.alarm-head', null, h('h2.section-title', null, h('span', null, t('alarms.title')), this.count), this.notify), this.none, this.list, this.further, this.elsewhere, this.fold, this.polite, this.assertive);
     this.rows = new Map();
     this.list.addEventListener('pointerleave', () => this.draw());
     this.list.addEventListener('focusout', () => setTimeout(() => this.draw()));
     this.fold.addEventListener('toggle', () => { this.draw(); this.giveRoom(true); });
-    this.subscriptions = [...['alarms', 'filter', 'fields'].map((name) => store.on(name, () => this.draw())), store.on('clock', () => this.drawAges()), store.on('mode', () => this.draw()), store.on('me', () => this.draw())];
+    this.subscriptions = [...['alarms', 'filter', 'fields', 'scope'].map((name) => store.on(name, () => this.draw())), store.on('clock', () => (store.scope.domain === null ? this.drawAges() : this.draw())), store.on('mode', () => this.draw()), store.on('me', () => this.draw())];
     this.draw();
   }
 
@@ -42,12 +44,13 @@ class FurrowAlarms extends HTMLElement {
   draw() {
     const all = arrange(store.alarms.values(), Date.now());
     // alarms are live: a replay shows them in one line
-    const [open, quiet] = (store.isReplay ? [[], [...all.open, ...all.quiet]] : [all.open, all.quiet]).map((each) => each.filter(isFound));
-    const others = store.isReplay ? 0 : all.open.length - open.length;
+    const [open, quiet] = (store.isReplay ? [[], [...all.open, ...all.quiet]] : [all.open, all.quiet]).map((each) => each.filter(isFound).filter(isInScope));
+    const hidden = store.isReplay ? 0 : all.open.length - open.length;
+    const elsewhere = store.isReplay ? 0 : all.open.filter((each) => isFound(each) && !isInScope(each)).length;
     this.none.hidden = open.length > 0 || store.isReplay;
-    this.none.classList.toggle('is-reading', !store.alarmsLoaded || others > 0 || Boolean(store.lists.alarms.error));
+    this.none.classList.toggle('is-reading', !store.alarmsLoaded || hidden > 0 || Boolean(store.lists.alarms.error));
     const { error } = store.lists.alarms;
-    setText(this.none.lastChild, error ? t('alarms.failed', { reason: error.message }) : t(!store.alarmsLoaded ? 'alarms.reading' : others > 0 ? 'alarms.noMatch' : 'alarms.none'));
+    setText(this.none.lastChild, error ? t('alarms.failed', { reason: error.message }) : t(!store.alarmsLoaded ? 'alarms.reading' : hidden > elsewhere ? 'alarms.noMatch' : hidden > 0 ? 'alarms.noneHere' : 'alarms.none'));
     setText(this.count, store.alarmsLoaded ? t('alarms.open', { count: all.open.length }) : '');
     const used = new Set();
     this.fill(this.list, open.slice(0, this.shown), used);
@@ -55,6 +58,11 @@ class FurrowAlarms extends HTMLElement {
     const further = Math.max(open.length, this.fold.open ? quiet.length : 0) - this.shown;
     this.further.hidden = further <= 0;
     setText(this.further, t('alarms.further', { count: further }));
+    if (elsewhere !== this.elsewhere.count) {
+      this.elsewhere.count = elsewhere;
+      this.elsewhere.hidden = elsewhere === 0;
+      replace(this.elsewhere, others(elsewhere));
+    }
     this.fold.hidden = quiet.length === 0;
     setText(this.fold.firstChild, t(store.isReplay ? 'alarms.liveInReplay' : 'alarms.quiet', { count: quiet.length }));
     this.counts = [open.length, quiet.length];
@@ -179,11 +187,16 @@ function leaveGap(row) {
 
 /** The text with the names of devices and fields. */
 function textOf(alarm) {
-  return readable(alarm.text).replace(/\bfield ([\w-]+)/g, (words, id) => store.fields.get(id)?.name ?? words);
+  return readable(alarm.text).replace(/\bfield ([\w-]+)/g, (words, id) => store.fields.get(id)?.name ?? words).replace(/(\d) (m|s|min|h|°C|%)(?![\w])/g, '$1\u00a0$2');
 }
 
 function isFound(alarm) {
   return store.isFound(textOf(alarm), label(alarm.kind.replaceAll('-', ' ')), alarm.subject ?? '');
+}
+
+/** An alarm of no device that the page knows concerns all. */
+function isInScope(alarm) {
+  return store.isAboutScope(entitiesOf(alarm));
 }
 
 function lineOf(alarm) {

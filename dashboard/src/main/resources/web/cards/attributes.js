@@ -1,5 +1,5 @@
 /** Selects the attributes that a card shows. */
-import { plain, quantity } from '../core/format.js';
+import { dateTime, plain, quantity } from '../core/format.js';
 
 /** Id, positions, times and states, which the card shows elsewhere. */
 const SHOWN_ELSEWHERE = new Set([
@@ -9,6 +9,8 @@ const SHOWN_ELSEWHERE = new Set([
 const FIRST = [
   'speed', 'temperature', 'battery', 'humidity', 'relativehumidity', 'soilmoisture', 'windspeed', 'pressure', 'atmosphericpressure', 'illuminance', 'precipitation',
 ];
+/** Larger numbers are times, epoch ms. */
+const FIRST_TIME = 1e11;
 const COMMAND = /_(status|info)$/;
 
 /**
@@ -37,8 +39,12 @@ function rankOf(name, attribute) {
 /** All attributes as texts. @returns {{name: string, type: string, value: string}[]} */
 export function allAttributes(entity) {
   return Object.entries(entity.attributes)
-    .map(([name, attribute]) => ({ name, type: attribute.type, value: plain(attribute.value, 2_000) }))
+    .map(([name, attribute]) => ({ name, type: attribute.type, value: wordsOf(name, attribute) }))
     .sort((a, b) => (a.name < b.name ? -1 : 1));
+}
+
+function wordsOf(name, attribute) {
+  return name === 'Time' && attribute.value > FIRST_TIME ? dateTime(attribute.value) : plain(attribute.value, 2_000);
 }
 
 /** Selects the series that a card draws: the most important one that changes. */

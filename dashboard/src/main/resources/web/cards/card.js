@@ -2,6 +2,7 @@
 import { api } from '../core/api.js';
 import { age, bytes, temperature } from '../core/format.js';
 import { h, replace, setText } from '../core/dom.js';
+import { openDialog } from '../core/dialog.js';
 import { icon } from '../core/icons.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
@@ -131,9 +132,8 @@ export class Card {
   }
 
   request(command) {
-    if (!command.risky || window.confirm(t('cards.confirm', { command: command.name, name: this.entity.name }))) {
-      sendCommand(this.entity, command.name, (sent) => { this.sent = sent; this.drawCommands(); });
-    }
+    const send = () => { sendCommand(this.entity, command.name, (sent) => { this.sent = sent; this.drawCommands(); }); };
+    command.risky ? openDialog({ title: t('cards.confirm', { command: command.name, name: this.entity.name }), submit: nameOf(command), danger: true, body: [], work: send }) : send();
   }
 
   // --- details -----------------------------------------------------------------------------------------------------

@@ -1,6 +1,8 @@
 /** The cards of the devices: those that need attention first, then robots, cameras and all others, by name; silent ones are folded. */
 import { h, isHeld, replace, setText } from '../core/dom.js';
+import { shortId } from '../core/format.js';
 import { icon } from '../core/icons.js';
+import { parameter } from '../core/router.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { Card } from './card.js';
@@ -9,6 +11,7 @@ import { Card } from './card.js';
 const PORTION = 40;
 const REDRAW_MILLIS = 250;
 const ORDER_MILLIS = 1_000;
+const CHIPS = [['robot', 'kinds'], ['sensor', 'kinds'], ['camera', 'kinds'], ['other', 'kinds'], ['attention', 'states'], ['stale', 'states'], ['off', 'states']];
 const RANK = { attention: 0, ok: 1, stale: 2, off: 3 };
 const byName = new Intl.Collator(undefined, { numeric: true, sensitivity: 'base' });
 
@@ -25,9 +28,10 @@ class FurrowCards extends HTMLElement {
     this.fold = h('button.button.quiet.card-fold', { type: 'button', hidden: true, on: { click: () => this.toggleFold() } }, icon('chevron-down', 18), h('span'));
     this.end = h('div.card-end', { 'aria-hidden': 'true' });
     this.empty = h('div.empty', { hidden: true });
+    this.unknown = h('p.small.muted', { hidden: true, role: 'status' });
     this.loading = h('div.stack', { 'aria-label': t('cards.loading'), role: 'status' }, [0, 1, 2].map(() =>
       h('div.card', null, h('div.skeleton.line', null, '…'), h('div.skeleton.block', null, '…'))));
-    replace(this, h('h2.section-title', null, h('span', null, t('cards.title')), this.count), this.chips, this.loading, this.empty, this.list, this.fold, this.end);
+    replace(this, h('h2.section-title', null, h('span', null, t('cards.title')), this.count), this.chips, this.unknown, this.loading, this.empty, this.list, this.fold, this.end);
     this.watcher = new IntersectionObserver((intersected) => this.intersected(intersected), { rootMargin: '200px' });
     this.watcher.observe(this.end);
     for (const event of ['wheel', 'touchmove', 'keydown', 'pointerdown']) {
@@ -46,6 +50,8 @@ class FurrowCards extends HTMLElement {
       store.on('images', (ids) => this.changed(ids, false)),
       store.on('me', () => this.redraw(this.visible)),
     ];
+    this.kept = parameter('kind', { view: 'map', get: () => this.kind, set: (key) => CHIPS.some(([name]) => name === key) && this.choose(key) });
+    this.subscriptions.push(this.kept.close);
     this.order(true);
   }
 
@@ -87,7 +93,9 @@ class FurrowCards extends HTMLElement {
 
   /** Sorts the cards. While the pointer or focus is on the list, nothing moves: sorting waits. */
   order(now) {
-    const matching = this.unfolded(this.matching());
+    const found = this.matching();
+    this.found = found.length;
+    const matching = this.unfolded(found);
     const shown = this.withSelected(matching.slice(0, this.limit));
     if (!now && isHeld(this.list) && this.cards.size) {
       // Appended cards do not move others.
@@ -214,10 +222,12 @@ class FurrowCards extends HTMLElement {
         }
       }
     }
-    setText(this.count, all ? t('cards.count', { count: all, reporting }) : '');
+    setText(this.count, !all ? '' : store.filter || this.kind ? t('cards.found', { found: this.found, count: all }) : t('cards.count', { count: all, reporting }));
     this.loading.hidden = store.primed || all > 0;
+    this.unknown.hidden = !store.pastLoaded || store.isReplay || !store.selection || store.entities.has(store.selection);
+    setText(this.unknown, this.unknown.hidden ? '' : t('cards.unknown', { device: shortId(store.selection) }));
     this.drawEmpty(all);
-    const chips = [['robot', 'kinds'], ['sensor', 'kinds'], ['camera', 'kinds'], ['other', 'kinds'], ['attention', 'states'], ['stale', 'states'], ['off', 'states']].filter(([key]) => counts.get(key) || key === this.kind);
+    const chips = CHIPS.filter(([key]) => counts.get(key) || key === this.kind);
     const key = `${this.kind} ${chips.map(([name]) => `${name}${counts.get(name)}`).join()}`;
     if (key !== this.chipsKey && !isHeld(this.list)) {
       this.chipsKey = key;
@@ -233,6 +243,7 @@ class FurrowCards extends HTMLElement {
     this.kind = this.kind === kind ? null : kind;
     this.limit = PORTION;
     this.order(true);
+    this.kept?.write();
   }
 
   drawEmpty(all) {

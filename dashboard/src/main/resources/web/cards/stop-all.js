@@ -19,7 +19,7 @@ export function stopAllButton() {
 
 /** Robots of all domains, whatever the scope and the search; without those that the stop of their mission switched off. */
 function robots() {
-  return [...store.entities.values()].filter((each) => each.state !== 'off' && commandsOf(each).some(({ name }) => name === COMMAND)).sort((a, b) => (a.name < b.name ? -1 : 1));
+  return [...store.entities.values()].filter((each) => each.state !== 'off' && commandsOf(each).some(({ name }) => name === COMMAND)).sort((a, b) => a.name.localeCompare(b.name, undefined, { numeric: true }));
 }
 
 function open() {

@@ -41,12 +41,12 @@ class Feeds {
    * record; `list` names the list of the store that they form. An initial state has no deletions: `forget` is called for each key that an earlier connection had and the initial state lacks, with the
    * time of its newest record, and the time when the key was last received.
    */
-  feed(topic, mode, apply, { main = false, forget = (key) => apply({ key, headers: {}, value: null }), list = null, whileHidden } = {}) {
+  feed(topic, mode, apply, { main = false, forget = (key) => apply({ key, headers: {}, value: null }), list = null, createdLater = false, whileHidden } = {}) {
     const previous = new Map();
     let [keys, newest] = [new Map(), -Infinity];
     const figures = { name: topic, count: 0, rate: 0, gap: 0, state: 'connecting', since: Date.now() };
     store.topics.set(topic, figures);
-    const stream = streams.subscribe(topic, { mode, prime: true, whileHidden }, {
+    const stream = streams.subscribe(topic, { mode, prime: true, createdLater, whileHidden }, {
       records: (records, merged) => {
         for (const record of records) {
           const changedKeys = apply(record) ?? [record.key];
@@ -213,8 +213,8 @@ class Feeds {
     this.epochs = new Map();
     this.shown = members.flatMap((each, index) => [
       this.feed(each.topic, 'latest', (record) => this.applyReplayed(record), { main: index === 0, forget: (key) => store.forgetEntity(key) }),
-      this.feed(`${each.topic}.collision`, 'all', (record) => this.applyResult(record, each.topic, () => store.applyEncounter(record))),
-      this.feed(`${each.topic}.temperature`, 'all', (record) => this.applyResult(record, each.topic, () => store.applyTemperature(record, each.mission))),
+      ...['collision', 'temperature'].filter((job) => each.analytics?.includes(job)).map((job) => this.feed(`${each.topic}.${job}`, 'all', (record) => this.applyResult(record, each.topic,
+        () => (job === 'collision' ? store.applyEncounter(record) : store.applyTemperature(record, each.mission))), { createdLater: true })),
     ]);
     this.follow(replay.replay);
     this.readImages();

@@ -61,6 +61,11 @@ export function dateTime(epochMs) {
   return Number.isFinite(epochMs) ? dateTimeFormat.format(epochMs) : '–';
 }
 
+/** "10:42:07" today, else "21 Nov 2026, 10:42:07". */
+export function moment(epochMs) {
+  return day(epochMs) === day(Date.now()) && Math.abs(Date.now() - epochMs) < 2 * DAY ? clock(epochMs) : dateTime(epochMs);
+}
+
 /** "UTC+1". */
 export function zone(epochMs) {
   const part = zoneFormat.formatToParts(epochMs).find((each) => each.type === 'timeZoneName')?.value ?? 'UTC';
@@ -184,7 +189,7 @@ export function shortId(id) {
   return text.startsWith('urn:ngsi-ld:') && parts.length >= 4 ? `${parts[2]} ${parts.slice(3).join(':')}` : text;
 }
 
-/** Replaces the ids in a sentence by readable ones. */
+/** Replaces the ids and the times in a sentence by readable ones. */
 export function readable(sentence) {
-  return String(sentence).slice(0, 500).replace(/urn:ngsi-ld:[A-Za-z]+:[\w-]+/g, (id) => shortId(id));
+  return String(sentence).slice(0, 500).replace(/urn:ngsi-ld:[A-Za-z]+:[\w-]+/g, (id) => shortId(id)).replace(/\b\d{4}-\d\d-\d\dT[\d:.]+Z/g, (time) => moment(Date.parse(time)));
 }

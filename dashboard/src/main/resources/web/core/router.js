@@ -22,10 +22,34 @@ export function navigate(view, query = {}) {
   location.hash = linkTo(view, query);
 }
 
-/** Replaces the query of the address, so that a reload shows the same; no handler is called. */
-export function keepInAddress(query) {
-  history.replaceState(history.state, '', linkTo(route.view, query));
-  route = read();
+/** Changes parameters of the address without a new entry in the history; null removes one. No handler is called. */
+export function amendAddress(changes) {
+  const link = linkTo(route.view, { ...route.query, ...changes });
+  if (link !== linkTo(route.view, route.query)) {
+    history.replaceState(history.state, '', link);
+    route = read();
+  }
+}
+
+/**
+ * Keeps in the address what the user looks at, so that a reload and a sent link show the same. A link with the parameter sets it; a link without it
+ * changes nothing.
+ *
+ * @param {string} name of the parameter
+ * @param {{view: string=, get: function(): (string|null|undefined), set: function(string)=}} options `view`: the only one that has it
+ * @returns {{write: function(), close: function()}} `write` is called after each change
+ */
+export function parameter(name, { view, get, set }) {
+  const isShown = () => view === undefined || route.view === view;
+  const write = () => isShown() && amendAddress({ [name]: get() || null });
+  const follow = () => {
+    const linked = isShown() ? route.query[name] : undefined;
+    linked !== undefined && linked !== get() && set?.(linked);
+    write();
+  };
+  const close = onRoute(follow);
+  follow();
+  return { write, close };
 }
 
 export function onRoute(handler) {

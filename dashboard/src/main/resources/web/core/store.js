@@ -196,6 +196,18 @@ class Store extends Reducers(Object) {
     return (domain === null || entity.domain === domain) && (mission === null || entity.mission === mission);
   }
 
+  /** Whether something that is about these entities is shown: one of them is in the scope, or none is known. */
+  isAboutScope(entities) {
+    const known = entities.filter(Boolean);
+    return this.scope.domain === null || known.length === 0 || known.some((each) => this.inScope(each));
+  }
+
+  /** Whether something of a mission, and of a domain if that is known, is shown. */
+  hasInScope(mission, domain) {
+    const { scope } = this;
+    return scope.domain === null || ((scope.mission === null || scope.mission === mission) && (domain ?? scope.domain) === scope.domain);
+  }
+
   /** The fields of a domain: those that name it, and those that it lists. */
   fieldsOf(domain) {
     const listed = this.domains.get(domain)?.fields ?? [];

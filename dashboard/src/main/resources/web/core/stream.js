@@ -1,9 +1,12 @@
 /** Streams the records of topics over WebSockets. */
 import { api } from './api.js';
+import { exists } from './existing.js';
 import { parse } from './json.js';
 
 const MIN_BACKOFF = 500;
 const MAX_BACKOFF = 15_000;
+/** Interval at which a topic that is created with its first record is looked for, ms. */
+const CREATED_INTERVAL = 3_000;
 /** Time for which a hidden tab retains its streams, in case the user returns; streams needed `whileHidden` stay open. */
 const HIDDEN_AFTER = 10_000;
 
@@ -29,6 +32,7 @@ class Stream {
     this.state = 'connecting';
     this.backoff = MIN_BACKOFF;
     this.sequence = null;
+    this.isCreatedLater = options.createdLater ?? false;
     this.whileHidden = options.whileHidden ?? (() => false);
     this.hidden = document.hidden && !this.whileHidden();
     this.onVisibility = () => this.visibility();
@@ -65,6 +69,10 @@ class Stream {
     const attempt = (this.attempt = Symbol('attempt'));
     this.report('connecting');
     try {
+      if (this.isCreatedLater && !(await exists(this.topic))) {
+        this.attempt === attempt && this.failed(null, CREATED_INTERVAL);
+        return;
+      }
       const answer = await api.get(`/api/register/${encodeURIComponent(this.topic)}?${this.query}`);
       if (this.closed || this.attempt !== attempt) {
         return;
@@ -116,14 +124,15 @@ class Stream {
     return missed;
   }
 
-  failed(error) {
+  /** @param {Error|null} error @param {number=} interval until a topic that does not exist is looked for again, ms */
+  failed(error, interval = null) {
     if (this.closed || this.hidden) {
       return;
     }
     // retries a rejected request rarely: the topic may be created, or the role may change
-    const rejected = error?.status === 403 || error?.status === 404;
+    const rejected = interval !== null || error?.status === 403 || error?.status === 404;
     this.report(rejected ? 'refused' : 'waiting', error?.message);
-    const backoff = rejected ? MAX_BACKOFF : this.backoff;
+    const backoff = interval ?? (rejected ? MAX_BACKOFF : this.backoff);
     this.backoff = Math.min(MAX_BACKOFF, this.backoff * 2);
     this.retry = setTimeout(() => this.connect(), backoff * (0.75 + Math.random() / 2));
   }
@@ -154,7 +163,8 @@ export const streams = {
    * Subscribes to a topic. Reconnects by itself, and then receives the initial state again.
    *
    * @param {string} topic
-   * @param {{mode: ('all'|'latest')=, prime: boolean=, whileHidden: (function(): boolean)=}} options
+   * @param {{mode: ('all'|'latest')=, prime: boolean=, createdLater: boolean=, whileHidden: (function(): boolean)=}} options `createdLater`: the topic may not
+   *     exist yet
    * @param {{records: function(TopicRecord[], number)=, primed: function()=, state: function(string, string=)=, gap: function(number)=}} handlers
    *     state is `connecting`, `open`, `waiting` (for the next attempt), `refused` or `paused`
    * @returns {{close: function(), state: string}}

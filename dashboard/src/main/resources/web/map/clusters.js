@@ -48,7 +48,7 @@ function summary(spots) {
 }
 
 export function drawCluster(context, { x, y, count, state }, palette) {
-  const radius = Math.min(26, 12 + 3 * Math.log2(count));
+  const radius = Math.min(CELL / 2, 10 + 2 * Math.log2(count));
   context.beginPath();
   context.arc(x, y, radius, 0, 2 * Math.PI);
   context.fillStyle = palette.panel;

@@ -2,7 +2,7 @@
 import { age } from '../core/format.js';
 import { store } from '../core/store.js';
 import { cluster, drawCluster } from './clusters.js';
-import { drawEncounter, isOver, placeEncounters } from './encounters.js';
+import { drawEncounters, isOver, placeEncounters } from './encounters.js';
 import { FieldLabels } from './field-labels.js';
 import { LabelPlaces, drawText, widthOf } from './labels.js';
 import { colorOf } from './palette.js';
@@ -56,7 +56,7 @@ export class DeviceDrawing {
     const encounters = placeEncounters(frame, palette, (id) => this.byId.get(id));
     this.fieldLabels.draw(frame, palette, places, moving.map(symbolBox), encounters);
     moving.forEach((spot) => places.block(...symbolBox(spot)));
-    encounters.forEach((each) => drawEncounter(frame, each, palette, places));
+    drawEncounters(frame, encounters, palette, places);
     for (const each of clusters) {
       each.radius = drawCluster(context, each, palette);
       places.block(each.x - each.radius, each.y - each.radius, each.x + each.radius, each.y + each.radius);
@@ -140,9 +140,11 @@ export class DeviceDrawing {
       const needsAttention = entity.state === 'attention';
       const stale = entity.state === 'stale';
       const text = stale ? `${entity.name} · ${age(store.now() - entity.time)}` : entity.name;
-      context.font = `${needsAttention || entity.id === store.selection ? 600 : 400} 13px ${palette.family}`;
+      context.font = `${needsAttention || entity.id === store.selection ? 600 : 400} ${palette.label} ${palette.family}`;
       const ring = entity.id === store.selection || entity.id === store.hovered ? RING : 0;
-      const place = places.beside(x, y, SIZE[shapeOf(entity)] + ring, widthOf(context, text), frame.width);
+      const half = SIZE[shapeOf(entity)] + ring;
+      // the selected device has its name in any case
+      const place = places.beside(x, y, half, widthOf(context, text), frame.width) ?? (entity.id === store.selection && { x: x + half + 6, y });
       if (place) {
         drawText(context, text, place.x, place.y, needsAttention ? palette.warning : stale ? palette.muted : palette.text, palette.background);
       }

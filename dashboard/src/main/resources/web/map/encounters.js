@@ -4,7 +4,9 @@ import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { isOnMap, project } from './projection.js';
 
+/** Time for which an encounter that is over is shown, ms, and the part of it, as 1 / FADE, in which it fades. */
 const FADE_MILLIS = 10_000;
+const FADE = 5;
 /** Height of the text above a ring with its gap, and half of its width, px. */
 const PILL = 26;
 const HALF_PILL = 64;
@@ -50,8 +52,14 @@ function reported(frame, [lon, lat]) {
   return { x: frame.x(x, y), y: frame.y(x, y) };
 }
 
-export function drawEncounter(frame, { encounter, from, to, x, y, radius, style }, palette, places) {
-  const { context } = frame;
+/** Draws the lines of all encounters, and above them their texts. @param {Object[]} placed by {@link placeEncounters} */
+export function drawEncounters(frame, placed, palette, places) {
+  placed.forEach((each) => drawLines(frame.context, each));
+  placed.forEach((each) => drawText(frame, each, palette, places));
+  frame.context.globalAlpha = 1;
+}
+
+function drawLines(context, { from, to, x, y, radius, style }) {
   context.globalAlpha = style.alpha;
   context.strokeStyle = style.color;
   context.lineWidth = 3;
@@ -66,9 +74,12 @@ export function drawEncounter(frame, { encounter, from, to, x, y, radius, style 
   context.arc(x, y, radius, 0, 2 * Math.PI);
   context.stroke();
   context.setLineDash([]);
+}
+
+function drawText(frame, { encounter, x, y, radius, style }, palette, places) {
   const above = { x, y: y - radius - 14 };
-  drawPill(frame, textOf(encounter), isOver(encounter) ? [above, { x, y: y + radius + 14 }] : [above], style, palette, places);
-  context.globalAlpha = 1;
+  frame.context.globalAlpha = style.alpha;
+  drawPill(frame, textOf(encounter), [above, { x, y: y + radius + 14 }], style, palette, places, !isOver(encounter));
 }
 
 function styleOf(encounter, palette) {
@@ -76,8 +87,9 @@ function styleOf(encounter, palette) {
     return { alpha: 0 };
   }
   if (isOver(encounter)) {
-    const alpha = 0.9 * (1 - (store.now() - encounter.time) / FADE_MILLIS);
-    return { color: palette.muted, ink: palette.background, dash: [], alpha: Math.min(0.9, alpha) };
+    // legible for most of the time
+    const alpha = FADE * (1 - (store.now() - encounter.time) / FADE_MILLIS);
+    return { color: palette.muted, ink: palette.background, dash: [], alpha: Math.min(1, alpha) };
   }
   return encounter.phase === 'predicted'
     ? { color: palette.warning, ink: palette.background, dash: [7, 5], alpha: 1 }
@@ -107,8 +119,8 @@ function currentDistance(encounter) {
   return Math.hypot(x, b.position[1] - a.position[1]) * radians * 6_371_008.8;
 }
 
-/** Draws a text, moved into view at the edge of the map. Draws it at the first of several positions that is free, or not at all. */
-function drawPill(frame, text, positions, style, palette, places) {
+/** Draws a text, moved into view at the edge of the map, at the first of several positions that is free; without one, only if it must be shown. */
+function drawPill(frame, text, positions, style, palette, places, isRequired) {
   const { context } = frame;
   context.font = `700 13px ${palette.family}`;
   const half = context.measureText(text).width / 2 + 12;
@@ -118,7 +130,7 @@ function drawPill(frame, text, positions, style, palette, places) {
     const y = isInView ? Math.max(14, place.y) : place.y;
     return { x, y, box: [x - half, y - 12, x + half, y + 12] };
   });
-  const place = boxes.length > 1 ? boxes.find(({ box }) => places.isFree(...box)) : boxes[0];
+  const place = boxes.find(({ box }) => places.isFree(...box)) ?? (isRequired && boxes[0]);
   if (!place) {
     return;
   }

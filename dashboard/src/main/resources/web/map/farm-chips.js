@@ -12,6 +12,8 @@ export class FarmChips {
     this.boxOf = boxOf;
     this.onChosen = onChosen;
     this.chosen = null;
+    /** The farm that the user chose. */
+    this.picked = null;
     this.element = h('div.chips.map-farms', { role: 'group', 'aria-label': t('map.farms') });
   }
 
@@ -20,7 +22,7 @@ export class FarmChips {
     const fields = store.fieldsInScope().map((field) => ({ field, box: this.boxOf(field) })).filter(({ box }) => box);
     const devices = [...store.entities.values()].filter((each) => each.position && isOnMap(...each.position) && store.inScope(each));
     const farms = farmsOf(fields, devices.map((entity) => ({ entity, point: project(...entity.position) })));
-    const shown = farms.find(({ key }) => key === this.chosen) ?? farms[0];
+    const shown = farms.find(({ key }) => key === this.picked) ?? farms.find(({ key }) => key === this.chosen) ?? farms[0];
     if (store.primed) {
       this.chosen = shown?.key ?? null;
     }
@@ -34,7 +36,7 @@ export class FarmChips {
       this.drawn = drawn;
       const focused = this.element.contains(document.activeElement) ? document.activeElement.dataset.act : null;
       replace(this.element, farms.length > 1 && farms.map(({ key, name }) => h('button.chip', {
-        type: 'button', data: { act: `farm ${key}` }, 'aria-pressed': String(key === this.chosen), on: { click: () => { this.chosen = key; this.onChosen(); } },
+        type: 'button', data: { act: `farm ${key}` }, 'aria-pressed': String(key === this.chosen), on: { click: () => { this.picked = key; this.onChosen(); } },
       }, name)));
       focusAct(this.element, focused);
     }

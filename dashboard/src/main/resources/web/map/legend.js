@@ -12,7 +12,7 @@ export function legend() {
   const items = h('ul.legend-items');
   const bar = h('span.scale-bar', { 'aria-hidden': 'true' });
   const length = h('span.numbers');
-  const element = h('div.map-legend', { 'aria-label': t('map.legend') }, items, h('span.scale', null, length, bar));
+  const element = h('div.map-legend', { role: 'group', 'aria-label': t('map.legend') }, items, h('span.scale', null, length, bar));
   return {
     element,
     draw() {

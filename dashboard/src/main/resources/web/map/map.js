@@ -1,28 +1,28 @@
 /** The map with fields, devices and encounters. */
-import { age } from '../core/format.js';
 import { h, replace } from '../core/dom.js';
 import { icon } from '../core/icons.js';
+import { parameter } from '../core/router.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
-import { CELL } from './clusters.js';
 import { DeviceDrawing } from './devices.js';
 import { FarmChips } from './farm-chips.js';
 import { extentOf } from './farms.js';
 import { FieldDrawing, isFound } from './fields.js';
 import { legend } from './legend.js';
 import { readPalette } from './palette.js';
+import { Pointing } from './pointing.js';
 import { canvasLayer, isOnMap, project } from './projection.js';
 import { clearSymbols } from './symbols.js';
 import { mapTables } from './table.js';
 import { tiles } from './tiles.js';
 
 const OPTIONS = ['trails', 'labels', 'rows'];
-/** Maximum zoom when opening a cluster. */
-const MAX_CLUSTER_ZOOM = 22;
-const MAX_LISTED = 100;
+/** Meters per pixel beyond which a device is too small to be seen, and the margin in which it is hardly seen, px. */
+const FAR = 2;
+const EDGE = 60;
 const reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
 
-class FurrowMap extends HTMLElement {
+class FurrowMap extends Pointing(HTMLElement) {
   static observedAttributes = ['hidden'];
 
   connectedCallback() {
@@ -38,11 +38,11 @@ class FurrowMap extends HTMLElement {
     this.tooltip = h('div.map-tooltip', { hidden: true, role: 'status' });
     this.empty = h('div.empty.map-empty', { hidden: true }, h('h2', null, t('map.emptyTitle')), h('p', null, t('map.emptyText')), h('code', null, './furrow demo'));
     this.list = h('div.map-list', { popover: 'auto' });
-    this.farms = new FarmChips((field) => this.fields.extent([field]), () => { this.moved = false; this.fit(); });
-    replace(this, this.target, this.farms.element, this.controls(), this.legend.element, this.tiles.attribution, this.tooltip, this.list, this.empty, this.table.element);
+    this.farms = new FarmChips((field) => this.fields.extent([field]), () => { this.moved = false; this.fit(); this.kept.farm.write(); });
+    replace(this, h('h1.visually-hidden', null, t('views.map')), this.target, this.farms.element, this.controls(), this.legend.element, this.tiles.attribution, this.tooltip, this.list, this.empty, this.table.element);
     this.createMap();
     this.legend.draw();
-    this.subscriptions = this.listen();
+    this.subscriptions = [...this.listen(), ...this.keepInAddress()];
   }
 
   disconnectedCallback() {
@@ -75,7 +75,7 @@ class FurrowMap extends HTMLElement {
     this.map = new ol.Map({
       target: this.target, view: this.view, controls: [], layers: [...this.tiles.layers, ...Object.values(this.layers)], moveTolerance: 3,
     });
-    this.map.on('moveend', () => this.legend.scale(this.view));
+    this.map.on('moveend', () => { this.legend.scale(this.view); this.kept?.place.write(); });
     this.map.on('change:size', () => this.fitFirst());
     this.map.on('pointerdrag', () => (this.moved = true));
     this.map.on('pointermove', (event) => event.dragging || this.hover(event));
@@ -111,9 +111,10 @@ class FurrowMap extends HTMLElement {
     fieldsChanged();
     return [
       ...['encounters', 'hovered', 'filter'].map((name) => store.on(name, draw)),
-      store.on('scope', () => { this.farms.chosen = null; this.moved = false; fieldsChanged(); }),
+      store.on('scope', () => { this.scopeChanged(); fieldsChanged(); }),
       store.on('entities', () => {
         this.fitFirst();
+        store.reveal && !this.moved && this.reveal(); // of a link, once its device is known
         this.table.changed();
         this.showEmpty();
         draw();
@@ -126,6 +127,17 @@ class FurrowMap extends HTMLElement {
     ];
   }
 
+  /** @returns {(function())[]} functions that unsubscribe */
+  keepInAddress() {
+    this.scope = JSON.stringify(store.scope);
+    this.kept = {
+      farm: parameter('farm', { view: 'map', get: () => this.farms.picked, set: (key) => { this.farms.picked = key; this.moved = false; this.fitted = null; this.fitFirst(); } }),
+      place: parameter('place', { view: 'map', get: () => this.place, set: (text) => this.goTo(text) }),
+      table: parameter('table', { view: 'map', get: () => (this.table.element.hidden ? null : '1'), set: () => this.toggleTable() }),
+    };
+    return Object.values(this.kept).map(({ close }) => close);
+  }
+
   // --- the view ----------------------------------------------------------------------------------------------------
 
   /** Fits the view to the farm until the user moves it. */
@@ -134,6 +146,31 @@ class FurrowMap extends HTMLElement {
     if (!this.hidden && !this.moved && this.fitted !== state) {
       this.fitted = state;
       this.fit(0);
+    }
+  }
+
+  /** Fits another scope. A link with a scope and a place shows the place. */
+  scopeChanged() {
+    const scope = JSON.stringify(store.scope);
+    if (scope !== this.scope) {
+      this.scope = scope;
+      this.farms.picked = this.farms.chosen = null;
+      this.moved = false;
+    }
+  }
+
+  /** Where the user moved the map, as latitude, longitude and zoom; null if it shows the farm. */
+  get place() {
+    const [lon, lat] = ol.proj.toLonLat(this.view.getCenter());
+    return this.moved ? [lat.toFixed(5), lon.toFixed(5), this.view.getZoom().toFixed(2)].join() : null;
+  }
+
+  goTo(text) {
+    const [lat, lon, zoom] = text.split(',').map(Number);
+    if (isOnMap(lon, lat) && Number.isFinite(zoom)) {
+      this.moved = true;
+      this.view.setCenter(project(lon, lat));
+      this.view.setZoom(zoom);
     }
   }
 
@@ -150,16 +187,28 @@ class FurrowMap extends HTMLElement {
       this.view.fit(extent, { size, padding: height < 240 ? [16, 16, 16, 16] : padding, maxZoom: 20, duration: reducedMotion.matches ? 0 : duration });
       this.legend.scale(this.view);
     }
+    this.kept?.place.write();
   }
 
   reveal() {
     const entity = store.entities.get(store.selection);
     if (entity?.position && isOnMap(...entity.position)) {
       const center = project(...entity.position);
+      store.reveal = false;
       this.moved = true;
-      const near = this.view.getResolution() > 2 ? { zoom: 18 } : {};
+      const near = this.view.getResolution() > FAR ? { zoom: 18 } : {};
       this.view.animate({ center, ...near, duration: reducedMotion.matches ? 0 : 350 });
     }
+  }
+
+  /** Whether a device can be seen, so that the map need not move. */
+  isInView({ position }) {
+    if (!position || !isOnMap(...position) || this.view.getResolution() > FAR) {
+      return false;
+    }
+    const [x, y] = this.map.getPixelFromCoordinate(project(...position)) ?? [];
+    const [width, height] = this.map.getSize() ?? [];
+    return x > EDGE && y > EDGE && x < width - EDGE && y < height - EDGE;
   }
 
   /** Moves to the first device that matches the search, else to the first field that does. */
@@ -167,7 +216,7 @@ class FurrowMap extends HTMLElement {
     const [device] = [...store.entities.values()].filter((each) => store.inScope(each) && store.matches(each)).sort((a, b) => (a.name < b.name ? -1 : 1));
     const extent = this.fields.extent([...store.fields.values()].filter(isFound).slice(0, 1));
     if (device) {
-      store.select(device.id, { reveal: true });
+      store.select(device.id, { reveal: !this.isInView(device) });
     } else if (extent) {
       this.open(extent);
     }
@@ -176,61 +225,6 @@ class FurrowMap extends HTMLElement {
   zoom(by) {
     this.moved = true;
     this.view.animate({ zoom: this.view.getZoom() + by, duration: reducedMotion.matches ? 0 : 160 });
-  }
-
-  // --- pointer -----------------------------------------------------------------------------------------------------
-
-  hover(event) {
-    const found = this.devices.at(...event.pixel);
-    this.target.style.cursor = found ? 'pointer' : '';
-    store.setHovered(found?.entity?.id ?? null);
-    this.tooltip.hidden = !found;
-    if (found) {
-      replace(this.tooltip, found.entity ? tooltipOf(found.entity) : t('map.cluster', { count: found.count }));
-      const right = found.x > this.clientWidth - 220;
-      this.tooltip.style.transform = `translate(${Math.round(found.x + (right ? -18 : 18))}px, ${Math.round(found.y + 14)}px)${right ? ' translateX(-100%)' : ''}`;
-    }
-  }
-
-  leave() {
-    store.setHovered(null);
-    this.tooltip.hidden = true;
-  }
-
-  click(event) {
-    const found = this.devices.at(...event.pixel);
-    if (found?.entity) {
-      store.select(found.entity.id);
-    } else if (found) {
-      const extent = ol.extent.boundingExtent(found.spots.map((each) => each.entity.xy));
-      const spread = Math.max(ol.extent.getWidth(extent), ol.extent.getHeight(extent));
-      spread / this.view.getResolutionForZoom(MAX_CLUSTER_ZOOM) < CELL ? this.openList(found) : this.open(extent);
-    } else {
-      store.select(null);
-    }
-  }
-
-  open(extent) {
-    this.moved = true;
-    this.view.fit(ol.extent.buffer(extent, 5), { padding: [80, 80, 80, 80], maxZoom: MAX_CLUSTER_ZOOM, duration: reducedMotion.matches ? 0 : 300 });
-  }
-
-  /** Lists devices that cannot be distinguished at any zoom. */
-  openList({ x, y, spots }) {
-    const names = spots.map(({ entity }) => entity).sort((a, b) => (a.name < b.name ? -1 : 1)).slice(0, MAX_LISTED);
-    replace(this.list,
-      h('p.small.muted', null, t('map.oneSpot', { count: spots.length })),
-      h('ul', null, names.map((entity) => h('li', null, h('button.button.quiet', {
-        type: 'button', on: { click: () => { this.list.hidePopover(); store.select(entity.id, { reveal: false }); } },
-      }, h('span', null, entity.name), h('span.small.muted', null, t(`states.${entity.state}`)))))));
-    const box = this.getBoundingClientRect();
-    this.list.style.left = `${Math.max(8, Math.min(box.left + x + 12, innerWidth - 268))}px`;
-    this.list.style.top = `${Math.max(8, Math.min(box.top + y + 12, innerHeight - 328))}px`;
-    // waits for the end of the click, which would close the list
-    setTimeout(() => {
-      this.list.showPopover();
-      this.list.querySelector('button').focus();
-    });
   }
 
   // --- controls ----------------------------------------------------------------------------------------------------
@@ -258,15 +252,12 @@ class FurrowMap extends HTMLElement {
     const open = this.table.toggle();
     this.tableButton.setAttribute('aria-expanded', String(open));
     open ? this.table.element.querySelector('button')?.focus() : this.tableButton.focus();
+    this.kept?.table.write();
   }
 
   showEmpty() {
     this.empty.hidden = !store.primed || store.entities.size > 0 || store.isReplay;
   }
-}
-
-function tooltipOf(entity) {
-  return [h('strong', null, entity.name), h('span.muted', null, `${t(`kinds.${entity.kind}`)} · ${t(`states.${entity.state}`)} · ${age(store.now() - entity.time)}`)];
 }
 
 customElements.define('furrow-map', FurrowMap);

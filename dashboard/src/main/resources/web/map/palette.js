@@ -10,6 +10,7 @@ export function readPalette() {
   const style = getComputedStyle(document.documentElement);
   const palette = Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
   palette.family = style.getPropertyValue('--family').trim();
+  palette.label = style.getPropertyValue('--font-label').trim();
   return palette;
 }
 

@@ -6,6 +6,8 @@ import { store } from '../core/store.js';
 const SEEK_INTERVAL = 400;
 /** Time within which a requested replay is expected to start, ms. */
 const START_TIMEOUT = 20_000;
+/** Accepted difference between a requested position and the reported one, ms. */
+export const SEEK_TOLERANCE = 1_500;
 
 export const SPEEDS = [0.5, 1, 2, 4, 10, 30, 60, 'max'];
 
@@ -26,28 +28,31 @@ export function stop(replay) {
  * Requests a replay and shows it once it is played.
  *
  * @param {Object} plan body of `POST /api/replays`
+ * @param {number|null=} at where it begins, epoch ms; sought before it is played, so that its beginning is not shown
  * @returns {Promise<string>} its name
  * @throws {import('../core/api.js').ApiError|Error} if it is rejected, or no job plays it
  */
-export async function startReplay(plan) {
+export async function startReplay(plan, at = null) {
   const answer = await api.post('/api/replays', plan);
   const name = answer.replay ?? answer.replays?.[0]?.replay ?? answer.replays?.[0];
-  const record = await played((each) => (answer.group ? each.group === answer.group : each.replay === name));
+  at === null || await steer({ replay: name, group: answer.group }, 'seek', { to: Math.round(at) });
+  const record = await played((each) => (answer.group ? each.group === answer.group : each.replay === name), at);
   store.enterReplay(record);
   return record.replay;
 }
 
-/** Resolves with the first replay that matches and has a status. */
-function played(isRequested) {
-  const find = () => [...store.replays.values()].find((each) => isRequested(each) && each.topic && each.status);
+/** Resolves with the first replay that matches, has a status and has reached the time. */
+function played(isRequested, at) {
+  const find = (from) => [...store.replays.values()].find((each) => isRequested(each) && each.topic && each.status && (from === null || each.status.progress?.position >= from - SEEK_TOLERANCE));
   return new Promise((resolve, reject) => {
     let off = () => {};
     const timer = setTimeout(() => {
       off();
-      reject(new Error('not-played'));
+      const late = find(null);
+      late ? resolve(late) : reject(new Error('not-played'));
     }, START_TIMEOUT);
     const update = () => {
-      const found = find();
+      const found = find(at);
       if (found) {
         clearTimeout(timer);
         off();

@@ -82,7 +82,7 @@ function drawBars(g, { scale, density, position, colors, height, kind }) {
       g.fillRect(x, height - MIN_BAR_HEIGHT, Math.max(1, bar - gap), MIN_BAR_HEIGHT);
       continue;
     }
-    const barHeight = Math.max(MIN_BAR_HEIGHT, (count / highest) * maxHeight);
+    const barHeight = Math.max(MIN_BAR_HEIGHT, Math.sqrt(count / highest) * maxHeight);
     g.fillStyle = colors.bar;
     g.globalAlpha = kind === 'live' || start + width <= position ? 0.72 : 0.3;
     g.fillRect(x, height - barHeight, Math.max(1, bar - gap), barHeight);

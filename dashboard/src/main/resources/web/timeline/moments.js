@@ -1,5 +1,6 @@
 /** Reads encounters and markers of missions. */
 import { api } from '../core/api.js';
+import { exists } from '../core/existing.js';
 import { shortId } from '../core/format.js';
 import { withDifference } from '../core/identities.js';
 import { store } from '../core/store.js';
@@ -57,14 +58,7 @@ export async function history(topic, range, options) {
 
 /** Like {@link history}; empty if the topic does not exist, since some topics are created with their first record. */
 export async function historyIfAny(topic, range, options) {
-  try {
-    return await history(topic, range, options);
-  } catch (error) {
-    if (error.status === 404) {
-      return { records: [], since: range.from };
-    }
-    throw error;
-  }
+  return (await exists(topic)) ? history(topic, range, options) : { records: [], since: range.from };
 }
 
 /** Merges two lists; of an encounter in both, that of the first list is used. */
@@ -107,6 +101,10 @@ export async function markersOf(missions) {
     throw error;
   })));
   return lists.flat().sort((one, other) => one.time - other.time);
+}
+
+export function removeMarker({ mission, id }) {
+  return api.del(`/api/missions/${encodeURIComponent(mission)}/markers/${encodeURIComponent(id)}`);
 }
 
 export function addMarker(mission, time, note) {

@@ -1,6 +1,6 @@
 /** Updates the texts and marks of the timeline. */
 import { h, replace, setText } from '../core/dom.js';
-import { clock, dateTime, distance, span } from '../core/format.js';
+import { clock, dateTime, distance, readable, span } from '../core/format.js';
 import { icon } from '../core/icons.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
@@ -55,9 +55,9 @@ export const Showing = (Base) => class extends Base {
   }
 
   showState() {
-    const counts = `${t('timeline.encounters', { count: this.countShown(this.encounters, 'start') })} · ${t('timeline.markers', { count: this.countShown(this.markers, 'time') })}`;
+    const counts = `${t('timeline.encounters', { count: this.countShown(this.inScope, 'start') })} · ${t('timeline.markers', { count: this.countShown(this.markers, 'time') })}`;
     if (!store.isReplay) {
-      setText(this.sub, `${periodText(this.extent[1] - this.extent[0])} · ${t('timeline.encounters', { count: this.encounters.length })}`);
+      setText(this.sub, `${periodText(this.extent[1] - this.extent[0])} · ${t('timeline.encounters', { count: this.inScope.length })}`);
       return;
     }
     const { state } = this;
@@ -68,7 +68,7 @@ export const Showing = (Base) => class extends Base {
     this.waitingSince = state === 'waiting' ? this.waitingSince ?? Date.now() : null;
     const text = state === 'failed' || (state === 'waiting' && Date.now() - this.waitingSince > MIN_WAIT) ? reason ?? null : null;
     if (text !== this.shownReason) {
-      this.announce(text ?? '', true);
+      this.announce(readable(text ?? ''), true);
     }
     this.shownReason = text;
     const plays = state === 'running' || state === 'waiting' || state === 'starting';
@@ -178,7 +178,7 @@ export const Showing = (Base) => class extends Base {
       return;
     }
     const near = (this.scale.length / this.scale.width) * 4;
-    const encounter = this.encounters.find((each) => time >= each.start - near && time <= Math.max(each.end, each.start) + near);
+    const encounter = this.inScope.find((each) => time >= each.start - near && time <= Math.max(each.end, each.start) + near);
     const marker = this.markers.find((each) => Math.abs(each.time - time) <= near);
     replace(this.tip, h('strong', null, this.scale.length > DAY ? dateTime(time) : clock(time)),
       encounter && h('span.tl-tip-encounter', null, t('timeline.tipEncounter', { pair: encounter.pair, distance: distance(encounter.closest) })),

@@ -2,7 +2,7 @@
 import { h, replace } from '../core/dom.js';
 import { dateTime } from '../core/format.js';
 import { icon } from '../core/icons.js';
-import { navigate, route } from '../core/router.js';
+import { amendAddress, navigate, route } from '../core/router.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { startReplay, steer } from './control.js';
@@ -147,12 +147,13 @@ export const Steering = (Base) => class extends Base {
       if (store.mode.replay === replay || (existing?.topic && !existing.gone)) {
         return;
       }
-      const close = () => { this.offer.hidden = true; };
+      const may = store.may('operate') && missions.every((each) => store.recordings.has(each));
+      const close = () => { this.offer.hidden = true; amendAddress({ mission: null, at: null }); };
       replace(this.offer,
-        h('p', null, h('strong', null, t('replays.link', { missions: missions.join(' + ') })), h('br'), t(store.may('operate') ? 'replays.linkHint' : 'replays.linkOver', { time: dateTime(time) })),
+        h('p', null, h('strong', null, t('replays.link', { missions: missions.join(' + ') })), h('br'), t(may ? 'replays.linkHint' : 'replays.linkOver', { time: dateTime(time) })),
         h('div.row', null,
-          store.may('operate') && h('button.button.primary.small', { type: 'button', on: { click: () => { close(); this.startAt(missions, time); } } }, icon('play', 16), t('replays.linkStart')),
-          h('button.button.small.quiet', { type: 'button', on: { click: close } }, t(store.may('operate') ? 'timeline.cancel' : 'missions.close'))));
+          may && h('button.button.primary.small', { type: 'button', on: { click: () => { close(); this.startAt(missions, time); } } }, icon('play', 16), t('replays.linkStart')),
+          h('button.button.small.quiet', { type: 'button', on: { click: close } }, t(may ? 'timeline.cancel' : 'missions.close'))));
       this.offer.hidden = false;
     }, replay ? LIST_TIMEOUT : 0);
   }
@@ -160,10 +161,7 @@ export const Steering = (Base) => class extends Base {
   async startAt(missions, time) {
     this.announce(t('timeline.starting'), true);
     try {
-      await startReplay({ ...(missions.length > 1 ? { missions } : { mission: missions[0] }), analytics: store.config.analytics });
-      if (time) {
-        await steer(store.mode, 'seek', { to: Math.round(time) });
-      }
+      await startReplay({ ...(missions.length > 1 ? { missions } : { mission: missions[0] }), analytics: store.config.analytics }, time || null);
       this.announce('');
     } catch (error) {
       this.announce(error.message === 'not-played' ? t('replays.notPlayed') : error.message, true);

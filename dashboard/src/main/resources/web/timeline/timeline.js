@@ -2,13 +2,14 @@
 import { replace } from '../core/dom.js';
 import { onRoute } from '../core/router.js';
 import { store } from '../core/store.js';
-import { Seeking } from './control.js';
+import { SEEK_TOLERANCE, Seeking } from './control.js';
 import { Density } from './density.js';
 import { draw, palette, sharp } from './draw.js';
 import { keyOf } from './keys.js';
 import { LIVE_LENGTH, LiveDensity } from './live.js';
+import { Loading, MOMENTS_INTERVAL } from './loading.js';
 import { openMarker } from './marker-dialog.js';
-import { encountersIn, encountersOf, encountersSince, isBetween, markersOf, union } from './moments.js';
+import { isBetween } from './moments.js';
 import { Parts } from './parts.js';
 import { Pointer } from './pointer.js';
 import { Scale } from './scale.js';
@@ -18,16 +19,10 @@ import { Steering } from './steering.js';
 const BAR = 6;
 const JUMP = 10_000;
 const SECOND = 1_000;
-/** Interval at which encounters and markers are read, ms. */
-const MOMENTS_INTERVAL = 15_000;
 /** Time for which a requested seek is shown until the replay reports its position, ms. */
 const SEEK_TIMEOUT = 3_000;
-/** Accepted difference between a requested position and the reported one, ms. */
-const SEEK_TOLERANCE = 1_500;
-/** Encounters of a pair whose starts differ by at most this are the same one, ms. */
-const SAME_START = 2_000;
 
-class Timeline extends Parts(Showing(Steering(HTMLElement))) {
+class Timeline extends Parts(Loading(Showing(Steering(HTMLElement)))) {
   connectedCallback() {
     this.scale = new Scale();
     this.live = new LiveDensity(() => this.redraw());
@@ -50,7 +45,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
       store.on('clock', () => this.tick()),
       store.on('encounters', () => this.applyEncounters()),
       store.on('recordings', () => this.showActions()),
-      store.on('scope', () => this.showActions()),
+      store.on('scope', () => { this.live.tick(); this.showActions(); this.showState(); this.redraw(); }),
       store.on('me', () => this.showActions()),
       store.on('cursor', () => this.showCursor()),
       store.on('connection', () => this.showState()),
@@ -175,7 +170,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     this.canvas.style.width = `${scale.width}px`;
     this.canvas.style.height = `${height}px`;
     draw(sharp(this.canvas, scale.width, height), {
-      scale, height, colors: this.colors, encounters: this.encounters, density: replaying ? this.density : this.live,
+      scale, height, colors: this.colors, encounters: this.inScope, density: replaying ? this.density : this.live,
       position: this.position, range: this.range, kind: store.mode.kind,
     });
     this.showEdges();
@@ -202,65 +197,10 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     this.showTime();
   }
 
-  // --- encounters and markers --------------------------------------------------------------------------------------
-
-  async loadMoments() {
-    const shown = this.shown;
-    if (this.finding === shown || (store.isReplay && !this.bounded)) {
-      return;
-    }
-    this.finding = shown;
-    this.lastMoments = Date.now();
-    try {
-      const { results, missions } = store.mode;
-      const [from, to] = this.extent;
-      const [live, replayed, markers] = store.isReplay
-        ? await Promise.all([encountersOf(missions, from, to).catch(() => ({ encounters: [] })), encountersIn((results.collision ?? []).map(({ topic }) => topic)).catch(() => []), markersOf(missions).catch(() => [])])
-        : [{ encounters: await encountersSince(Date.now() - LIVE_LENGTH).catch(() => null) }, [], []];
-      if (shown === this.shown && this.isConnected) {
-        if (live.encounters === null) {
-          this.lastMoments += MOMENTS_INTERVAL - LIVE_LENGTH; // the request failed and is repeated soon
-          return;
-        }
-        this.encounters = union(live.encounters, replayed);
-        this.markers = markers;
-        this.flagKey = null;
-        this.applyEncounters(); // those that arrived during the request
-        this.showState();
-      }
-    } finally {
-      this.finding = null;
-    }
-  }
-
-  /** Applies encounters from the stream. */
-  applyEncounters() {
-    let changed = false;
-    for (const each of store.encounters.values()) {
-      if (!['started', 'ongoing', 'ended', 'crossed'].includes(each.phase)) {
-        continue;
-      }
-      const existing = this.encounters.find((one) => one.a === each.a && one.b === each.b && Math.abs(one.start - each.start) <= SAME_START);
-      if (existing) {
-        existing.end = Math.max(existing.end, each.time);
-        existing.closest = Math.min(existing.closest, each.minDistance);
-      } else {
-        const name = (id) => store.entities.get(id)?.name ?? id;
-        this.encounters.push({ ...each, pair: `${name(each.a)} – ${name(each.b)}`, end: each.time, closest: each.minDistance, missions: [], epoch: 0 });
-        changed = true;
-      }
-    }
-    if (!store.isReplay) {
-      this.encounters = this.encounters.filter((each) => each.end > Date.now() - LIVE_LENGTH);
-    }
-    changed && this.showState();
-    this.redraw();
-  }
-
   openMarker() {
     if (store.isReplay && store.may('operate')) {
-      openMarker(store.mode.mission, this.position, {
-        added: () => this.loadMoments(), closed: () => this.track.focus({ preventScroll: true }),
+      openMarker({ mission: store.mode.mission, time: this.position, markers: this.markers }, {
+        changed: () => this.loadMoments(), closed: () => this.track.focus({ preventScroll: true }),
       });
     }
   }

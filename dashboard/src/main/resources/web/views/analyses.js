@@ -2,9 +2,10 @@
 import { h, replace, setText } from '../core/dom.js';
 import { clock, dateTime, duration, temperature } from '../core/format.js';
 import { icon } from '../core/icons.js';
-import { navigate } from '../core/router.js';
+import { navigate, parameter } from '../core/router.js';
+import { scopeName } from '../core/scope.js';
 import { store } from '../core/store.js';
-import { t } from '../texts.js';
+import { t, texts } from '../texts.js';
 import { startReplay, steer } from '../timeline/control.js';
 import { AveragesChart } from './analyses/chart.js';
 import { Findings } from './analyses/data.js';
@@ -26,8 +27,13 @@ class Analyses extends HTMLElement {
     this.encounters = new EncounterTable((each) => this.showMoment(each));
     this.presence = new PresenceBars((stay) => this.showMoment({ start: stay.from + LEAD_MILLIS, missions: [stay.mission].filter(Boolean), a: stay.device }));
     this.build();
+    this.kept = {
+      period: parameter('period', { view: 'analyses', get: () => (this.period === PERIODS[1] ? null : String(this.period / MINUTE)), set: (minutes) => this.choose(Number(minutes) * MINUTE) }),
+      tables: parameter('tables', { view: 'analyses', get: () => [...this.tables].join(), set: (names) => this.chooseTables(names.split(',')) }),
+    };
     this.subscriptions = [
       store.on('mode', () => this.modeChanged()), store.on('fields', () => this.schedule()), store.on('recordings', () => this.schedule()), store.on('me', () => this.schedule()),
+      store.on('scope', () => this.schedule()), ...Object.values(this.kept).map(({ close }) => close),
     ];
     this.timer = setInterval(() => document.hidden || this.show(), TICK);
     this.load();
@@ -65,14 +71,23 @@ class Analyses extends HTMLElement {
   }
 
   toggleTable(name) {
-    this.tables.has(name) ? this.tables.delete(name) : this.tables.add(name);
-    this.parts[name].asTable.setAttribute('aria-pressed', String(this.tables.has(name)));
+    this.chooseTables(this.tables.has(name) ? [...this.tables].filter((each) => each !== name) : [...this.tables, name]);
+    this.kept.tables.write();
     this.show();
   }
 
+  chooseTables(names) {
+    this.tables = new Set(names.filter((each) => this.parts[each]?.asTable));
+    Object.values(this.parts).forEach(({ name, asTable }) => asTable?.setAttribute('aria-pressed', String(this.tables.has(name))));
+    this.findings && this.schedule();
+  }
+
   choose(period) {
-    this.period = period;
-    this.load();
+    if (PERIODS.includes(period)) {
+      this.period = period;
+      this.kept?.period.write();
+      this.findings && this.load();
+    }
   }
 
   modeChanged() {
@@ -100,7 +115,6 @@ class Analyses extends HTMLElement {
     for (const button of this.periods.children) {
       button.setAttribute('aria-pressed', String(Number(button.dataset.period) === this.period));
     }
-    setText(this.subtitle, !replayed ? t('analyses.live') : t('analyses.replay', { mission: mode.missions.join(' + ') }));
     setText(this.note, store.isReplay && !replayed ? t('analyses.noAnalytics') : '');
     this.note.hidden = this.note.textContent === '';
     this.show();
@@ -136,9 +150,13 @@ class Analyses extends HTMLElement {
       replace(this.failed, h('p.error-note', { role: 'alert' }, icon('warning', 18), h('span', null, t('analyses.failed', { reason: findings.error.message })), h('span.spacer'),
         h('button.button.small', { type: 'button', on: { click: () => this.load() } }, t('analyses.retry'))));
     }
-    const averages = findings.averages(from, to);
-    const encounters = findings.encountersIn(from, to);
-    const stays = findings.stays(from, to);
+    const { domain } = store.scope;
+    const fields = new Set(store.fieldsInScope().map(({ id }) => id));
+    const averages = findings.averages(from, to).filter(({ field }) => domain === null || fields.has(field));
+    const encounters = findings.encountersIn(from, to).filter((each) => store.isAboutScope([each.a, each.b].map((id) => store.entities.get(id))));
+    const stays = findings.stays(from, to).filter((each) => store.isAboutScope([store.entities.get(each.device)]));
+    const words = !this.replayed ? t('analyses.live') : t('analyses.replay', { mission: store.mode.missions.join(' + ') });
+    setText(this.subtitle, domain === null ? words : `${words} ${t('app.only', { scope: scopeName() })}`);
     this.fill(this.parts.averages, averages, findings.since.averages, () => this.showAverages(averages, range));
     this.fill(this.parts.encounters, encounters, findings.since.encounters, () => { this.put(this.parts.encounters, 'list', this.encounters.element); this.encounters.show(encounters); });
     this.fill(this.parts.presence, stays, findings.since.stays, () => this.showPresence(stays, range));
@@ -178,7 +196,7 @@ class Analyses extends HTMLElement {
     }
     const suspect = (id) => store.entities.get(id)?.name ?? id.replace(/^urn:ngsi-ld:/, '');
     this.putTable(part, averages, ['window', 'field', 'mean', 'plain', 'devices', 'suspects', 'quality'], (each) => [
-      `${clock(each.start)} – ${clock(each.end)}`, each.name, temperature(each.value), temperature(each.plain), each.devices ?? '–', each.suspects.map(suspect).join(', ') || t('analyses.none'), each.quality,
+      `${clock(each.start)} – ${clock(each.end)}`, each.name, temperature(each.value), temperature(each.plain), each.devices ?? '–', each.suspects.map(suspect).join(', ') || t('analyses.none'), texts.analyses.qualities[each.quality] ?? each.quality,
     ]);
   }
 
@@ -197,7 +215,7 @@ class Analyses extends HTMLElement {
   /** Shows a table, the newest rows first. */
   putTable(part, found, columns, cells) {
     const key = `table ${found.length} ${JSON.stringify(found.at(-1))}`;
-    this.put(part, key, h('div.table-frame.analysis-table', { tabindex: '0', role: 'region', 'aria-label': t(`analyses.${part.name}`) }, h('table.table', null,
+    this.put(part, key, h('div.table-frame.analysis-table', { tabindex: '0', role: 'group', 'aria-label': t(`analyses.${part.name}`) }, h('table.table', null,
       h('thead', null, h('tr', null, columns.map((each) => h('th', { scope: 'col' }, t(`analyses.${each}`))))),
       h('tbody', null, found.slice(-MAX_ROWS).reverse().map((each) => h('tr', null, cells(each).map((words) => h('td.numbers-left', null, words))))))));
   }
@@ -230,13 +248,14 @@ class Analyses extends HTMLElement {
     // a replay started before the encounter may end before it
     const running = all.length === 1 && [...store.replays.values()].find((each) => !each.gone && !each.group && each.mission === all[0]
       && !['stopped', 'failed'].includes(each.status?.state) && each.status?.progress?.to >= to);
+    const at = Math.max(to, Math.min(...firsts));
     if (running) {
       store.enterReplay(running);
+      await steer(store.mode, 'seek', { to: at });
     } else {
       this.announce(t('timeline.starting'));
-      await startReplay({ ...(all.length > 1 ? { missions: all } : { mission: all[0] }), analytics: store.config.analytics });
+      await startReplay({ ...(all.length > 1 ? { missions: all } : { mission: all[0] }), analytics: store.config.analytics }, at);
     }
-    await steer(store.mode, 'seek', { to: Math.max(to, Math.min(...firsts)) });
   }
 
   announce(words) {

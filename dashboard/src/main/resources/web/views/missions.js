@@ -25,7 +25,7 @@ class FurrowMissions extends HTMLElement {
     this.viewer = h('p.viewer-note', { hidden: true }, icon('info', 16), t('missions.viewer'));
     this.panel = h('div', { id: 'missions-panel', role: 'tabpanel' });
     replace(this, h('div.view', null, h('header', null, h('h1', null, t('views.missions')), this.tabs, h('span.spacer'), this.create), this.viewer, this.panel));
-    this.subscriptions = [onRoute(() => this.show()), store.on('missions', () => this.drawList()), store.on('me', () => this.allow())];
+    this.subscriptions = [onRoute(() => this.show()), store.on('missions', () => this.drawList()), store.on('scope', () => this.drawList()), store.on('me', () => this.allow())];
     this.answer = resource('/api/missions', { interval: 10_000 });
     this.subscriptions.push(this.answer.on(() => this.applyAnswer()));
     this.ticking = setInterval(() => document.hidden || this.drawList(), 5_000);
@@ -77,7 +77,7 @@ class FurrowMissions extends HTMLElement {
     this.empty = h('div.empty', { hidden: true }, h('h2', null, t('missions.none')), h('p', null, t('missions.noneHint')),
       store.may('operate') && h('button.button.primary', { type: 'button', on: { click: () => this.newMission() } }, t('missions.new')));
     replace(this.panel, this.empty, h('div.mission-columns', null, this.list, this.place));
-    const missions = [...store.missions.values()];
+    const missions = [...store.missions.values()].filter((each) => store.hasInScope(each.mission, each.domain));
     const chosen = mission ?? (missions.find((each) => each.running && each.domain !== 'canary') ?? missions[0])?.mission;
     if (chosen) {
       this.content = new MissionDetail(chosen, () => navigate('missions'));
@@ -103,8 +103,9 @@ class FurrowMissions extends HTMLElement {
     if (this.list?.isConnected) {
       const count = drawList(this.list, this.chosen, (name) => navigate('missions', { mission: name }));
       const { loading, error } = this.answer;
-      this.empty.hidden = count > 0 || loading || Boolean(error);
-      if (count === 0) {
+      const isEmpty = store.missions.size === 0;
+      this.empty.hidden = !isEmpty || loading || Boolean(error);
+      if (isEmpty) {
         redraw(this.list, loading && [0, 1, 2].map(() => h('li.skeleton.mission-skeleton', null, '…')), error && h('li.error-note', null, icon('warning'), error.message));
       }
       if (!this.chosen && count > 0) {

@@ -43,7 +43,7 @@ class FurrowPlatform extends HTMLElement {
   subscribe() {
     for (const domain of store.domains.keys()) {
       if (!this.streams.has(domain)) {
-        this.streams.set(domain, streams.subscribe(`data.${domain}.realtime`, { mode: 'latest', prime: false }, {
+        this.streams.set(domain, streams.subscribe(`data.${domain}.realtime`, { mode: 'latest', prime: false, createdLater: true }, {
           records: (records) => records.forEach((record) => this.delays.add(record, Date.now())),
         }));
       }
@@ -117,7 +117,7 @@ class FurrowPlatform extends HTMLElement {
     replace(this.letters, h('h2', null, t('platform.letters')),
       letters.length === 0
         ? h('p.row.muted', null, icon('check', 18), t('platform.noLetters', { count: all.length }))
-        : [h('ul.lags', null, letters.map((each) => h('li', null, h('span.cut', null, each.topic), h('span'), h('span.numbers', null, number(each.records))))), h('p.small.muted', null, t('platform.lettersHint')), h('pre.letters-command', { tabindex: '0', 'aria-label': t('platform.lettersCommand') }, letters.map((each) => `./furrow dead-letters redrive --topic ${each.topic}`).join('\n'))]);
+        : [h('ul.lags', null, letters.map((each) => h('li', null, h('span.cut', null, each.topic), h('span'), h('span.numbers', null, number(each.records))))), h('p.small.muted', null, t('platform.lettersHint')), h('pre.letters-command', { tabindex: '0', role: 'group', 'aria-label': t('platform.lettersCommand') }, letters.map((each) => `./furrow dead-letters redrive --topic ${each.topic}`).join('\n'))]);
   }
 
   /** Draws all hops on one time axis, so that each contribution is visible. */
@@ -131,7 +131,7 @@ class FurrowPlatform extends HTMLElement {
     const longest = Math.max(...summary.map((each) => each.p99), 10);
     let offset = 0;
     replace(this.hops, title, h('div.hops', { role: 'table', 'aria-label': t('platform.hops') },
-      h('div.hop.hop-head', { role: 'row' }, ['hop', '', 'p50', 'p95', 'p99'].map((name) => h('span', { role: 'columnheader', class: name.startsWith('p') ? 'numbers' : '' }, name === 'hop' ? t('platform.hop') : name === '' ? '' : `${name}, ms`))),
+      h('div.hop.hop-head', { role: 'row' }, ['hop', 'axis', 'p50', 'p95', 'p99'].map((name) => h('span', { role: 'columnheader', class: name.startsWith('p') ? 'numbers' : '' }, name === 'hop' ? t('platform.hop') : name === 'axis' ? h('span.visually-hidden', null, t('platform.axis')) : `${name}, ms`))),
       summary.map((hop) => {
         const isAll = hop.name === 'all';
         const from = isAll ? 0 : offset;

@@ -2,8 +2,9 @@
 import { absence } from '../core/absence.js';
 import { h, replace, setText } from '../core/dom.js';
 import { dateTime, duration, number } from '../core/format.js';
-import { linkTo, onRoute, route } from '../core/router.js';
+import { amendAddress, linkTo, onRoute, route } from '../core/router.js';
 import { icon } from '../core/icons.js';
+import { others } from '../core/scope.js';
 import { store } from '../core/store.js';
 import { streams } from '../core/stream.js';
 import { t } from '../texts.js';
@@ -13,6 +14,8 @@ import { drawRunning, grouped } from './replays/running.js';
 
 /** A mission whose newest event is younger is still being recorded, ms. */
 const RECORDING_TIMEOUT = 90_000;
+/** Below this width the plan is below the list. */
+const NARROW = matchMedia('(max-width: 1200px)');
 const ANNOUNCED_MILLIS = 6_000;
 /** No mission is longer, ms: a report with a time far off is part of the recording. */
 const YEAR = 366 * 86_400_000;
@@ -44,7 +47,7 @@ class Replays extends HTMLElement {
     window.addEventListener('schemechange', this.onScheme);
     this.subscriptions = [
       store.on('replays', () => this.showRunning()), store.on('mode', () => this.showRunning()), store.on('recordings', () => this.showRecordings()),
-      store.on('missions', () => this.showRecordings()), store.on('me', () => this.allow()), onRoute(() => this.openLink()),
+      store.on('missions', () => this.showRecordings()), store.on('scope', () => this.showRecordings()), store.on('me', () => this.allow()), onRoute(() => this.openLink()),
     ];
     this.allow();
     this.showRunning();
@@ -93,9 +96,10 @@ class Replays extends HTMLElement {
   }
 
   showRecordings() {
-    const recordings = [...store.recordings.values()].sort((one, other) => other.last - one.last || one.mission.localeCompare(other.mission));
+    const recordings = [...store.recordings.values()].filter(({ mission }) => store.hasInScope(mission, store.missions.get(mission)?.domain)).sort((one, other) => other.last - one.last || one.mission.localeCompare(other.mission));
+    const shown = new Set(recordings.map((each) => each.mission));
     for (const [mission, row] of this.rows) {
-      if (!store.recordings.has(mission)) {
+      if (!shown.has(mission)) {
         row.preview.close();
         row.element.remove();
         this.rows.delete(mission);
@@ -113,7 +117,7 @@ class Replays extends HTMLElement {
     setText(this.recordedTitle.lastChild, recordings.length || '');
     this.table.hidden = recordings.length === 0;
     this.plan.element.hidden = recordings.length === 0;
-    replace(this.state, absence('recordings', recordings.length, () => this.emptyState()));
+    replace(this.state, others(store.recordings.size - recordings.length), absence('recordings', store.recordings.size, () => this.emptyState()));
     const linked = this.linked && (this.linked.missions ?? recordings.filter(({ first, last }) => first <= this.linked.at && this.linked.at <= last + RECORDING_TIMEOUT).map((each) => each.mission));
     if (linked?.length && linked.every((each) => store.recordings.has(each))) {
       this.chosen = new Set(linked);
@@ -172,7 +176,9 @@ class Replays extends HTMLElement {
       this.chosen.has(mission) ? this.chosen.delete(mission) : this.chosen.add(mission);
     }
     this.at = undefined;
+    amendAddress({ mission: [...this.chosen].join() || null, at: null });
     this.choose();
+    alone && this.chosen.size > 0 && NARROW.matches && this.plan.element.scrollIntoView({ block: 'nearest' });
   }
 
   choose() {

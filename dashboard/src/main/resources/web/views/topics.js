@@ -4,7 +4,7 @@ import { resource } from '../core/resource.js';
 import { number } from '../core/format.js';
 import { h, replace, setText } from '../core/dom.js';
 import { icon } from '../core/icons.js';
-import { navigate } from '../core/router.js';
+import { navigate, parameter } from '../core/router.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { Records } from './topics/records.js';
@@ -12,6 +12,8 @@ import { arrange } from './topics/tree.js';
 
 const POLL_MILLIS = 2_000;
 const FOLDED = new Set(['replays', 'service', 'other']);
+/** Below this width the records are below the topics. */
+const NARROW = matchMedia('(max-width: 900px)');
 /** Topics whose records are shown; retained while another view is shown. */
 const chosen = new Set();
 
@@ -21,12 +23,13 @@ class FurrowTopics extends HTMLElement {
     this.rows = new Map();
     this.tree = h('div.topic-tree');
     this.records = new Records();
+    this.kept = parameter('topic', { view: 'topics', get: () => [...chosen].join(), set: (topics) => this.chooseAll(topics.split(',')) });
     this.records.choose(chosen);
     replace(this, h('div.view', null,
       h('header', null, h('h1', null, t('views.topics')), h('span.spacer'), h('p.small.muted', null, t('topics.hint'))),
       h('div.topic-columns', null, this.tree, this.records.element)));
     this.list = resource('/api/topics', { interval: POLL_MILLIS });
-    this.subscriptions = [this.list.on(() => this.update()), ...['domains', 'missions', 'scope'].map((name) => store.on(name, () => this.draw()))];
+    this.subscriptions = [this.list.on(() => this.update()), ...['domains', 'missions', 'scope'].map((name) => store.on(name, () => this.draw())), this.kept.close];
     replace(this.tree, [0, 1, 2, 3, 4].map(() => h('div.skeleton.topic-skeleton', null, '…')));
   }
 
@@ -108,13 +111,22 @@ class FurrowTopics extends HTMLElement {
         type: 'button', 'aria-pressed': String(shown), 'aria-label': t(shown ? 'topics.showAll' : 'topics.showOnly', { name: words }), title: t(shown ? 'topics.showAll' : 'topics.showOnly', { name: words }),
         on: { click: () => this.scope(shown ? {} : scope) },
       }, icon('map', 16)));
-    topic && this.rows.set(topic, { element, count, rate });
+    topic && this.rows.set(topic, { element, check, count, rate });
     return element;
   }
 
   choose(topic, on) {
     on ? chosen.add(topic) : chosen.delete(topic);
     this.records.choose(chosen);
+    on && chosen.size === 1 && NARROW.matches && this.records.element.scrollIntoView({ block: 'start' });
+    this.kept.write();
+  }
+
+  chooseAll(topics) {
+    chosen.clear();
+    topics.forEach((each) => chosen.add(each));
+    this.records.choose(chosen);
+    this.rows.forEach(({ check }, name) => (check.checked = chosen.has(name)));
   }
 
   /** Limits the map and the cards to a domain or mission. */

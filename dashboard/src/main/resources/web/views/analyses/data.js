@@ -110,7 +110,7 @@ export class Findings {
       }
     };
     let disconnected = false;
-    this.streams.push(streams.subscribe(topic, { mode: 'all', prime: false }, {
+    this.streams.push(streams.subscribe(topic, { mode: 'all', prime: false, createdLater: true }, {
       records: (records) => { records.forEach(apply); this.changed(); },
       state: (state) => {
         state === 'open' && disconnected && read().then(() => this.notify());

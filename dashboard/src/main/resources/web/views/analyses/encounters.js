@@ -1,6 +1,6 @@
 /** Shows encounters as a sortable table; each row links to its moment. */
 import { h, replace, setText } from '../../core/dom.js';
-import { dateTime, distance, duration } from '../../core/format.js';
+import { dateTime, distance, duration, moment } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
@@ -23,7 +23,7 @@ export class EncounterTable {
     this.heads = Object.keys(COLUMNS).map((name) => h('th', { class: name === 'closest' || name === 'duration' ? 'numbers' : '', role: 'columnheader', scope: 'col' },
       h('button.sort-by', { type: 'button', title: t('analyses.sort', { column: t(`analyses.${name}`) }), on: { click: () => this.sort(name) } }, t(`analyses.${name}`), icon('chevron-down', 14))));
     this.more = h('p.small.muted');
-    this.element = h('div.stack', null, h('div.table-frame.encounter-frame', { tabindex: '0', role: 'region', 'aria-label': t('analyses.encounters') },
+    this.element = h('div.stack', null, h('div.table-frame.encounter-frame', { tabindex: '0', role: 'group', 'aria-label': t('analyses.encounters') },
       h('table.table', { role: 'table' }, h('thead', { role: 'rowgroup' }, h('tr', { role: 'row' }, this.heads, h('th', { role: 'columnheader', scope: 'col' }, h('span.visually-hidden', null, t('analyses.toMoment'))))), this.body)), this.more);
   }
 
@@ -78,7 +78,7 @@ function fill(row, encounter) {
   row.encounter = encounter;
   row.element.classList.toggle('selected', [encounter.a, encounter.b].includes(store.selection));
   const going = encounter.phase === 'started' || encounter.phase === 'ongoing';
-  setText(cells.when, dateTime(encounter.start));
+  setText(cells.when, moment(encounter.start));
   setText(cells.pair, encounter.pair);
   setText(cells.closest, distance(encounter.closest));
   setText(cells.duration, duration(encounter.end - encounter.start));

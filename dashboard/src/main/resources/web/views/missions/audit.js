@@ -1,6 +1,6 @@
 /** Shows the audit: which user sent which command when. */
 import { api } from '../../core/api.js';
-import { dateTime, plain, readable, shortId } from '../../core/format.js';
+import { dateTime, moment, plain, readable, shortId } from '../../core/format.js';
 import { h } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
 import { linkTo, navigate } from '../../core/router.js';
@@ -121,7 +121,7 @@ export function auditView({ mission, device }) {
 function row(entry) {
   const rejected = entry.error !== undefined || entry.result === 'error';
   return h('tr', null,
-    h('td.numbers.when', null, dateTime(entry.time)),
+    h('td.numbers.when', null, moment(entry.time)),
     h('td.who', null, entry.user),
     h('td.command', null, t(`missions.targets.${TARGETS[entry.target] ?? 'other'}`), ' ', h('strong', null, entry.command ?? '–')),
     h('td.about', null, aboutOf(entry.about)),

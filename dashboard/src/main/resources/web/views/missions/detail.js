@@ -49,7 +49,7 @@ export class MissionDetail {
     const status = mission.status;
     redraw(this.head,
       h('div.row.wrap', null, h('h2', null, this.name), statePill(status?.state), h('span.spacer'), h('div.row', null, this.buttons(mission))),
-      h('p.small.muted', null, [mission.domain, mission.template, mission.start && t('missions.startedAt', { time: dateTime(mission.start) }), mission.duration && t('missions.lasts', { duration: duration(mission.duration) })].filter(Boolean).join(' · ')),
+      h('p.small.muted', null, [mission.domain, mission.template, mission.start && t('missions.startedAt', { time: dateTime(mission.start) }), mission.duration && t('missions.lasts', { duration: duration(mission.duration) }), leftOf(mission)].filter(Boolean).join(' · ')),
       status?.reason && status.missing.length === 0 && h('p.error-note', null, icon('warning'), status.reason),
       status && mission.running && h('div.stack', null,
         h('div.row', null, h('span.numbers', null, t('missions.confirmed', { confirmed: status.confirmed, devices: status.devices })), h('span.spacer'), status.missing.length > 0 && h('span.warn', null, t('missions.missing', { count: status.devices - status.confirmed }))),
@@ -142,6 +142,12 @@ export class MissionDetail {
     this.list.close();
     this.audit.close();
   }
+}
+
+/** How long a running mission still lasts, if its length is known. */
+function leftOf({ running, start, duration: length }) {
+  const left = running && start && length ? start + length - Date.now() : 0;
+  return left > 0 && t('missions.left', { duration: duration(left) });
 }
 
 function bar(status) {

@@ -1,9 +1,10 @@
-/** Lists missions, running ones first. */
+/** Lists missions in scope, running ones first. */
 import { duration } from '../../core/format.js';
 import { h } from '../../core/dom.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 import { redraw } from '../../core/redraw.js';
+import { others } from '../../core/scope.js';
 
 const ORDER = { __proto__: null, failed: 0, starting: 1, running: 1, stopping: 1, created: 2, stopped: 3 };
 const KINDS = { __proto__: null, running: 'good', starting: 'info', stopping: 'info', failed: 'bad' };
@@ -13,8 +14,10 @@ export function statePill(state) {
 }
 
 export function drawList(place, chosen, choose) {
-  const missions = [...store.missions.values()].sort((a, b) => (a.domain === 'canary') - (b.domain === 'canary') || (ORDER[a.status?.state] ?? 2) - (ORDER[b.status?.state] ?? 2) || (a.mission < b.mission ? -1 : 1));
-  redraw(place, missions.map((mission) => {
+  const all = [...store.missions.values()];
+  const missions = all.filter((each) => each.mission === chosen || store.hasInScope(each.mission, each.domain)).sort((a, b) => (a.domain === 'canary') - (b.domain === 'canary') || (ORDER[a.status?.state] ?? 2) - (ORDER[b.status?.state] ?? 2) || (a.mission < b.mission ? -1 : 1));
+  const rest = others(all.length - missions.length);
+  redraw(place, rest && h('li', null, rest), missions.map((mission) => {
     const status = mission.status;
     const share = status?.devices ? status.confirmed / status.devices : 0;
     const filled = h('span');

@@ -1,6 +1,6 @@
 /** Lists running replays with their states, links and commands. */
 import { h, replace, setText } from '../../core/dom.js';
-import { clock, span } from '../../core/format.js';
+import { clock, readable, span } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
 import { linkTo, navigate } from '../../core/router.js';
 import { spanOf, store } from '../../core/store.js';
@@ -69,7 +69,7 @@ class RunningReplay {
     setText(this.progress, t(first.speed === 'max' ? 'replays.positionFast' : 'replays.position', values));
     const reason = first.status?.reason ?? first.status?.progress?.waiting;
     this.reason.hidden = !reason;
-    setText(this.reason, reason ?? '');
+    setText(this.reason, readable(reason ?? ''));
     this.element.classList.toggle('watched', watched);
     setText(this.watch.lastChild, t(watched ? 'replays.watching' : 'replays.watch'));
     const may = store.may('operate');

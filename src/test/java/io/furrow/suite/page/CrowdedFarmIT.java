@@ -29,6 +29,10 @@ class CrowdedFarmIT {
             "ol.proj.toLonLat(document.querySelector('furrow-map').view.getCenter())[0]";
     private static final String RESOLUTION = "document.querySelector('furrow-map').view?.getResolution() ?? 1e9";
 
+    /** A click of a test scrolls what a hand cannot scroll. */
+    private static final String NOTHING_CUT =
+            "[...document.querySelectorAll('furrow-app, .side')].every((each) => getComputedStyle(each).overflowY !== 'hidden' || each.scrollHeight <= each.clientHeight)";
+
     @AutoClose
     private static Chromium chromium;
 
@@ -53,7 +57,7 @@ class CrowdedFarmIT {
         double place = stop.boundingBox().y;
 
         for (int alarm = 1; alarm <= 30; alarm++) {
-            farm.send("service.alarms", "a" + alarm, alarm(alarm, "critical", "open"));
+            farm.send("service.alarms", "a" + alarm, StubFarm.alarm(alarm, "critical", "open"));
         }
         assertThat(page.find("furrow-alarms h2")).containsText("30 open");
         assertThat(stop.boundingBox().y).isEqualTo(place);
@@ -69,16 +73,14 @@ class CrowdedFarmIT {
     @Tag("full")
     @Test
     void leavesThePlaceOfAnAlarmEmptyWhileThePointerIsOnTheList() {
-        for (int alarm = 1; alarm <= 3; alarm++) {
-            farm.has("service.alarms", "a" + alarm, alarm(alarm, "warning", "open"));
-        }
+        farm.hasAlarms(3);
         FarmPage page = farm.open("", 1440, 900);
         Locator second = page.find("furrow-alarms > .alarm-list > li.alarm").nth(1);
         second.getByText("Acknowledge").hover();
         double place = second.boundingBox().y;
         String name = second.locator(".alarm-text").textContent();
-        farm.send("service.alarms", "a0", alarm(0, "critical", "open"));
-        farm.send("service.alarms", "a1", alarm(1, "warning", "closed"));
+        farm.send("service.alarms", "a0", StubFarm.alarm(0, "critical", "open"));
+        farm.send("service.alarms", "a1", StubFarm.alarm(1, "warning", "closed"));
 
         assertThat(page.find("furrow-alarms .alarm-gap")).hasCount(1);
         assertThat(page.find("furrow-alarms li.alarm")
@@ -119,15 +121,18 @@ class CrowdedFarmIT {
             farm.has("data.raw", ROBOT + number, StubFarm.robot(number, "Running"), System.currentTimeMillis() - HOUR);
         }
         farm.answers("/api/devices", "[{\"id\": \"" + ROBOT + "12\", \"type\": \"Robot\", \"wanted\": \"stopped\"}]");
+        farm.has("data.raw", ROBOT + 4, StubFarm.robot(4, "Error"));
         FarmPage page = farm.open("", 1440, 900);
-        Locator cards = page.find("furrow-cards li.card.device");
+        Locator names = page.find("furrow-cards li.card.device .card-name");
         assertThat(page.find(".card-fold")).hasText("50 devices silent or off");
-        assertThat(cards).hasCount(3);
+        assertThat(names).hasText(new String[] {"Robot 4", "Robot 1", "Robot 2", "Robot 3"});
 
         page.store("store.select('" + ROBOT + "12')");
         assertThat(page.card(ROBOT + 12)).hasClass(Pattern.compile("is-off"));
         assertThat(page.card(ROBOT + 12).locator(".button.primary")).hasCount(0);
         page.find(".card-fold").click();
+        assertThat(names.nth(3)).hasText("Robot 3");
+        assertThat(names.nth(4)).hasText("Robot 10");
         page.find("furrow-cards").evaluate("(cards) => { cards.scrollTop = 1e6; }");
         assertThat(page.card(ROBOT + 12).locator(".card-name")).isInViewport();
         page.find("furrow-cards").evaluate("(cards) => { cards.scrollTop = 0; }");
@@ -138,9 +143,7 @@ class CrowdedFarmIT {
     @ParameterizedTest
     @CsvSource({"1440, 900", "390, 844", "740, 360", "720, 450", "360, 225"})
     void reachesEverythingInWindowsOfAllSizes(int width, int height) {
-        for (int alarm = 1; alarm <= 25; alarm++) {
-            farm.has("service.alarms", "a" + alarm, alarm(alarm, "warning", "open"));
-        }
+        farm.hasAlarms(25);
         FarmPage page = farm.open("", width, height);
         assertThat(page.find("furrow-cards li.card.device")).hasCount(3);
 
@@ -153,15 +156,18 @@ class CrowdedFarmIT {
             page.find(selector).click(new Locator.ClickOptions().setTrial(true));
             assertThat(page.find(selector)).isInViewport();
         }
+        assertThat(page.find("furrow-cards li.card.device").first().boundingBox().width)
+                .isGreaterThan(200);
         assertThat(page.is("document.documentElement.scrollWidth <= innerWidth"))
                 .isTrue();
+        assertThat(page.is(NOTHING_CUT)).isTrue();
         page.go("Missions");
         assertThat(page.find("furrow-missions .empty .button")).isVisible();
     }
 
     @Test
     void marksAReplayOnlyWhereItIsShown() {
-        farm.has("service.alarms", "a1", alarm(1, "warning", "open"));
+        farm.hasAlarms(1);
         farm.hasReplay("weeding", "", "paused", START, START + MINUTE, START + MINUTE / 2);
         FarmPage page = farm.open("#/map?replay=weeding.1", 1440, 900);
         assertThat(page.find(".mode")).containsText("Replay of weeding");
@@ -181,8 +187,7 @@ class CrowdedFarmIT {
 
     @Test
     void fitsTheFarmInScopeAndOffersTheOthers() {
-        farm.has("service.fields", "near@2020-01-01T00:00:00Z", field("farm", -3.4835, 40.3125))
-                .has("service.fields", "far@2020-01-01T00:00:00Z", field("alps", 10.2, 47.1));
+        farm.hasField("near", "farm", -3.4835, 40.3125).hasField("far", "alps", 10.2, 47.1);
         FarmPage page = farm.open("", 1440, 900);
         Locator chips = page.find(".map-farms .chip");
         assertThat(chips).hasText(new String[] {"farm", "alps"});
@@ -246,15 +251,5 @@ class CrowdedFarmIT {
         page.go("Map");
         assertThat(page.find(".alarm-none"))
                 .containsText(answer.isEmpty() ? "being read" : "cannot be read: the stub rejects it");
-    }
-
-    private static String field(String domain, double longitude, double latitude) {
-        return """
-                {"properties": {"name": "Field", "Domain": "%s"}, "geometry": {"type": "Polygon", "coordinates": [[[%2$s, %4$s], [%3$s, %4$s], [%3$s, %5$s], [%2$s, %4$s]]]}}""".formatted(domain, longitude, longitude + 0.001, latitude, latitude + 0.001);
-    }
-
-    private static String alarm(int number, String severity, String state) {
-        return """
-                {"alarm": "a%d", "kind": "silent-device", "severity": "%s", "text": "Thermometer %d is silent", "subject": "t", "raised": %d, "count": 1, "state": "%s"}""".formatted(number, severity, number, 1_000_000 - number, state);
     }
 }

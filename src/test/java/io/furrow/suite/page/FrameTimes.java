@@ -106,7 +106,8 @@ final class FrameTimes implements AutoCloseable {
         return ((Number) window.evaluate("window.drawn")).intValue();
     }
 
-    private static double taskMillis(CDPSession session) {
+    /** The time of the main thread until now. */
+    static double taskMillis(CDPSession session) {
         for (JsonElement metric :
                 session.send("Performance.getMetrics").get("metrics").getAsJsonArray()) {
             JsonObject each = metric.getAsJsonObject();

@@ -146,6 +146,13 @@ class LostConnectionIT {
         farm.page().route("**/api/**", EmptyFarmIT::answerEmpty);
         farm.page()
                 .route(
+                        "**/api/topics",
+                        route -> route.fulfill(new Route.FulfillOptions()
+                                .setContentType("application/json")
+                                .setBody(
+                                        "[{\"name\":\"data.temperature\"},{\"name\":\"data.collision\"},{\"name\":\"data.presence\"}]")));
+        farm.page()
+                .route(
                         "**/api/register/**",
                         route -> route.fulfill(new Route.FulfillOptions()
                                 .setContentType("application/json")

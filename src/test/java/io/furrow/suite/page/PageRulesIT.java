@@ -278,7 +278,7 @@ class PageRulesIT {
                 const opened = new Map();
                 const feed = (topic, mode, apply) => opened.set(topic, apply) && { close: () => {} };
                 const shown = Object.assign(Object.create(Object.getPrototypeOf(feeds)), { feed, follow: () => {}, readImages: () => {} });
-                const members = ['hoeing', 'mowing'].map((mission) => ({ replay: `${mission}.1`, mission, topic: `data.${mission}.replay.1`, group: '2' }));
+                const members = ['hoeing', 'mowing'].map((mission) => ({ replay: `${mission}.1`, mission, topic: `data.${mission}.replay.1`, group: '2', analytics: ['temperature'] }));
                 const { config, mode } = store;
                 store.config = { ...config, analytics: ['temperature'] };
                 members.forEach((each) => store.replays.set(each.replay, each));

@@ -27,17 +27,24 @@ public final class PageSoak {
     private static final int CLOSE_MILLIS = 15_000;
 
     private static final double MAX_RATIO = 2;
+    private static final long FIRST_VIEW_MILLIS = 3_000;
+    private static final double MAX_SHIFT = 0.02;
+    private static final int WARM_UP_SECONDS = 8;
+    private static final int BARE_SECONDS = 20;
 
     private PageSoak() {}
 
     /**
-     * {@code pictures FOLDER}, {@code delay EVENTS}, {@code heap DEVICES MINUTES}, {@code hidden SECONDS}, or {@code
-     * frames DEVICES TURNS SECONDS} without a suite.
+     * {@code pictures FOLDER}, {@code delay EVENTS}, {@code heap DEVICES MINUTES}, {@code hidden SECONDS}, or without a
+     * suite {@code frames DEVICES TURNS SECONDS} and {@code crowd DEVICES SECONDS}.
      */
     public static void main(String[] arguments) throws Exception {
         boolean passed;
         if (arguments[0].equals("frames")) {
             System.exit(frames(number(arguments[1]), number(arguments[2]), number(arguments[3])) ? 0 : 1);
+        }
+        if (arguments[0].equals("crowd")) {
+            System.exit(crowd(number(arguments[1]), number(arguments[2])) ? 0 : 1);
         }
         try (PageSuite suite = PageSuite.start()) {
             passed = switch (arguments[0]) {
@@ -76,6 +83,31 @@ public final class PageSoak {
                 "main thread for a frame of %d devices, median of %d turns: bare page %.1f ms, map %.1f ms, %.2f times, with cards %.1f ms, %.2f times",
                 devices, rounds, bare, map, map / bare, cards, cards / bare);
         return Math.max(map, cards) <= MAX_RATIO * bare;
+    }
+
+    /** Watches a crowded farm, and compares the time of its frames with those of a bare page with as many devices. */
+    private static boolean crowd(int devices, int seconds) throws Exception {
+        long opening;
+        Crowd.Watched watched;
+        try (Crowd crowd = new Crowd(devices)) {
+            opening = crowd.open();
+            watched = crowd.watch(WARM_UP_SECONDS, seconds);
+        }
+        double bare;
+        try (FrameTimes times = new FrameTimes(devices)) {
+            bare = times.measure(FrameTimes.BARE, Math.min(seconds, BARE_SECONDS));
+        }
+        double ratio = watched.millisPerFrame() / bare;
+        print(
+                "%d devices, 40 alarms: first view after %d ms; in %d s Stop moved %d times, largest layout shift %.4f, all together %.4f",
+                devices, opening, seconds, watched.moves(), watched.largestShift(), watched.allShifts());
+        print(
+                "main thread for a frame of the map %.1f ms, %.2f times the %.1f ms of a bare page",
+                watched.millisPerFrame(), ratio, bare);
+        return opening <= FIRST_VIEW_MILLIS
+                && watched.moves() == 0
+                && watched.largestShift() <= MAX_SHIFT
+                && ratio <= MAX_RATIO;
     }
 
     private static double median(List<Double> values) {

@@ -8,6 +8,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.CopyOnWriteArrayList;
+import java.util.stream.Stream;
 
 import com.microsoft.playwright.Browser;
 import com.microsoft.playwright.Route;
@@ -59,9 +60,33 @@ final class StubFarm implements AutoCloseable {
     }
 
     static String robot(int number, String state) {
+        return robot(number, state, "farm", "weeding", 40.3125 + number * 1e-4, -3.4822);
+    }
+
+    static String robot(
+            int number, String state, String domain, String mission, double latitude, double longitude) {
         return """
-                {"id": "urn:ngsi-ld:Robot:%d", "type": "ROBOT", "Domain": {"value": "farm"}, "Mission": {"value": "weeding"}, "state": {"value": "%s"},
-                 "Latitude": {"value": %s}, "Longitude": {"value": -3.4822}, "speed": {"value": 1.5}, "cmd": {"value": ""}}""".formatted(number, state, 40.3125 + number * 1e-4);
+                {"id": "urn:ngsi-ld:Robot:%d", "type": "ROBOT", "Domain": {"value": "%s"}, "Mission": {"value": "%s"}, "state": {"value": "%s"},
+                 "Latitude": {"value": %s}, "Longitude": {"value": %s}, "speed": {"value": 1.5}, "cmd": {"value": ""}}""".formatted(number, domain, mission, state, latitude, longitude);
+    }
+
+    /** Adds a triangular field, its sides some 100 m long. */
+    StubFarm hasField(String id, String domain, double longitude, double latitude) {
+        return has("service.fields", id + "@2020-01-01T00:00:00Z", """
+                {"properties": {"name": "%s", "Domain": "%s"}, "geometry": {"type": "Polygon", "coordinates": [[[%3$s, %5$s], [%4$s, %5$s], [%4$s, %6$s], [%3$s, %5$s]]]}}""".formatted(id, domain, longitude, longitude + 0.001, latitude, latitude + 0.001));
+    }
+
+    /** Adds open alarms with the keys {@code a1}, {@code a2} … */
+    StubFarm hasAlarms(int count) {
+        for (int number = 1; number <= count; number++) {
+            has("service.alarms", "a" + number, alarm(number, "warning", "open"));
+        }
+        return this;
+    }
+
+    static String alarm(int number, String severity, String state) {
+        return """
+                {"alarm": "a%d", "kind": "silent-device", "severity": "%s", "text": "Thermometer %d is silent", "subject": "t", "raised": %d, "count": 1, "state": "%s"}""".formatted(number, severity, number, 1_000_000 - number, state);
     }
 
     /** Adds a replay of a robot. @param group empty for a single replay @param times epoch ms: from, to and position */
@@ -120,6 +145,8 @@ final class StubFarm implements AutoCloseable {
                                 ? "{\"records\": [], \"since\": 0}"
                                 : path.endsWith("/timeline")
                                         ? "{\"from\": 0, \"width\": 1, \"first\": 0, \"last\": 1, \"complete\": true, \"counts\": [1]}"
+                                        : path.equals("/api/topics")
+                                                ? topics()
                                         : path.startsWith("/api/density/")
                                                 ? "{\"counts\": []}"
                                                 : path.equals("/api/me")
@@ -135,6 +162,15 @@ final class StubFarm implements AutoCloseable {
         }
     }
 
+    /** The topics with records. */
+    private String topics() {
+        return Stream.concat(initial.keySet().stream(), answers.keySet().stream())
+                .filter(each -> !each.startsWith("/") || each.startsWith("/api/history/"))
+                .map(each -> "{\"name\": \"" + each.substring(each.lastIndexOf('/') + 1) + "\", \"written\": 1}")
+                .toList()
+                .toString();
+    }
+
     private static void json(Route route, String body) {
         route.fulfill(
                 new Route.FulfillOptions().setContentType("application/json").setBody(body));
@@ -142,8 +178,18 @@ final class StubFarm implements AutoCloseable {
 
     /** Sends a record to the page. */
     void send(String topic, String key, String value) {
+        send(topic, Map.of(key, value));
+    }
+
+    /** Sends records in one frame. @param values by key */
+    void send(String topic, Map<String, String> values) {
+        long now = System.currentTimeMillis();
         sockets.get(topic)
-                .send("{\"records\": [" + record("event", topic, key, value, System.currentTimeMillis()) + "]}");
+                .send("{\"records\": "
+                        + values.entrySet().stream()
+                                .map(each -> record("event", topic, each.getKey(), each.getValue(), now))
+                                .toList()
+                        + "}");
     }
 
     private static String record(String kind, String topic, String key, String value, long time) {

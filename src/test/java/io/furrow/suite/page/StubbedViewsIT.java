@@ -1,6 +1,9 @@
 package io.furrow.suite.page;
 
+import java.net.URI;
 import java.time.Instant;
+import java.util.ArrayList;
+import java.util.List;
 import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
@@ -63,6 +66,78 @@ class StubbedViewsIT {
         assertThat(page.find(".mode")).containsText("Replay of weeding");
         page.button("Back to live").click();
         assertThat(page.page()).hasURL(Pattern.compile("#/map$"));
+    }
+
+    /** Else its beginning is shown first. */
+    @Test
+    void seeksTheMomentOfAReplayBeforeItIsPlayed() {
+        farm.answers("/api/replays", "{\"replay\": \"weeding.9\"}");
+        FarmPage page = farm.open("", 1440, 900);
+        page.until(() -> page.is("Boolean(document.querySelector('furrow-timeline').startAt)"));
+        page.run("() => { document.querySelector('furrow-timeline').startAt(['weeding'], 1234); }");
+
+        page.until(() -> farm.sent().contains("POST /api/replays/weeding.9/seek {\"to\":1234}"));
+        assertThat(page.find(".mode")).hasText("Live");
+    }
+
+    /** The topics of results are created with their first record. */
+    @Test
+    void requestsNoTopicThatDoesNotExist() {
+        farm.hasReplay("weeding", "", "paused", START, START + MINUTE, START + 1_000);
+        FarmPage page = farm.open("", 1440, 900);
+        List<String> requested = new ArrayList<>();
+        page.page().onRequest(request -> requested.add(URI.create(request.url()).getPath()));
+        page.untilStore("Boolean(store.replays.get('weeding.1')?.topic && store.replays.get('weeding.1').status)");
+        page.store("store.enterReplay(store.replays.get('weeding.1'))");
+        page.go("Analyses");
+        assertThat(page.find("furrow-analyses .encounters .empty")).isVisible();
+
+        String topic = "/api/register/data.farm.replay.weeding.1";
+        assertThat(requested)
+                .contains(topic, "/api/topics")
+                .noneMatch(each -> each.matches(".*/data\\.farm\\.replay\\.weeding\\.1\\.\\w+"));
+    }
+
+    /** The pill with the distance has some 2,000 pixels in the color of the scheme. */
+    @Test
+    void drawsTheDistanceOfAnEncounter() {
+        farm.hasRobot(1).hasRobot(2).has("data.collision", "e", """
+                {"type": "Analytics:Collision", "encounter": {"value": "e"}, "phase": {"value": "ongoing"}, "distance": {"value": 4}, "minDistance": {"value": 3},
+                 "Device1_ID": {"value": "urn:ngsi-ld:Robot:1"}, "Device2_ID": {"value": "urn:ngsi-ld:Robot:2"}}""");
+        FarmPage page = farm.open("", 1440, 900);
+
+        page.until(() -> page.mapPixels(0xb3261e) > 1_000);
+    }
+
+    /** Else a search would push the farm out of the map. */
+    @Test
+    void selectsAFoundDeviceThatIsInViewWithoutMovingTheMap() {
+        farm.hasRobot(1).hasRobot(2);
+        FarmPage page = farm.open("", 1440, 900);
+        assertThat(page.card("urn:ngsi-ld:Robot:2")).isVisible();
+        page.until(() -> page.is("document.querySelector('furrow-map').devices?.spots.length === 2"));
+        page.find("input[type=search]").first().fill("robot 2");
+        page.find("input[type=search]").first().press("Enter");
+
+        assertThat(page.card("urn:ngsi-ld:Robot:2")).hasClass(Pattern.compile("selected"));
+        assertThat(page.page()).hasURL(Pattern.compile("select="));
+        assertThat(page.is("document.querySelector('furrow-map').moved ?? false")).isFalse();
+    }
+
+    @Test
+    void deletesAMarker() {
+        farm.hasReplay("weeding", "", "paused", START, START + MINUTE, START + 1_000)
+                .answers("/api/missions/weeding/markers", """
+                        [{"id": "m1", "mission": "weeding", "time": %d, "note": "a stone", "author": "demo"}]""".formatted(START + 2_000));
+        FarmPage page = farm.open("#/map?replay=weeding.1", 1440, 900);
+        assertThat(page.find(".tl-flag")).hasCount(1);
+        page.button("Add a marker").click();
+        page.button("Delete marker a stone").click();
+        assertThat(farm.sent()).isEmpty();
+        page.find("dialog[open] .button.danger").click();
+
+        page.until(() -> farm.sent().contains("DELETE /api/missions/weeding/markers/m1 null"));
+        assertThat(page.find("dialog[open] li")).hasCount(0);
     }
 
     /** Two missions were recorded at the moment that is chosen, a third was not. */

@@ -32,7 +32,7 @@ import static org.awaitility.Awaitility.await;
 class ViewerIT {
     private static final String TOKEN = "vera-looks-at-the-farm-0001";
     private static final String COMMANDS =
-            "^(Stop all robots|(Stop|Resume|On|Off|Restart)(: .*)?|Start|Delete.*|New .*|Create|Import.*|Acknowledge.*|Mute.*|Close|Replay|Replay .*|Play|Play again|Pause|Step .*|Loop|Add .*|Choose .*|To the moment|Show the moment .*|Start .*)$";
+            "^(Stop all robots|(Stop|Resume|On|Off|Restart)(: .*)?|Start|Delete.*|New .*|Create|Import.*|Acknowledge.*|Mute.*|Close|Replay|Replay .*|Play|Play again|Pause|Step .*|Loop|Add .*|Choose .*|To the moment.*|Start .*)$";
     private static final String ROBOT = "urn:ngsi-ld:Robot:1";
 
     @Test
