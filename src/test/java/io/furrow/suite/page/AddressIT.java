@@ -21,8 +21,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 class AddressIT {
     private static final long MINUTE = 60_000;
     private static final String ROBOT = "urn:ngsi-ld:Robot:";
-    private static final String LATITUDE =
-            "ol.proj.toLonLat(document.querySelector('furrow-map').view.getCenter())[1]";
+    private static final String LATITUDE = "ol.proj.toLonLat(document.querySelector('furrow-map').view.getCenter())[1]";
     private static final Offset<Double> METER = Offset.offset(1e-5);
 
     @AutoClose
@@ -121,7 +120,9 @@ class AddressIT {
                 .has("service.alarms", "b", """
                         {"alarm": "b", "kind": "silent-device", "severity": "critical", "text": "Robot 9 is silent", "subject": "x", "raised": 1, "count": 1, "state": "open",
                          "devices": [{"id": "urn:ngsi-ld:Robot:9", "type": "ROBOT"}]}""")
-                .answers("/api/missions", "[{\"mission\": \"weeding\", \"domain\": \"farm\"}, {\"mission\": \"mowing\", \"domain\": \"alps\"}]")
+                .answers(
+                        "/api/missions",
+                        "[{\"mission\": \"weeding\", \"domain\": \"farm\"}, {\"mission\": \"mowing\", \"domain\": \"alps\"}]")
                 .answers(
                         "/api/recordings",
                         "[" + recording.formatted("weeding", now - MINUTE, now) + ","

@@ -91,7 +91,8 @@ final class Crowd implements AutoCloseable {
         double tasks = FrameTimes.taskMillis(session);
         report(seconds);
         double time = (FrameTimes.taskMillis(session) - tasks) / page.number("window.drawn");
-        return new Watched((int) page.number("window.moves"), page.number("window.shift"), page.number("window.shifts"), time);
+        return new Watched(
+                (int) page.number("window.moves"), page.number("window.shift"), page.number("window.shifts"), time);
     }
 
     private void report(int seconds) {
@@ -116,7 +117,10 @@ final class Crowd implements AutoCloseable {
     }
 
     private void alarm(int number, String state) {
-        farm.send("service.alarms", "a" + number, StubFarm.alarm(number, number % 3 == 0 ? "critical" : "warning", state));
+        farm.send(
+                "service.alarms",
+                "a" + number,
+                StubFarm.alarm(number, number % 3 == 0 ? "critical" : "warning", state));
     }
 
     private String robot(int number) {

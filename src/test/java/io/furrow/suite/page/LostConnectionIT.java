@@ -147,10 +147,11 @@ class LostConnectionIT {
         farm.page()
                 .route(
                         "**/api/topics",
-                        route -> route.fulfill(new Route.FulfillOptions()
-                                .setContentType("application/json")
-                                .setBody(
-                                        "[{\"name\":\"data.temperature\"},{\"name\":\"data.collision\"},{\"name\":\"data.presence\"}]")));
+                        route -> route.fulfill(
+                                new Route.FulfillOptions()
+                                        .setContentType("application/json")
+                                        .setBody(
+                                                "[{\"name\":\"data.temperature\"},{\"name\":\"data.collision\"},{\"name\":\"data.presence\"}]")));
         farm.page()
                 .route(
                         "**/api/register/**",

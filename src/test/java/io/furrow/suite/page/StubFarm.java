@@ -63,8 +63,7 @@ final class StubFarm implements AutoCloseable {
         return robot(number, state, "farm", "weeding", 40.3125 + number * 1e-4, -3.4822);
     }
 
-    static String robot(
-            int number, String state, String domain, String mission, double latitude, double longitude) {
+    static String robot(int number, String state, String domain, String mission, double latitude, double longitude) {
         return """
                 {"id": "urn:ngsi-ld:Robot:%d", "type": "ROBOT", "Domain": {"value": "%s"}, "Mission": {"value": "%s"}, "state": {"value": "%s"},
                  "Latitude": {"value": %s}, "Longitude": {"value": %s}, "speed": {"value": 1.5}, "cmd": {"value": ""}}""".formatted(number, domain, mission, state, latitude, longitude);
@@ -73,7 +72,8 @@ final class StubFarm implements AutoCloseable {
     /** Adds a triangular field, its sides some 100 m long. */
     StubFarm hasField(String id, String domain, double longitude, double latitude) {
         return has("service.fields", id + "@2020-01-01T00:00:00Z", """
-                {"properties": {"name": "%s", "Domain": "%s"}, "geometry": {"type": "Polygon", "coordinates": [[[%3$s, %5$s], [%4$s, %5$s], [%4$s, %6$s], [%3$s, %5$s]]]}}""".formatted(id, domain, longitude, longitude + 0.001, latitude, latitude + 0.001));
+                {"properties": {"name": "%s", "Domain": "%s"}, "geometry": {"type": "Polygon", "coordinates": [[[%3$s, %5$s], [%4$s, %5$s], [%4$s, %6$s], [%3$s, %5$s]]]}}""".formatted(
+                        id, domain, longitude, longitude + 0.001, latitude, latitude + 0.001));
     }
 
     /** Adds open alarms with the keys {@code a1}, {@code a2} … */
@@ -147,11 +147,11 @@ final class StubFarm implements AutoCloseable {
                                         ? "{\"from\": 0, \"width\": 1, \"first\": 0, \"last\": 1, \"complete\": true, \"counts\": [1]}"
                                         : path.equals("/api/topics")
                                                 ? topics()
-                                        : path.startsWith("/api/density/")
-                                                ? "{\"counts\": []}"
-                                                : path.equals("/api/me")
-                                                        ? "{\"user\": \"demo\", \"role\": \"admin\"}"
-                                                        : "[]");
+                                                : path.startsWith("/api/density/")
+                                                        ? "{\"counts\": []}"
+                                                        : path.equals("/api/me")
+                                                                ? "{\"user\": \"demo\", \"role\": \"admin\"}"
+                                                                : "[]");
         if (answer.matches("\\d{3}.*")) {
             String reason = answer.length() > 3 ? answer.substring(4) : "the stub rejects it";
             route.fulfill(new Route.FulfillOptions()

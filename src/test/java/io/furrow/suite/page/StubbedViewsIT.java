@@ -121,7 +121,8 @@ class StubbedViewsIT {
 
         assertThat(page.card("urn:ngsi-ld:Robot:2")).hasClass(Pattern.compile("selected"));
         assertThat(page.page()).hasURL(Pattern.compile("select="));
-        assertThat(page.is("document.querySelector('furrow-map').moved ?? false")).isFalse();
+        assertThat(page.is("document.querySelector('furrow-map').moved ?? false"))
+                .isFalse();
     }
 
     @Test
