@@ -140,6 +140,7 @@ class CrowdedFarmIT {
     }
 
     /** The last two are the window of the first at 200 and 400 %. */
+    @Tag("full")
     @ParameterizedTest
     @CsvSource({"1440, 900", "390, 844", "740, 360", "720, 450", "360, 225"})
     void reachesEverythingInWindowsOfAllSizes(int width, int height) {
@@ -185,6 +186,7 @@ class CrowdedFarmIT {
         assertThat(page.find(".live-note")).isHidden();
     }
 
+    @Tag("full")
     @Test
     void fitsTheFarmInScopeAndOffersTheOthers() {
         farm.hasField("near", "farm", -3.4835, 40.3125).hasField("far", "alps", 10.2, 47.1);

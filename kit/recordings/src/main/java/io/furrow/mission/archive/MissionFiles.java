@@ -73,8 +73,9 @@ public final class MissionFiles {
     }
 
     /** Writes or replaces a file; on file systems without atomic replacement it deletes the old one first. */
-    public static long write(Path file, Content content) throws IOException {
-        FileSystem files = file.getFileSystem();
+    public static long write(Path target, Content content) throws IOException {
+        FileSystem files = target.getFileSystem();
+        Path file = target.makeQualified(files); // Flink's writer of local files needs a folder
         RecoverableFsDataOutputStream out = files.createRecoverableWriter().open(file);
         boolean complete = false;
         try {
