@@ -22,8 +22,16 @@ export function navigate(view, query = {}) {
   location.hash = linkTo(view, query);
 }
 
-/** Changes parameters of the address without a new entry in the history; null removes one. No handler is called. */
-export function amendAddress(changes) {
+/**
+ * Changes parameters of the address without a new entry in the history; null removes one. No handler is called.
+ *
+ * @param {string=} view the only one that has them
+ */
+export function amendAddress(changes, view) {
+  route = read(); // the address may lead elsewhere already, and its event is yet to come
+  if (view !== undefined && route.view !== view) {
+    return;
+  }
   const link = linkTo(route.view, { ...route.query, ...changes });
   if (link !== linkTo(route.view, route.query)) {
     history.replaceState(history.state, '', link);
@@ -40,10 +48,9 @@ export function amendAddress(changes) {
  * @returns {{write: function(), close: function()}} `write` is called after each change
  */
 export function parameter(name, { view, get, set }) {
-  const isShown = () => view === undefined || route.view === view;
-  const write = () => isShown() && amendAddress({ [name]: get() || null });
+  const write = () => amendAddress({ [name]: get() || null }, view);
   const follow = () => {
-    const linked = isShown() ? route.query[name] : undefined;
+    const linked = view === undefined || route.view === view ? route.query[name] : undefined;
     linked !== undefined && linked !== get() && set?.(linked);
     write();
   };

@@ -51,8 +51,8 @@ class TopicsIT {
         check(farm, "data.canary.realtime.dummy");
         Locator records = farm.find("furrow-topics table tbody tr");
 
-        assertThat(records.filter(having("Robot:canary-1")).first()).isVisible();
-        assertThat(records.filter(having("Thermometer:4")).first()).isVisible();
+        assertThat(records.filter(having("Robot canary-1")).first()).isVisible();
+        assertThat(records.filter(having("Thermometer 4")).first()).isVisible();
     }
 
     @Tag("full")
