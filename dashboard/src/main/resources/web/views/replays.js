@@ -42,7 +42,7 @@ class Replays extends HTMLElement {
       h('header', null, h('div', null, h('h1', null, t('replays.title')), h('p.muted', null, t('replays.lead'))), h('span.spacer'), this.announcement),
       h('section.stack', null, this.runningTitle, this.runningList, this.noRunning),
       h('div.replay-columns', null, h('section.stack', null, this.recordedTitle, this.state, this.table), this.plan.element)));
-    this.catalog = streams.subscribe('data.catalog', { mode: 'latest', prime: true }, { records: (records) => this.applyCatalog(records) });
+    this.catalog = streams.subscribe('data.catalog', { mode: 'latest', prime: true, createdLater: true }, { records: (records) => this.applyCatalog(records) });
     this.onScheme = () => this.rows.forEach((row) => row.preview.draw());
     window.addEventListener('schemechange', this.onScheme);
     this.subscriptions = [

@@ -194,6 +194,23 @@ class StubbedViewsIT {
     }
 
     @Test
+    void leavesAButtonInPlaceWhileItIsPressed() {
+        farm.hasField("a", "farm", 1, 2);
+        FarmPage page = farm.open("#/missions?tab=domains", 1440, 900);
+        page.find(".field-table").getByLabel("Rename a").hover();
+        page.page().mouse().down();
+        farm.send(
+                "service.fields",
+                "b@2020-01-01T00:00:00Z",
+                "{\"properties\": {}, \"geometry\": {\"type\": \"Polygon\", \"coordinates\": []}}");
+        page.untilStore("store.fields.size === 2");
+        page.page().mouse().up();
+
+        assertThat(page.find("dialog[open]")).isVisible();
+        assertThat(page.find(".field-table tbody tr")).hasCount(2);
+    }
+
+    @Test
     void importsNoFileWithoutAreas() {
         FarmPage page = farm.open("#/missions?tab=domains", 1440, 900);
         page.button("Import fields").click();
