@@ -14,6 +14,7 @@ import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.streaming.api.watermark.Watermark;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
+import org.awaitility.Awaitility;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.io.TempDir;
@@ -48,12 +49,15 @@ abstract class MoveImagesHarness {
         harness.open();
     }
 
+    /** Waits for the threads of failed operators, which may still write to the folder. */
     @AfterEach
     void close() throws Exception {
         gate.open();
         if (harness != null) {
             harness.close();
         }
+        Awaitility.await().until(() -> Thread.getAllStackTraces().keySet().stream()
+                .noneMatch(thread -> thread.getName().equals("images")));
     }
 
     /** As a failure does: without waiting for what is under way. */

@@ -151,11 +151,11 @@ class FirstStartIT {
     }
 
     @Test
-    void reportsThatThereIsNoJava() throws Exception {
+    void reportsThatThereIsNoJavaInJavaHome() throws Exception {
         ProcessBuilder builder = builder(home.resolve("furrow"), "only", "demo");
         builder.environment().put("JAVA_HOME", directory.resolve("nowhere").toString());
 
-        assertThat(ended(builder.start(), "only").err()).contains("No Java found", "JDK 17 or 21");
+        assertThat(ended(builder.start(), "only").err()).contains("nowhere, where no Java is", "JDK 17 or 21");
     }
 
     @Test

@@ -1,9 +1,19 @@
 package io.furrow.control.rest;
 
 import java.net.http.HttpResponse;
+import java.util.Properties;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.TimeUnit;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerConfig;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.PartitionInfo;
 import org.junit.jupiter.api.Test;
+
+import io.furrow.kafka.KafkaClients;
+import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -27,6 +37,29 @@ interface ReplayRoutes extends RestApiRoutes {
         running().rejects("POST", replay + "/dance", null, 404, "not-found");
         assertThat(client().status("DELETE", replay, null)).isEqualTo(200);
         running().rejects("GET", "/api/replays/hoeing.00000000", null, 404, "unknown-replay");
+    }
+
+    /** The transaction hides what is written after it on its partitions. */
+    @Test
+    default void answersOnceTheReplayIsVisibleBehindAnOpenTransaction() throws Exception {
+        Properties settings = new Properties();
+        settings.putAll(running().settings().client());
+        settings.put(ProducerConfig.TRANSACTIONAL_ID_CONFIG, "open");
+        try (KafkaProducer<String, byte[]> other = KafkaClients.producer(settings)) {
+            other.initTransactions();
+            other.beginTransaction();
+            for (PartitionInfo each : other.partitionsFor(Topics.REPLAYS)) {
+                other.send(new ProducerRecord<>(Topics.REPLAYS, each.partition(), "open", new byte[0]));
+            }
+            other.flush();
+            CompletableFuture.delayedExecutor(2, TimeUnit.SECONDS).execute(other::abortTransaction);
+
+            String replay = client().ask("POST", "/api/replays", "{\"mission\":\"hoeing\"}")
+                    .path("replay")
+                    .asText();
+            assertThat(running().get("/api/replays").findValuesAsText("replay")).contains(replay);
+            assertThat(client().status("DELETE", "/api/replays/" + replay, null)).isEqualTo(200);
+        }
     }
 
     @Test
