@@ -58,6 +58,7 @@ class RealDevicesIT {
         running.post("/api/domains", "{\"domain\":\"home\"}");
     }
 
+    @Tag("full")
     @Test
     void reportsByTheExampleOfItsCredentials() throws Exception {
         start("first", """

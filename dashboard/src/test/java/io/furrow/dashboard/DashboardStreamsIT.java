@@ -147,6 +147,7 @@ class DashboardStreamsIT extends DashboardFixture {
         producer.send(record).get();
     }
 
+    @Tag("full")
     @Test
     void closesASocketThatIsTooSlowWithoutDelayingOthers() throws Exception {
         restart(settings().withLimits(limits(2_000, 50)));

@@ -49,6 +49,7 @@ class TemperatureJobIT {
 
     private static final byte[] GARBAGE = "temperature=18".getBytes(UTF_8);
 
+    @Tag("full")
     @Test
     void readsReportedChangesAndWritesAveragesAndDeadLetters(@TempDir Path dir) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(dir.resolve("kafka"));

@@ -10,6 +10,7 @@ import java.util.List;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.TimeUnit;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
@@ -18,6 +19,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
 class MqttConnectionTest {
+    @Tag("full")
     @Test
     void sendsAgainWhatABrokerDroppedThoughTheConnectionHolds() throws Exception {
         try (ForgetfulBroker broker = new ForgetfulBroker(false)) {
