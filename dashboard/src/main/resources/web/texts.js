@@ -52,7 +52,7 @@ export const texts = {
     byte: 'B', kilobyte: 'kB', megabyte: 'MB', gigabyte: 'GB', terabyte: 'TB',
   },
 
-  format: { ago: '{duration} ago', yes: 'yes', no: 'no' },
+  format: { ago: '{duration} ago', yes: 'yes', no: 'no', time: 'YYYY-MM-DD HH:MM:SS' },
 
   errors: {
     noAnswer: 'The server does not answer. Check that ./furrow dashboard runs and that this machine reaches it.',
@@ -69,7 +69,7 @@ export const texts = {
     controls: 'Map', zoomIn: 'Zoom in', zoomOut: 'Zoom out', fit: 'Show the whole farm', farms: 'Farms', layers: 'What is shown', table: 'The map as a table', closeTable: 'Close the table',
     tables: { devices: 'Devices', encounters: 'Encounters', fields: 'Fields' },
     options: { trails: 'Trails', labels: 'Names', rows: 'Rows of fields' },
-    legend: 'Legend', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}', closest: 'closest {distance}',
+    legend: 'Legend', stopped: 'off or stopped', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}', closest: 'closest {distance}',
     devices: '{count device|devices}', unverified: 'unverified', suspects: '{count} suspect', noAlarms: 'no alarms',
     cluster: '{count} devices, click to open', oneSpot: '{count} devices in one spot',
     columns: { name: 'Name', kind: 'Kind', state: 'State', position: 'Position', speed: 'Speed', age: 'Heard', pair: 'Devices', phase: 'Phase', distance: 'Distance', closest: 'Closest', field: 'Field', average: 'Average', devices: 'Devices', suspects: 'Suspects' },
@@ -250,7 +250,7 @@ export const texts = {
     when: 'When', pair: 'Devices', closest: 'Closest', duration: 'Duration', phase: 'Phase', sort: 'Sort by {column}',
     phases: { started: 'ongoing', ongoing: 'ongoing', ended: 'ended', crossed: 'crossed' },
     toMoment: 'To the moment', toMomentOf: 'To the moment of {pair} at {time}',
-    noRecording: 'not recorded', more: '{shown} of {count} are shown',
+    noRecording: 'not recorded', more: '{shown} of {count} are shown: show more',
     stay: '{device} in {field}, {from} to {to}', stillIn: 'still there', device: 'Device', entered: 'Entered', left: 'Left', stayed: 'Stayed',
     at: '{value} at {time}', chartLabel: 'Averages per field over time; the table has the same numbers',
   },

@@ -82,7 +82,7 @@ export function number(value) {
     return value.toExponential(2);
   }
   return size >= 100 || Number.isInteger(value)
-    ? Math.round(value).toLocaleString('en').replaceAll(',', ' ')
+    ? Math.round(value).toLocaleString(LOCALE).replaceAll(',', ' ')
     : value.toFixed(size >= 10 ? 1 : 2);
 }
 

@@ -3,7 +3,7 @@ import { api } from '../../core/api.js';
 import { dateTime } from '../../core/format.js';
 import { h } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
-import { ofLocal } from '../../core/local-time.js';
+import { ofLocal, timeElement } from '../../core/local-time.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 import { formRow, openDialog } from '../../core/dialog.js';
@@ -46,7 +46,7 @@ function rename(field, title) {
 }
 
 function end(field, title) {
-  const time = h('input', { type: 'datetime-local', step: 1 });
+  const time = timeElement();
   openDialog({
     title: `${title}?`, submit: t('missions.end'), danger: true, body: [h('p', null, t('missions.endText')), formRow(t('missions.endAt'), time, t('missions.endHint'))],
     work: () => api.patch(path(field), { validTo: new Date(time.value ? ofLocal(time.value, true) : Date.now()).toISOString() }),
