@@ -82,6 +82,21 @@ export const texts = {
 
   // ------------------------------------------------------------------------------------------------------------------
 
+  draw: {
+    title: 'Draw fields', open: 'Draw and change fields', field: 'New field', zone: 'New zone', type: 'Type corners', changeField: 'Change a field …', done: 'Done', save: 'Save', finish: 'Finish', removeLast: 'Remove last corner',
+    attributes: 'Attributes and corners', attributesOf: 'Attributes of {field}', newField: 'New field', newZone: 'New zone without alarms', chooseHint: 'Click a field to change it, or draw a new one.', drawHint: 'Click each corner; click the first one again to finish. Backspace removes the last corner.', shapeHint: 'Drag corners, drag a side to add one, drag the inside to move the whole. Alt and a click removes a corner.',
+    crop: 'Crop', rowDirection: 'Direction of rows', rowDirectionHint: 'Degrees clockwise from north. Empty: no rows are drawn.', alongSide: 'Along the longest side', noDomain: 'none', zoneHint: 'Devices in a zone raise no encounters. The job that finds encounters reads zones when it starts.', corners: 'Corners', cornersLabel: 'Latitude and longitude of each corner', cornersHint: 'One corner per line, in degrees. An empty line is between the border and a hole.',
+    noCorner: 'Line {line} is no corner. Write latitude and longitude in degrees, for example 40.3123456, -3.4823456.', rings: 'The outline has {count ring|rings}. Separate them by empty lines, and no corners of one ring.',
+    faults: {
+      crosses: 'The border crosses itself at {place}. Move a corner so that it does not.', corners: 'A field needs at least three corners. Add some.',
+      outside: 'A corner is outside of the map: latitudes are between −85.05 and 85.05, longitudes between −180 and 180.', many: 'The outline has more than 5000 corners. Import it from a file.',
+    },
+    drawn: '{field} was drawn', moved: '{field} was moved', changed: '{field} was changed', ended: '{field} was ended', saved: '{field} is saved.', undo: 'Undo: {change}', undone: 'Undone: {change}.', undoAnyway: 'Undo both',
+    changedSince: 'The field was changed again since, here or by somebody else. Undoing takes back that change too.', conflict: 'Somebody changed {field} meanwhile. Cancel, and change it as it is now.',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
   cards: {
     title: 'Devices', silent: '{count device|devices} silent or off', count: '{count} · {reporting} reporting', found: '{found} of {count}', unknown: '{device} has never reported, or was deleted.', filter: 'Show only', loading: 'Devices are being read',
     state: 'State', fieldMean: 'Field mean', suspect: 'suspect', noPosition: 'no position', details: 'All attributes of {name}',
