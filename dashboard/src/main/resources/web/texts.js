@@ -1,6 +1,7 @@
-/** All texts of the page, for translation: `t('section.name', {count: 3})`. */
+/** All texts of the page, in English: `t('section.name', {count: 3})`. Another language has the same names in `texts.<language>.js`. */
+import { language } from './core/language.js';
 
-export const texts = {
+const english = {
   app: {
     title: 'Furrow',
     skip: 'Skip to content', skipPanel: 'Skip to alarms and devices',
@@ -16,6 +17,7 @@ export const texts = {
     signOut: 'Sign out',
     scheme: 'Appearance',
     schemes: { system: 'Same as the system', dark: 'Dark', light: 'Light', sunlight: 'Sunlight, high contrast' },
+    language: 'Language',
     allDomains: 'All domains',
     viewFailed: 'This part of the page could not be loaded: {reason}. Reload the page; if the problem persists, check the dashboard’s log.',
     lost: 'Not connected for {duration}, trying again. The data shown is from {time}.',
@@ -283,6 +285,8 @@ export const texts = {
   },
 };
 
+export const texts = language === 'en' ? english : (await import(`./texts.${language}.js`)).texts;
+
 /**
  * The text of a key.
  *
@@ -295,6 +299,6 @@ export function t(key, values = {}) {
     console.error(`no text ${key}`);
     return key;
   }
-  const counted = text.replace(/\{(\w+) (\w+)\|(\w+)\}/g, (whole, name, one, more) => `{${name}} ${String(values[name]) === '1' ? one : more}`);
+  const counted = text.replace(/\{(\w+) ([^|}]+)\|([^}]+)\}/g, (whole, name, one, more) => `{${name}} ${String(values[name]) === '1' ? one : more}`);
   return counted.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? String(values[name]) : whole));
 }

@@ -1,6 +1,6 @@
 /** The list of alarms, with commands, announcements and notifications. */
 import { api } from '../core/api.js';
-import { age, clock, label, readable } from '../core/format.js';
+import { age, clock, label, readable, word } from '../core/format.js';
 import { h, isHeld, replace, setText } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { isIn, scope } from '../core/identities.js';
@@ -103,7 +103,7 @@ class FurrowAlarms extends HTMLElement {
   }
 
   make(id) {
-    const text = h('button.alarm-text', { type: 'button' });
+    const text = h('button.alarm-text', { type: 'button', lang: 'en' }); // the server's sentence
     const line = h('p.small.muted.numbers');
     const acknowledge = h('button.button.small', { type: 'button' }, t('alarms.acknowledge'));
     const menu = h('div.alarm-menu', { popover: 'auto', id: `alarm-${id}` });
@@ -163,7 +163,7 @@ class FurrowAlarms extends HTMLElement {
     if (this.announced) {
       for (const alarm of open.filter((each) => !this.announced.has(each.alarm))) {
         const place = alarm.severity === 'critical' ? this.assertive : this.polite;
-        setText(place, t('alarms.announced', { severity: alarm.severity, text: textOf(alarm) }));
+        setText(place, t('alarms.announced', { severity: word(alarm.severity ?? ''), text: textOf(alarm) }));
         showNotification(alarm);
       }
     }
@@ -230,7 +230,7 @@ function show(alarm) {
 /** Shows a notification while the page is hidden. */
 function showNotification(alarm) {
   if (document.hidden && 'Notification' in window && Notification.permission === 'granted' && (alarm.severity === 'critical' || alarm.severity === 'major')) {
-    const shown = new Notification(t('alarms.notification', { severity: alarm.severity }), { body: textOf(alarm), tag: alarm.alarm });
+    const shown = new Notification(t('alarms.notification', { severity: word(alarm.severity) }), { body: textOf(alarm), tag: alarm.alarm });
     shown.onclick = () => { window.focus(); show(alarm); };
   }
 }
