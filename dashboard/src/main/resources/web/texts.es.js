@@ -1,4 +1,4 @@
-/** The texts of `texts.js` in Spanish: the same names, the same values in braces. `words` translates what devices and the server call something. */
+/** The texts of `texts.js` in Spanish: the same names, the same values in braces. `words` and `sentences` translate what devices and the server say in English. */
 
 export const texts = {
   app: {
@@ -42,6 +42,18 @@ export const texts = {
     humidity: 'humedad', 'relative humidity': 'humedad relativa', 'soil moisture': 'humedad del suelo', battery: 'batería', 'battery level': 'batería', pressure: 'presión', 'atmospheric pressure': 'presión atmosférica', altitude: 'altitud',
     illuminance: 'iluminancia', voltage: 'tensión', precipitation: 'precipitación', rainfall: 'lluvia', 'solar radiation': 'radiación solar', location: 'posición', position: 'posición', state: 'estado', status: 'estado', mode: 'modo', mission: 'misión', image: 'imagen',
   },
+
+  sentences: {
+    collision: '{first} y {second} están a {meters}', 'collision-many': '{affected} parejas más de {group} están demasiado cerca',
+    'predicted-encounter': '{first} y {second} se acercarán a {meters}', 'predicted-encounter-many': 'Se prevén {affected} encuentros más de {group}',
+    'suspect-sensor': '{first} se desvía de los demás sensores de {group}', 'suspect-sensor-many': '{affected} sensores más de {group} se desvían de los demás',
+    'clock-behind': 'Los informes de {first} llegan {late} tarde y se descartan: compruebe su reloj y su conexión', 'clock-behind-many': 'Los informes de {affected} dispositivos más de {group} llegan demasiado tarde y se descartan',
+    'missing-devices-many': 'Faltan {affected} de {total} dispositivos de {group}: {devices}',
+    'silent-device-many': '{affected} de {total} dispositivos de {group} sin señal: {devices}',
+    'silent-mission-many': '{affected} de {total} dispositivos de {group} sin señal: probablemente el lugar o su conexión, no los dispositivos',
+    'silent-farm-many': '{affected} de {total} dispositivos de la finca sin señal: no llega nada o acaba de volver',
+  },
+  groups: { mission: 'la misión {name}', domain: 'el dominio {name}', field: '{name}', none: 'ninguna misión' },
 
   views: { map: 'Mapa', missions: 'Misiones', replays: 'Reproducciones', analyses: 'Análisis', topics: 'Temas', platform: 'Plataforma' },
 

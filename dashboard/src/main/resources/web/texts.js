@@ -299,6 +299,11 @@ export function t(key, values = {}) {
     console.error(`no text ${key}`);
     return key;
   }
+  return fill(text, values);
+}
+
+/** Replaces `{name}` and `{count one|more}` in a text. */
+export function fill(text, values) {
   const counted = text.replace(/\{(\w+) ([^|}]+)\|([^}]+)\}/g, (whole, name, one, more) => `{${name}} ${String(values[name]) === '1' ? one : more}`);
   return counted.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? String(values[name]) : whole));
 }

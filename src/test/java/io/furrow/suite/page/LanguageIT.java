@@ -40,7 +40,7 @@ class LanguageIT {
                   const flat = (section, path = '') => Object.entries(section).flatMap(([name, text]) =>
                     typeof text === 'object' ? flat(text, `${path}${name}.`) : `${path}${name} ${[...text.matchAll(/\\{(\\w+)/g)].map((hole) => hole[1]).sort()}`);
                   const english = flat((await import('/texts.js')).texts);
-                  const spanish = flat({ ...(await import('/texts.es.js')).texts, words: {} });
+                  const spanish = flat({ ...(await import('/texts.es.js')).texts, words: {}, sentences: {}, groups: {} });
                   const without = (ours, theirs) => ours.filter((each) => !theirs.includes(each));
                   return [...without(english, spanish), ...without(spanish, english)];
                 }""")).isEmpty();
@@ -58,6 +58,21 @@ class LanguageIT {
         assertThat(page.find("html")).hasAttribute("lang", "en");
         assertThat(page.find(".rail")).containsText("Missions");
         assertThat(page.card("urn:ngsi-ld:Robot:1")).containsText("1.50");
+    }
+
+    @Test
+    void makesTheSentencesOfAlarms() {
+        FarmPage page = farm.isReadIn("es")
+                .has("service.alarms", "c", """
+                        {"alarm": "c", "kind": "collision", "severity": "critical", "text": "…", "values": {"meters": 2.14}, "subject": "c", "raised": 1, "count": 1, "state": "open",
+                         "devices": [{"id": "urn:ngsi-ld:Robot:1", "type": "ROBOT"}, {"id": "urn:ngsi-ld:Robot:2", "type": "ROBOT"}]}""")
+                .has("service.alarms", "f", """
+                        {"alarm": "f", "kind": "fault", "severity": "major", "text": "the task 0 failed", "subject": "f", "raised": 1, "count": 1, "state": "open"}""")
+                .open("", 1440, 900);
+
+        assertThat(page.find(".alarm.critical .alarm-text")).hasText("Robot 1 y Robot 2 están a 2,1\u00a0m");
+        assertThat(page.find(".alarm.major .alarm-text")).hasText("the task 0 failed");
+        assertThat(page.find(".alarm.major .alarm-text")).hasAttribute("lang", "en");
     }
 
     @Test
