@@ -1,6 +1,7 @@
-/** All texts of the page, for translation: `t('section.name', {count: 3})`. */
+/** All texts of the page, in English: `t('section.name', {count: 3})`. Another language has the same names in `texts.<language>.js`. */
+import { language } from './core/language.js';
 
-export const texts = {
+const english = {
   app: {
     title: 'Furrow',
     skip: 'Skip to content', skipPanel: 'Skip to alarms and devices',
@@ -16,6 +17,7 @@ export const texts = {
     signOut: 'Sign out',
     scheme: 'Appearance',
     schemes: { system: 'Same as the system', dark: 'Dark', light: 'Light', sunlight: 'Sunlight, high contrast' },
+    language: 'Language',
     allDomains: 'All domains',
     viewFailed: 'This part of the page could not be loaded: {reason}. Reload the page; if the problem persists, check the dashboard’s log.',
     lost: 'Not connected for {duration}, trying again. The data shown is from {time}.',
@@ -52,7 +54,7 @@ export const texts = {
     byte: 'B', kilobyte: 'kB', megabyte: 'MB', gigabyte: 'GB', terabyte: 'TB',
   },
 
-  format: { ago: '{duration} ago', yes: 'yes', no: 'no' },
+  format: { ago: '{duration} ago', yes: 'yes', no: 'no', time: 'YYYY-MM-DD HH:MM:SS' },
 
   errors: {
     noAnswer: 'The server does not answer. Check that ./furrow dashboard runs and that this machine reaches it.',
@@ -69,7 +71,7 @@ export const texts = {
     controls: 'Map', zoomIn: 'Zoom in', zoomOut: 'Zoom out', fit: 'Show the whole farm', farms: 'Farms', layers: 'What is shown', table: 'The map as a table', closeTable: 'Close the table',
     tables: { devices: 'Devices', encounters: 'Encounters', fields: 'Fields' },
     options: { trails: 'Trails', labels: 'Names', rows: 'Rows of fields' },
-    legend: 'Legend', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}', closest: 'closest {distance}',
+    legend: 'Legend', stopped: 'off or stopped', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}', closest: 'closest {distance}',
     devices: '{count device|devices}', unverified: 'unverified', suspects: '{count} suspect', noAlarms: 'no alarms',
     cluster: '{count} devices, click to open', oneSpot: '{count} devices in one spot',
     columns: { name: 'Name', kind: 'Kind', state: 'State', position: 'Position', speed: 'Speed', age: 'Heard', pair: 'Devices', phase: 'Phase', distance: 'Distance', closest: 'Closest', field: 'Field', average: 'Average', devices: 'Devices', suspects: 'Suspects' },
@@ -78,6 +80,21 @@ export const texts = {
     faults: { 'no-number': 'no number', 'no-point': 'no point', 'out-of-range': 'outside the map', 'no-fix': 'no fix' },
     moreRows: 'and {count} more; search to find them',
     emptyTitle: 'No devices yet', emptyText: 'Devices appear here when they report. To start simulated ones:',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  draw: {
+    title: 'Draw fields', open: 'Draw and change fields', field: 'New field', zone: 'New zone', type: 'Type corners', changeField: 'Change a field …', done: 'Done', save: 'Save', finish: 'Finish', removeLast: 'Remove last corner',
+    attributes: 'Attributes and corners', attributesOf: 'Attributes of {field}', newField: 'New field', newZone: 'New zone without alarms', chooseHint: 'Click a field to change it, or draw a new one.', drawHint: 'Click each corner; click the first one again to finish. Backspace removes the last corner.', shapeHint: 'Drag corners, drag a side to add one, drag the inside to move the whole. Alt and a click removes a corner.',
+    crop: 'Crop', rowDirection: 'Direction of rows', rowDirectionHint: 'Degrees clockwise from north. Empty: no rows are drawn.', alongSide: 'Along the longest side', noDomain: 'none', zoneHint: 'Devices in a zone raise no encounters. The job that finds encounters reads zones when it starts.', corners: 'Corners', cornersLabel: 'Latitude and longitude of each corner', cornersHint: 'One corner per line, in degrees. An empty line is between the border and a hole.',
+    noCorner: 'Line {line} is no corner. Write latitude and longitude in degrees, for example 40.3123456, -3.4823456.', rings: 'The outline has {count ring|rings}. Separate them by empty lines, and no corners of one ring.',
+    faults: {
+      crosses: 'The border crosses itself at {place}. Move a corner so that it does not.', corners: 'A field needs at least three corners. Add some.',
+      outside: 'A corner is outside of the map: latitudes are between −85.05 and 85.05, longitudes between −180 and 180.', many: 'The outline has more than 5000 corners. Import it from a file.',
+    },
+    drawn: '{field} was drawn', moved: '{field} was moved', changed: '{field} was changed', ended: '{field} was ended', saved: '{field} is saved.', undo: 'Undo: {change}', undone: 'Undone: {change}.', undoAnyway: 'Undo both',
+    changedSince: 'The field was changed again since, here or by somebody else. Undoing takes back that change too.', conflict: 'Somebody changed {field} meanwhile. Cancel, and change it as it is now.',
   },
 
   // ------------------------------------------------------------------------------------------------------------------
@@ -250,7 +267,7 @@ export const texts = {
     when: 'When', pair: 'Devices', closest: 'Closest', duration: 'Duration', phase: 'Phase', sort: 'Sort by {column}',
     phases: { started: 'ongoing', ongoing: 'ongoing', ended: 'ended', crossed: 'crossed' },
     toMoment: 'To the moment', toMomentOf: 'To the moment of {pair} at {time}',
-    noRecording: 'not recorded', more: '{shown} of {count} are shown',
+    noRecording: 'not recorded', more: '{shown} of {count} are shown: show more',
     stay: '{device} in {field}, {from} to {to}', stillIn: 'still there', device: 'Device', entered: 'Entered', left: 'Left', stayed: 'Stayed',
     at: '{value} at {time}', chartLabel: 'Averages per field over time; the table has the same numbers',
   },
@@ -268,6 +285,8 @@ export const texts = {
   },
 };
 
+export const texts = language === 'en' ? english : (await import(`./texts.${language}.js`)).texts;
+
 /**
  * The text of a key.
  *
@@ -280,6 +299,11 @@ export function t(key, values = {}) {
     console.error(`no text ${key}`);
     return key;
   }
-  const counted = text.replace(/\{(\w+) (\w+)\|(\w+)\}/g, (whole, name, one, more) => `{${name}} ${String(values[name]) === '1' ? one : more}`);
+  return fill(text, values);
+}
+
+/** Replaces `{name}` and `{count one|more}` in a text. */
+export function fill(text, values) {
+  const counted = text.replace(/\{(\w+) ([^|}]+)\|([^}]+)\}/g, (whole, name, one, more) => `{${name}} ${String(values[name]) === '1' ? one : more}`);
   return counted.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? String(values[name]) : whole));
 }

@@ -1,6 +1,7 @@
 /** The list of alarms, with commands, announcements and notifications. */
 import { api } from '../core/api.js';
-import { age, clock, label, readable } from '../core/format.js';
+import { age, clock, label, word } from '../core/format.js';
+import { language } from '../core/language.js';
 import { h, isHeld, replace, setText } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { isIn, scope } from '../core/identities.js';
@@ -8,6 +9,7 @@ import { others } from '../core/scope.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { arrange, isMuted } from './order.js';
+import { isOfServer, sentenceOf } from './sentence.js';
 
 const MUTES = [['PT10M', 'alarms.mute10'], ['PT1H', 'alarms.mute60'], ['PT8H', 'alarms.mute480']];
 const SHOWN = 20;
@@ -117,9 +119,10 @@ class FurrowAlarms extends HTMLElement {
     row.draw = (alarm) => {
       row.alarm = alarm;
       element.className = `alarm ${alarm.severity} ${alarm.state}${isMuted(alarm, Date.now()) || alarm.inhibitedBy ? ' quieted' : ''}`;
-      setText(text, textOf(alarm));
-      acknowledge.setAttribute('aria-label', `${t('alarms.acknowledge')}: ${textOf(alarm)}`);
-      more.setAttribute('aria-label', `${t('alarms.more')}: ${textOf(alarm)}`);
+      setText(text, sentenceOf(alarm));
+      text.lang = isOfServer(alarm) ? 'en' : language;
+      acknowledge.setAttribute('aria-label', `${t('alarms.acknowledge')}: ${sentenceOf(alarm)}`);
+      more.setAttribute('aria-label', `${t('alarms.more')}: ${sentenceOf(alarm)}`);
       setText(line, lineOf(alarm));
       actions.hidden = !store.may('operate');
       acknowledge.hidden = alarm.state !== 'open';
@@ -163,7 +166,7 @@ class FurrowAlarms extends HTMLElement {
     if (this.announced) {
       for (const alarm of open.filter((each) => !this.announced.has(each.alarm))) {
         const place = alarm.severity === 'critical' ? this.assertive : this.polite;
-        setText(place, t('alarms.announced', { severity: alarm.severity, text: textOf(alarm) }));
+        setText(place, t('alarms.announced', { severity: word(alarm.severity ?? ''), text: sentenceOf(alarm) }));
         showNotification(alarm);
       }
     }
@@ -185,13 +188,8 @@ function leaveGap(row) {
   focused && gap.focus({ preventScroll: true });
 }
 
-/** The text with the names of devices and fields. */
-function textOf(alarm) {
-  return readable(alarm.text).replace(/\bfield ([\w-]+)/g, (words, id) => store.fields.get(id)?.name ?? words).replace(/(\d) (m|s|min|h|°C|%)(?![\w])/g, '$1\u00a0$2');
-}
-
 function isFound(alarm) {
-  return store.isFound(textOf(alarm), label(alarm.kind.replaceAll('-', ' ')), alarm.subject ?? '');
+  return store.isFound(sentenceOf(alarm), label(alarm.kind.replaceAll('-', ' ')), alarm.subject ?? '');
 }
 
 /** An alarm of no device that the page knows concerns all. */
@@ -230,7 +228,7 @@ function show(alarm) {
 /** Shows a notification while the page is hidden. */
 function showNotification(alarm) {
   if (document.hidden && 'Notification' in window && Notification.permission === 'granted' && (alarm.severity === 'critical' || alarm.severity === 'major')) {
-    const shown = new Notification(t('alarms.notification', { severity: alarm.severity }), { body: textOf(alarm), tag: alarm.alarm });
+    const shown = new Notification(t('alarms.notification', { severity: word(alarm.severity) }), { body: sentenceOf(alarm), tag: alarm.alarm });
     shown.onclick = () => { window.focus(); show(alarm); };
   }
 }

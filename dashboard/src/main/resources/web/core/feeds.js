@@ -1,5 +1,6 @@
 /** Feeds the store from topics: live, or from a replay. */
 import { api } from './api.js';
+import { exists } from './existing.js';
 import { resource } from './resource.js';
 import { deviceKey, spanOf, store } from './store.js';
 import { streams } from './stream.js';
@@ -120,9 +121,9 @@ class Feeds {
         // a recent record that is newer than the initial state is not part of it yet
         forget: (key, newest, receivedAt) => (store.entities.get(key)?.time <= newest || Date.now() - receivedAt > MAX_STATE_DELAY) && store.forgetEntity(key),
       }),
-      this.feed('data.collision', 'all', (record) => store.applyEncounter(record)),
-      this.feed('data.temperature', 'all', (record) => store.applyTemperature(record)),
-      this.feed('data.images', 'latest', (record) => store.applyImage(record)),
+      this.feed('data.collision', 'all', (record) => store.applyEncounter(record), { createdLater: true }),
+      this.feed('data.temperature', 'all', (record) => store.applyTemperature(record), { createdLater: true }),
+      this.feed('data.images', 'latest', (record) => store.applyImage(record), { createdLater: true }),
     ];
   }
 
@@ -257,7 +258,7 @@ class Feeds {
     this.readingImages = true;
     try {
       const range = new URLSearchParams({ from, to: Math.ceil(store.now()) + 1, newest: 'entity' });
-      const found = await api.get(`/api/history/data.images?${range}`);
+      const found = await exists('data.images') ? await api.get(`/api/history/data.images?${range}`) : { records: [] };
       if (store.mode.replay === replay) {
         found.records.forEach((record) => store.applyImage(record));
       }

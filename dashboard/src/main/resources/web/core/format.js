@@ -1,20 +1,25 @@
 /** Formats numbers, times and names. */
-import { t } from '../texts.js';
+import { t, texts } from '../texts.js';
+import { locale } from './language.js';
 import { codeOf, unitOf } from './readings.js';
 
-/** The language of the texts: dates in another one would be mixed with them. */
-const LOCALE = 'en-GB';
 const SECOND = 1000;
 const MINUTE = 60 * SECOND;
 const HOUR = 60 * MINUTE;
 const DAY = 24 * HOUR;
 
-const clockFormat = new Intl.DateTimeFormat(LOCALE, { hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23' });
-const dayFormat = new Intl.DateTimeFormat(LOCALE, { day: 'numeric', month: 'short' });
-const dateTimeFormat = new Intl.DateTimeFormat(LOCALE, {
+const clockFormat = new Intl.DateTimeFormat(locale, { hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23' });
+const dayFormat = new Intl.DateTimeFormat(locale, { day: 'numeric', month: 'short' });
+const dateTimeFormat = new Intl.DateTimeFormat(locale, {
   day: 'numeric', month: 'short', year: 'numeric', hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23',
 });
-const zoneFormat = new Intl.DateTimeFormat(LOCALE, { timeZoneName: 'short' });
+const zoneFormat = new Intl.DateTimeFormat(locale, { timeZoneName: 'short' });
+const decimalFormats = [1, 2].map((digits) => new Intl.NumberFormat(locale, { minimumFractionDigits: digits, maximumFractionDigits: digits, useGrouping: false }));
+
+/** "4.60", "4,60": with 0 to 2 decimals. */
+export function decimal(value, digits) {
+  return digits === 0 ? value.toFixed(0) : decimalFormats[digits - 1].format(value);
+}
 
 /** "0.4 s ago". @param {number} ms how long ago */
 export function age(ms) {
@@ -27,7 +32,7 @@ export function duration(ms) {
     return '–';
   }
   if (ms < 10 * SECOND) {
-    return inUnit((ms / SECOND).toFixed(1), 'second');
+    return inUnit(decimal(ms / SECOND, 1), 'second');
   }
   if (ms < 2 * MINUTE) {
     return inUnit(Math.floor(ms / SECOND), 'second');
@@ -79,11 +84,11 @@ export function number(value) {
   }
   const size = Math.abs(value);
   if ((size >= 1e9 && !Number.isSafeInteger(value)) || (size > 0 && size < 0.001)) {
-    return value.toExponential(2);
+    return value.toExponential(2).replace('.', decimal(0.5, 1)[1]);
   }
   return size >= 100 || Number.isInteger(value)
-    ? Math.round(value).toLocaleString('en').replaceAll(',', ' ')
-    : value.toFixed(size >= 10 ? 1 : 2);
+    ? String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, ' ')
+    : decimal(value, size >= 10 ? 1 : 2);
 }
 
 /** "4.6 m", "1.2 km". */
@@ -91,12 +96,12 @@ export function distance(meters) {
   if (!Number.isFinite(meters)) {
     return '–';
   }
-  return meters < 1000 ? inUnit(meters.toFixed(meters < 100 ? 1 : 0), 'meter') : inUnit((meters / 1000).toFixed(1), 'kilometer');
+  return meters < 1000 ? inUnit(decimal(meters, meters < 100 ? 1 : 0), 'meter') : inUnit(decimal(meters / 1000, 1), 'kilometer');
 }
 
 /** "12.4 °C". */
 export function temperature(celsius) {
-  return Number.isFinite(celsius) ? inUnit(celsius.toFixed(1), 'celsius') : '–';
+  return Number.isFinite(celsius) ? inUnit(decimal(celsius, 1), 'celsius') : '–';
 }
 
 /** "1.2 kB", "3.4 MB". */
@@ -108,7 +113,7 @@ export function bytes(count) {
     value /= 1000;
     unit++;
   }
-  return inUnit(unit === 0 ? value : value.toFixed(1), units[unit]);
+  return inUnit(decimal(value, unit === 0 ? 0 : 1), units[unit]);
 }
 
 function inUnit(value, unit) {
@@ -175,11 +180,18 @@ export function plain(value, limit = 120) {
   return text.length > limit ? `${text.slice(0, limit)}…` : text;
 }
 
-/** "windSpeed", "wind_speed" → "Wind speed". */
+/** "windSpeed", "wind_speed" → "Wind speed", or as the language names it. */
 export function label(name) {
-  const words = name.slice(0, 60).replace(/([a-z0-9])([A-Z])/g, '$1 $2').replace(/[_\s]+/g, ' ').trim();
+  const own = name.slice(0, 60).replace(/([a-z0-9])([A-Z])/g, '$1 $2').replace(/[_\s]+/g, ' ').trim();
+  const words = word(own);
   const lower = /^[A-Z0-9]{2,5}$/.test(words) ? words : words.toLowerCase();
   return lower.charAt(0).toUpperCase() + lower.slice(1);
+}
+
+/** A word that devices or the server use, in the language of the page if it has it. */
+export function word(own) {
+  const name = own.toLowerCase();
+  return texts.words && Object.hasOwn(texts.words, name) ? texts.words[name] : own;
 }
 
 /** "urn:ngsi-ld:Thermometer:4" → "Thermometer 4". */

@@ -26,9 +26,9 @@ const SAME_SPOT = 4;
 /** Width below which only the names that matter are drawn, px. */
 const NARROW = 560;
 /** Sizes of the corners with the map's buttons and the scale, and of the legend if there is room for it, px. */
-const CONTROLS = { width: 62, height: 244 };
+const CONTROLS = { width: 62, height: 288 };
 const SCALE = { width: 170, height: 42 };
-const LEGEND = { width: 600, height: 54, from: 690 };
+const LEGEND = { width: 820, height: 54, from: 850 };
 
 export class DeviceDrawing {
   constructor(fields) {

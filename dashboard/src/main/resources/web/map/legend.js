@@ -18,10 +18,12 @@ export function legend() {
     draw() {
       const palette = readPalette();
       replace(items, [
-        [symbol('robot', palette['kind-robot']), t('kinds.robot')],
+        [[symbol('robot', palette['kind-robot']), symbol('robot', palette['kind-robot-2'])], t('kinds.robot')],
         [symbol('sensor', palette['kind-sensor']), t('kinds.sensor')],
         [symbol('camera', palette['kind-camera']), t('kinds.camera')],
         [symbol('attention', palette.warning), t('states.attention')],
+        [symbol('sensor', palette.muted, 0.55), t('states.stale')],
+        [symbol('sensor', palette.muted, 1, true), t('map.stopped')],
         [h('span.legend-line', { 'aria-hidden': 'true' }), t('map.encounter')],
       ].map(([image, words]) => h('li', null, image, words)));
     },
@@ -36,12 +38,14 @@ export function legend() {
   };
 }
 
-function symbol(shape, color) {
+function symbol(shape, color, alpha = 1, hollow = false) {
   const canvas = h('canvas', { width: 40, height: 40, 'aria-hidden': 'true' });
   const context = canvas.getContext('2d');
   context.translate(20, 20);
   trace(context, shape, shape === 'robot' || shape === 'attention' ? 1.3 : 1.5);
-  context.fillStyle = color;
-  context.fill();
+  context.globalAlpha = alpha;
+  context.fillStyle = context.strokeStyle = color;
+  context.lineWidth = 4;
+  hollow ? context.stroke() : context.fill();
   return canvas;
 }

@@ -6,6 +6,7 @@ import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { DeviceDrawing } from './devices.js';
 import { FarmChips } from './farm-chips.js';
+import { FieldEditor } from './editor.js';
 import { extentOf } from './farms.js';
 import { FieldDrawing, isFound } from './fields.js';
 import { legend } from './legend.js';
@@ -34,12 +35,13 @@ class FurrowMap extends Pointing(HTMLElement) {
     this.legend = legend();
     this.tiles = tiles();
     this.table = mapTables(() => this.toggleTable());
+    this.editor = new FieldEditor(this);
     this.target = h('div.map-target', { tabindex: '0', role: 'application', 'aria-label': t('map.label') });
     this.tooltip = h('div.map-tooltip', { hidden: true, role: 'status' });
     this.empty = h('div.empty.map-empty', { hidden: true }, h('h2', null, t('map.emptyTitle')), h('p', null, t('map.emptyText')), h('code', null, './furrow demo'));
     this.list = h('div.map-list', { popover: 'auto' });
     this.farms = new FarmChips((field) => this.fields.extent([field]), () => { this.moved = false; this.fit(); this.kept.farm.write(); });
-    replace(this, h('h1.visually-hidden', null, t('views.map')), this.target, this.farms.element, this.controls(), this.legend.element, this.tiles.attribution, this.tooltip, this.list, this.empty, this.table.element);
+    replace(this, h('h1.visually-hidden', null, t('views.map')), this.target, this.farms.element, this.controls(), this.legend.element, this.tiles.attribution, this.tooltip, this.list, this.empty, this.editor.element, this.table.element);
     this.createMap();
     this.legend.draw();
     this.subscriptions = [...this.listen(), ...this.keepInAddress()];
@@ -48,6 +50,7 @@ class FurrowMap extends Pointing(HTMLElement) {
   disconnectedCallback() {
     this.subscriptions.forEach((unsubscribe) => unsubscribe());
     this.table.close();
+    this.editor.isOpen && this.editor.close();
     this.map.setTarget(null);
     this.map = null;
   }
@@ -79,12 +82,14 @@ class FurrowMap extends Pointing(HTMLElement) {
     this.map.on('change:size', () => this.fitFirst());
     this.map.on('pointerdrag', () => (this.moved = true));
     this.map.on('pointermove', (event) => event.dragging || this.hover(event));
-    this.map.on('click', (event) => this.click(event));
+    this.map.on('click', (event) => (this.editor.isOpen ? this.editor : this).click(event));
     this.target.addEventListener('pointerleave', () => this.leave());
     this.target.addEventListener('wheel', () => (this.moved = true), { passive: true });
     this.target.addEventListener('keydown', (event) => event.key.startsWith('Arrow') && (this.moved = true));
-    this.addEventListener('keydown', ({ key }) => {
-      if (key === 'Escape') {
+    this.addEventListener('keydown', (event) => {
+      if (this.editor.isOpen && this.table.element.hidden && !event.target.closest('dialog, input, select') && this.editor.key(event)) {
+        event.preventDefault();
+      } else if (event.key === 'Escape') {
         this.tooltip.hidden = true;
         this.table.element.hidden || this.toggleTable();
       }
@@ -109,6 +114,7 @@ class FurrowMap extends Pointing(HTMLElement) {
     };
     window.addEventListener('schemechange', schemeChanged);
     fieldsChanged();
+    this.allowEditor();
     return [
       ...['encounters', 'hovered', 'filter'].map((name) => store.on(name, draw)),
       store.on('scope', () => { this.scopeChanged(); fieldsChanged(); }),
@@ -121,7 +127,8 @@ class FurrowMap extends Pointing(HTMLElement) {
       }),
       store.on('clock', () => { draw(); this.farms.update(); this.table.changed(); }),
       store.on('fields', fieldsChanged),
-      store.on('mode', () => { this.classList.toggle('is-replay', store.isReplay); draw(); }),
+      store.on('mode', () => { this.classList.toggle('is-replay', store.isReplay); this.allowEditor(); draw(); }),
+      store.on('me', () => this.allowEditor()),
       store.on('selection', () => { store.reveal && this.reveal(); draw(); }),
       () => window.removeEventListener('schemechange', schemeChanged),
     ];
@@ -181,10 +188,11 @@ class FurrowMap extends Pointing(HTMLElement) {
     if (extent && size) {
       const [width, height] = size;
       const narrow = width < 600;
-      // the controls are on the right, the scale and the legend below
-      const padding = narrow ? [20, 60, 44, 16] : [36, 72, 84, 36];
+      // the controls are on the right, the scale and the legend below, or the tools of the editor
+      const below = this.editor.isOpen ? 118 : narrow ? 44 : 84;
+      const padding = narrow ? [20, 60, below, 16] : [36, 72, below, 36];
       // the view learns its size after the event 'change:size'
-      this.view.fit(extent, { size, padding: height < 240 ? [16, 16, 16, 16] : padding, maxZoom: 20, duration: reducedMotion.matches ? 0 : duration });
+      this.view.fit(extent, { size, padding: height < 240 ? [16, 16, this.editor.isOpen ? 92 : 16, 16] : padding, maxZoom: 20, duration: reducedMotion.matches ? 0 : duration });
       this.legend.scale(this.view);
     }
     this.kept?.place.write();
@@ -234,13 +242,14 @@ class FurrowMap extends Pointing(HTMLElement) {
       h('button.button.square', { type: 'button', 'aria-label': words, title: words, on: { click }, ...attributes }, icon(symbol, 18));
     const menu = h('div.map-menu', { id: 'map-layers', popover: 'auto' }, OPTIONS.map((name) => h('label.check', null,
       h('input', { type: 'checkbox', checked: true, on: { change: (event) => this.setOption(name, event.target.checked) } }), t(`map.options.${name}`))));
+    this.editButton = button('pencil', t('draw.open'), () => this.toggleEditor(), { 'aria-expanded': 'false' });
     this.tableButton = button('table', t('map.table'), () => this.toggleTable(), { 'aria-expanded': 'false' });
     return h('div.map-controls', { role: 'group', 'aria-label': t('map.controls') },
       button('plus', t('map.zoomIn'), () => this.zoom(1)),
       button('minus', t('map.zoomOut'), () => this.zoom(-1)),
       button('locate', t('map.fit'), () => { this.moved = false; this.fit(); }),
       button('layers', t('map.layers'), () => {}, { popovertarget: 'map-layers' }),
-      this.tableButton, menu);
+      this.tableButton, this.editButton, menu);
   }
 
   setOption(name, on) {
@@ -253,6 +262,31 @@ class FurrowMap extends Pointing(HTMLElement) {
     this.tableButton.setAttribute('aria-expanded', String(open));
     open ? this.table.element.querySelector('button')?.focus() : this.tableButton.focus();
     this.kept?.table.write();
+  }
+
+  /** Fields are drawn by operators, and not while a replay shows those of earlier. */
+  allowEditor() {
+    this.editButton.hidden = !store.may('operate') || store.isReplay;
+    this.editButton.hidden && this.editor.isOpen && this.editor.close();
+  }
+
+  toggleEditor() {
+    this.table.element.hidden || this.toggleTable();
+    this.editor.toggle();
+    this.classList.toggle('is-editing', this.editor.isOpen);
+    this.moved || this.fit();
+    this.editButton.setAttribute('aria-expanded', String(this.editor.isOpen));
+  }
+
+  editorClosed() {
+    this.classList.remove('is-editing');
+    this.editButton.setAttribute('aria-expanded', 'false');
+    this.editButton.focus();
+  }
+
+  /** The user works on what the map shows: it is not fitted any more. */
+  worked() {
+    this.moved = true;
   }
 
   showEmpty() {

@@ -13,6 +13,9 @@ const reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
 /** @template T @param {T} Base @returns {T} with handlers of the pointer */
 export const Pointing = (Base) => class extends Base {
   hover(event) {
+    if (this.editor.isOpen) {
+      return;
+    }
     const found = this.devices.at(...event.pixel);
     this.target.style.cursor = found ? 'pointer' : '';
     store.setHovered(found?.entity?.id ?? null);

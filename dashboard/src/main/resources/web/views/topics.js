@@ -1,7 +1,7 @@
 /** Lists topics with the number and rate of their records, and shows records of chosen topics. */
 import { absence } from '../core/absence.js';
 import { resource } from '../core/resource.js';
-import { number } from '../core/format.js';
+import { decimal, number } from '../core/format.js';
 import { h, replace, setText } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { navigate, parameter } from '../core/router.js';
@@ -71,7 +71,7 @@ class FurrowTopics extends HTMLElement {
     for (const [name, row] of this.rows) {
       const figures = this.figures.get(name);
       setText(row.count, figures ? number(figures.written) : '–');
-      setText(row.rate, figures ? t('topics.rate', { rate: figures.rate < 10 ? figures.rate.toFixed(1) : Math.round(figures.rate) }) : '');
+      setText(row.rate, figures ? t('topics.rate', { rate: figures.rate < 10 ? decimal(figures.rate, 1) : Math.round(figures.rate) }) : '');
       row.element.classList.toggle('flowing', figures?.rate > 0.05);
     }
   }

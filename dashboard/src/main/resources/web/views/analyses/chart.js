@@ -2,6 +2,7 @@
 import uPlot from '/lib/uplot/uPlot.esm.js';
 import { h, replace, setText } from '../../core/dom.js';
 import { clock, temperature } from '../../core/format.js';
+import { locale } from '../../core/language.js';
 import { quantityOf } from '../../core/readings.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
@@ -81,7 +82,7 @@ export class AveragesChart {
       scales: { x: { time: true }, y: { range: (plot, low, high) => withMargin(low, high) } },
       axes: [
         { ...axis, space: 72, size: 26, values: (plot, times) => times.map((time) => clock(time * 1000).slice(0, times.length > 1 && times[1] - times[0] < 60 ? 8 : 5)) },
-        { ...axis, size: 56, values: (plot, values) => values.map((value) => `${Number(value.toFixed(2))} ${t('units.celsius')}`) },
+        { ...axis, size: 56, values: (plot, values) => values.map((value) => `${value.toLocaleString(locale, { maximumFractionDigits: 2 })} ${t('units.celsius')}`) },
       ],
       series: [{}, ...this.lines.map((line, index) => ({
         label: this.nameOf(line), stroke: this.colors[index], width: 2, dash: LINES[index % LINES.length][1], show: !this.hidden.has(line), points: { show: false },

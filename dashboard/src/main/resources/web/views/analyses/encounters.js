@@ -5,7 +5,9 @@ import { icon } from '../../core/icons.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 
-const MAX_ROWS = 200;
+/** Rows that are shown at first: each is a stop of the keyboard on the way to what follows. */
+const FIRST_ROWS = 25;
+const MORE_ROWS = 100;
 const COLUMNS = {
   when: (each) => each.start, pair: (each) => each.pair, closest: (each) => each.closest, duration: (each) => each.end - each.start, phase: (each) => each.phase,
 };
@@ -22,7 +24,8 @@ export class EncounterTable {
     this.body = h('tbody', { role: 'rowgroup' });
     this.heads = Object.keys(COLUMNS).map((name) => h('th', { class: name === 'closest' || name === 'duration' ? 'numbers' : '', role: 'columnheader', scope: 'col' },
       h('button.sort-by', { type: 'button', title: t('analyses.sort', { column: t(`analyses.${name}`) }), on: { click: () => this.sort(name) } }, t(`analyses.${name}`), icon('chevron-down', 14))));
-    this.more = h('p.small.muted');
+    this.limit = FIRST_ROWS;
+    this.more = h('button.button.quiet', { type: 'button', on: { click: () => this.showMore() } });
     this.element = h('div.stack', null, h('div.table-frame.encounter-frame', { tabindex: '0', role: 'group', 'aria-label': t('analyses.encounters') },
       h('table.table', { role: 'table' }, h('thead', { role: 'rowgroup' }, h('tr', { role: 'row' }, this.heads, h('th', { role: 'columnheader', scope: 'col' }, h('span.visually-hidden', null, t('analyses.toMoment'))))), this.body)), this.more);
   }
@@ -31,6 +34,14 @@ export class EncounterTable {
     this.down = this.column === column ? !this.down : column === 'when' || column === 'duration';
     this.column = column;
     this.show(this.encounters);
+  }
+
+  /** Shows more rows; the focus goes to the first of them. */
+  showMore() {
+    const first = this.limit;
+    this.limit += MORE_ROWS;
+    this.show(this.encounters);
+    this.body.children[first]?.querySelector('button:not([hidden], :disabled)')?.focus();
   }
 
   show(encounters) {
@@ -45,9 +56,9 @@ export class EncounterTable {
       const name = Object.keys(COLUMNS)[index];
       name === this.column ? head.setAttribute('aria-sort', this.down ? 'descending' : 'ascending') : head.removeAttribute('aria-sort');
     });
-    const shown = sorted.slice(0, MAX_ROWS);
-    this.more.hidden = sorted.length <= MAX_ROWS;
-    setText(this.more, sorted.length > MAX_ROWS ? t('analyses.more', { shown: MAX_ROWS, count: sorted.length }) : '');
+    const shown = sorted.slice(0, this.limit);
+    this.more.hidden = sorted.length <= this.limit;
+    setText(this.more, t('analyses.more', { shown: this.limit, count: sorted.length }));
     const ids = new Set(shown.map((each) => each.id));
     for (const [id, row] of this.rows) {
       if (!ids.has(id)) {

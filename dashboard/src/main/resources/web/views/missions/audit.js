@@ -1,6 +1,6 @@
 /** Shows the audit: which user sent which command when. */
 import { api } from '../../core/api.js';
-import { dateTime, moment, plain, readable, shortId } from '../../core/format.js';
+import { dateTime, duration, moment, plain, readable, shortId, word } from '../../core/format.js';
 import { h } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
 import { linkTo, navigate } from '../../core/router.js';
@@ -123,9 +123,9 @@ function row(entry) {
   return h('tr', null,
     h('td.numbers.when', null, moment(entry.time)),
     h('td.who', null, entry.user),
-    h('td.command', null, t(`missions.targets.${TARGETS[entry.target] ?? 'other'}`), ' ', h('strong', null, entry.command ?? '–')),
+    h('td.command', null, t(`missions.targets.${TARGETS[entry.target] ?? 'other'}`), ' ', h('strong', null, word(entry.command ?? '–'))),
     h('td.about', null, aboutOf(entry.about)),
-    h('td', { class: rejected ? 'bad' : '' }, rejected ? t('missions.refusedBecause', { reason: readable(entry.reason ?? entry.error) }) : plain(entry.result)));
+    h('td', { class: rejected ? 'bad' : '' }, rejected ? t('missions.refusedBecause', { reason: readable(entry.reason ?? entry.error) }) : word(plain(entry.result))));
 }
 
 function aboutOf(about = {}) {
@@ -138,7 +138,9 @@ function aboutOf(about = {}) {
   ].filter(Boolean).flatMap((each, index) => (index ? [' · ', each] : [each]));
 }
 
-/** Formats times of replays as event times. */
+/** Formats times of replays as event times, and lengths of missions. */
 function textOf(name, value) {
-  return ['from', 'to', 'start', 'until'].includes(name) && Number.isFinite(value) && value > 1e11 ? dateTime(value) : plain(value);
+  const [, days, hours, minutes, seconds] = (name === 'duration' && /^P(?:(\d+)D)?(?:T(?:(\d+)H)?(?:(\d+)M)?(?:([\d.]+)S)?)?$/.exec(value)) || [];
+  const length = (((Number(days ?? 0) * 24 + Number(hours ?? 0)) * 60 + Number(minutes ?? 0)) * 60 + Number(seconds ?? 0)) * 1000;
+  return length > 0 ? duration(length) : ['from', 'to', 'start', 'until'].includes(name) && Number.isFinite(value) && value > 1e11 ? dateTime(value) : plain(value);
 }

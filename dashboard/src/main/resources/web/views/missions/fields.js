@@ -3,7 +3,7 @@ import { api } from '../../core/api.js';
 import { dateTime } from '../../core/format.js';
 import { h } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
-import { ofLocal } from '../../core/local-time.js';
+import { askEnd, pathOf } from '../../core/field-changes.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 import { formRow, openDialog } from '../../core/dialog.js';
@@ -20,9 +20,9 @@ function row(field) {
   return h('tr', null,
     h('th', { scope: 'row' }, field.name, field.name !== field.id && h('span.small.muted', null, ` ${field.id}`)),
     domainOf(field.properties.Domain),
-    h('td', null, t(field.exclusion ? 'missions.zone' : 'missions.field')),
+    h('td', null, [t(field.exclusion ? 'missions.zone' : 'missions.field'), typeof field.properties.crop === 'string' && field.properties.crop].filter(Boolean).join(' · ')),
     h('td.numbers', null, field.validFrom > 0 ? dateTime(field.validFrom) : t('missions.always')),
-    store.may('operate') && h('td.acts', null, act(field, 'rename', 'pencil', rename), act(field, 'end', 'stop', end), store.may('administer') && act(field, 'delete', 'trash', remove)));
+    store.may('operate') && h('td.acts', null, act(field, 'rename', 'pencil', rename), act(field, 'end', 'stop', askEnd), store.may('administer') && act(field, 'delete', 'trash', remove)));
 }
 
 /** Marks a domain that does not exist, since it was deleted or is misspelled in the file. */
@@ -40,26 +40,14 @@ function rename(field, title) {
   const name = h('input', { required: true, maxlength: 200, autocomplete: 'off', value: field.name });
   openDialog({
     title, submit: t('missions.rename'), body: [formRow(t('missions.name'), name, t('missions.renameHint'))],
-    work: () => api.patch(path(field), { name: name.value }),
+    work: () => api.patch(pathOf(field), { name: name.value }),
   });
   name.select();
-}
-
-function end(field, title) {
-  const time = h('input', { type: 'datetime-local', step: 1 });
-  openDialog({
-    title: `${title}?`, submit: t('missions.end'), danger: true, body: [h('p', null, t('missions.endText')), formRow(t('missions.endAt'), time, t('missions.endHint'))],
-    work: () => api.patch(path(field), { validTo: new Date(time.value ? ofLocal(time.value, true) : Date.now()).toISOString() }),
-  });
 }
 
 function remove(field, title) {
   openDialog({
     title: `${title}?`, submit: t('missions.delete'), danger: true, body: [h('p', null, t('missions.deleteFieldText'))],
-    work: () => api.del(path(field)),
+    work: () => api.del(pathOf(field)),
   });
-}
-
-function path(field) {
-  return `/api/fields/${encodeURIComponent(field.id)}`;
 }

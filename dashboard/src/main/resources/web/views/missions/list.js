@@ -16,6 +16,7 @@ export function statePill(state) {
 export function drawList(place, chosen, choose) {
   const all = [...store.missions.values()];
   const missions = all.filter((each) => each.mission === chosen || store.hasInScope(each.mission, each.domain)).sort((a, b) => (a.domain === 'canary') - (b.domain === 'canary') || (ORDER[a.status?.state] ?? 2) - (ORDER[b.status?.state] ?? 2) || (a.mission < b.mission ? -1 : 1));
+  keepPlace(missions, place, chosen);
   const rest = others(all.length - missions.length);
   redraw(place, rest && h('li', null, rest), missions.map((mission) => {
     const status = mission.status;
@@ -30,4 +31,14 @@ export function drawList(place, chosen, choose) {
       status?.since && h('span.small.muted.numbers', null, t('missions.since', { age: duration(Date.now() - status.since) }))));
   }));
   return missions.length;
+}
+
+/** The chosen mission stays at its place when it is started or stopped, as it would leave the view. */
+function keepPlace(missions, place, chosen) {
+  const rows = [...place.querySelectorAll('.mission-row')];
+  const before = rows.findIndex((row) => row.dataset.act === `mission ${chosen}`);
+  const now = missions.findIndex((each) => each.mission === chosen);
+  if (before >= 0 && now >= 0) {
+    missions.splice(Math.min(before, missions.length - 1), 0, ...missions.splice(now, 1));
+  }
 }

@@ -2,7 +2,7 @@
 import { h, replace, setText } from '../../core/dom.js';
 import { duration, zone } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
-import { TimeInput } from '../../core/local-time.js';
+import { TimeInput, timeElement } from '../../core/local-time.js';
 import { navigate } from '../../core/router.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
@@ -75,7 +75,7 @@ export class Plan {
   }
 
   timeInput(id, last) {
-    return new TimeInput(h('input', { type: 'datetime-local', step: '1', id, on: { input: () => { this.rangeShown(); this.ready(); } } }), last);
+    return new TimeInput(timeElement({ id, on: { input: () => { this.rangeShown(); this.ready(); } } }), last);
   }
 
   /** Whether the range is valid. A recording with a single event has no length, and can be replayed. */

@@ -28,6 +28,7 @@ final class StubFarm implements AutoCloseable {
     private final Chromium chromium;
     private final Server server = new Server();
     private final URI uri;
+    private String locale = "en-GB";
     private final Map<String, List<String>> initial = new HashMap<>();
     private final Map<String, String> answers = new ConcurrentHashMap<>();
     private final Map<String, WebSocketRoute> sockets = new ConcurrentHashMap<>();
@@ -106,6 +107,12 @@ final class StubFarm implements AutoCloseable {
         return this;
     }
 
+    /** Sets the language of the browser. */
+    StubFarm isReadIn(String newLocale) {
+        locale = newLocale;
+        return this;
+    }
+
     FarmPage open(String hash, int width, int height) {
         FarmPage page = new FarmPage(
                 uri,
@@ -113,7 +120,7 @@ final class StubFarm implements AutoCloseable {
                         .newContext(new Browser.NewContextOptions()
                                 .setViewportSize(width, height)
                                 .setReducedMotion(ReducedMotion.REDUCE)
-                                .setLocale("en-GB")
+                                .setLocale(locale)
                                 .setTimezoneId("Europe/Madrid")));
         pages.add(page);
         page.page()

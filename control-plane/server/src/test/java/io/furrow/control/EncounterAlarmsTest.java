@@ -134,6 +134,7 @@ class EncounterAlarmsTest {
         farm.encounter("ongoing", 3.2);
         farm.pass(Duration.ofMinutes(50));
         assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("open");
+        assertThat(farm.newest(Topics.ALARMS).at("/values/meters").asDouble()).isEqualTo(3.2);
         farm.pass(Duration.ofMinutes(11));
         JsonNode closed = farm.newest(Topics.ALARMS);
         assertThat(closed.path("state").asText()).isEqualTo("closed");

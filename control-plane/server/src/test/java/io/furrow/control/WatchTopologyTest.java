@@ -128,6 +128,7 @@ class WatchTopologyTest {
         assertThat(alarm.path("kind").asText()).isEqualTo("clock-behind");
         assertThat(alarm.path("text").asText())
                 .isEqualTo("reports of t arrive 2 h too late and are dropped: check its clock and its link");
+        assertThat(alarm.at("/values/late").asDouble()).isEqualTo(7200);
     }
 
     @Test

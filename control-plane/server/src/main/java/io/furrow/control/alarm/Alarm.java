@@ -1,7 +1,9 @@
 package io.furrow.control.alarm;
 
 import java.util.List;
+import java.util.Map;
 
+import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonUnwrapped;
 
 import io.furrow.model.control.AlarmKind;
@@ -43,9 +45,17 @@ public record Alarm(
      * The text of an alarm and the devices that it concerns.
      *
      * @param text human-readable sentence
+     * @param values numbers in the sentence, by name
      * @param devices devices concerned, at most {@value Cause#MAX_DEVICES}
      */
-    public record Description(String text, List<Cause.AffectedDevice> devices) {}
+    public record Description(
+            String text,
+            @JsonInclude(JsonInclude.Include.NON_EMPTY) Map<String, Double> values,
+            List<Cause.AffectedDevice> devices) {
+        private static Description of(Cause cause) {
+            return new Description(cause.text(), cause.values(), cause.devices());
+        }
+    }
 
     /**
      * The period of an alarm.
@@ -104,7 +114,7 @@ public record Alarm(
                 new Head(id, cause.kind(), cause.subject(), Severity.of(cause.kind())),
                 AlarmState.OPEN,
                 Change.OPENED,
-                new Description(cause.text(), cause.devices()),
+                Description.of(cause),
                 new Period(now, now, 1, cause.until(now)),
                 new Handling(mutedUntil, null, null),
                 sequence,
@@ -238,13 +248,13 @@ public record Alarm(
 
     /** Copies text, devices and extent from the cause. */
     Alarm updated(Cause cause, long now) {
-        return described(new Description(cause.text(), cause.devices()), Extent.of(cause))
+        return described(Description.of(cause), Extent.of(cause))
                 .updated(now);
     }
 
     /** Copies only the text from the cause; this is not a change, so it is not delivered. */
     Alarm reworded(Cause cause) {
-        return described(new Description(cause.text(), description.devices), extent);
+        return described(new Description(cause.text(), cause.values(), description.devices), extent);
     }
 
     private Alarm described(Description newDescription, Extent newExtent) {

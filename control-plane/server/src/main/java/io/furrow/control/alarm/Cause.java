@@ -2,6 +2,7 @@ package io.furrow.control.alarm;
 
 import java.time.Duration;
 import java.util.List;
+import java.util.Map;
 
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.event.FiwareScope;
@@ -13,6 +14,7 @@ import io.furrow.model.event.FiwareScope;
  * @param identity unambiguous form of the subject: tenant, service path, types and subject, or the subject itself if
  *     that is unambiguous. There is at most one open alarm per kind and identity
  * @param text human-readable sentence
+ * @param values numbers in the sentence, by name, from which a client can write it in another language
  * @param devices devices concerned, at most {@value #MAX_DEVICES}
  * @param validity period until the alarm expires unless the cause is repeated; null if it lasts until ended explicitly
  * @param group entity of the mission, domain or field, which limits the number of individual alarms; null if none
@@ -23,6 +25,7 @@ public record Cause(
         String subject,
         String identity,
         String text,
+        Map<String, Double> values,
         List<AffectedDevice> devices,
         Duration validity,
         String group,
@@ -61,21 +64,27 @@ public record Cause(
 
     /** Creates an individual cause without a group. */
     public Cause(AlarmKind kind, String subject, String text, List<AffectedDevice> devices, Duration validity) {
-        this(kind, subject, subject, text, devices, validity, null, null);
+        this(kind, subject, subject, text, Map.of(), devices, validity, null, null);
+    }
+
+    /** @param value left out if it is not finite */
+    public Cause withValue(String name, double value) {
+        Map<String, Double> newValues = Double.isFinite(value) ? Map.of(name, value) : Map.of();
+        return new Cause(kind, subject, identity, text, newValues, devices, validity, group, extent);
     }
 
     public Cause inGroup(String newGroup) {
-        return new Cause(kind, subject, identity, text, devices, validity, newGroup, extent);
+        return new Cause(kind, subject, identity, text, values, devices, validity, newGroup, extent);
     }
 
     /** @param newIdentity of {@link FiwareScope#identity(String, String)}, of the types and the subject */
     public Cause identifiedBy(String newIdentity) {
-        return new Cause(kind, subject, newIdentity, text, devices, validity, group, extent);
+        return new Cause(kind, subject, newIdentity, text, values, devices, validity, group, extent);
     }
 
     /** Creates a group cause that lasts until it is ended explicitly. */
     public static Cause ofMany(AlarmKind kind, String group, String text, List<AffectedDevice> devices, Extent extent) {
-        return new Cause(kind, group, group, text, devices, null, group, extent);
+        return new Cause(kind, group, group, text, Map.of(), devices, null, group, extent);
     }
 
     static String key(AlarmKind kind, String identity) {

@@ -41,17 +41,19 @@ record ClockAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> 
         String device = entity.text(ClockResult.DEVICE)
                 .orElseThrow(
                         () -> new UnreadableException(Reason.NOT_AN_EVENT, "the report has no attribute 'device'"));
+        double late = entity.number(ClockResult.LATE).orElse(0.0) / 1000;
         String text = String.format(
                 Locale.ROOT,
                 "%s of %s arrive %s too late and are dropped: check its clock and its link",
                 entity.number(ClockResult.REPORTS).isPresent() ? ClockResult.REPORTS : "positions",
                 device,
-                delay(entity.number(ClockResult.LATE).orElse(0.0) / 1000));
+                delay(late));
         String type = entity.text(ClockResult.DEVICE_TYPE).orElse("");
         String existing = type.isEmpty() ? types.apply(scope.identity(device)) : type;
         List<Cause.AffectedDevice> devices = List.of(Cause.AffectedDevice.of(device, existing, scope));
         Cause cause = new Cause(AlarmKind.CLOCK_BEHIND, device, text, devices, validity(entity))
-                .identifiedBy(scope.identity(type, device));
+                .identifiedBy(scope.identity(type, device))
+                .withValue("late", late);
         alarms.raise(cause.inGroup(AlarmGroup.of(entity.text("Mission").orElse(""), "")), now);
     }
 

@@ -2,6 +2,7 @@ package io.furrow.control.alarm.watch;
 
 import java.time.Duration;
 import java.util.List;
+import java.util.Locale;
 import java.util.function.Function;
 
 import org.apache.kafka.streams.processor.api.Record;
@@ -61,17 +62,22 @@ public record EncounterAlarmProcessor(
     }
 
     private Cause cause(AlarmKind kind, EncounterReport encounter, Duration validity) {
-        String text = kind == AlarmKind.COLLISION ? "%s and %s are %s apart" : "%s and %s will come within %s";
+        String text = kind == AlarmKind.COLLISION ? "%s and %s are %.1f m apart" : "%s and %s will come within %.1f m";
         List<Cause.AffectedDevice> devices = encounter.members().stream()
                 .map(member -> Cause.AffectedDevice.of(member.id(), member.type(types), member.scope()))
                 .toList();
         return new Cause(
                         kind,
                         encounter.pair(),
-                        text.formatted(
-                                encounter.first().id(), encounter.second().id(), encounter.meters()),
+                        String.format(
+                                Locale.ROOT,
+                                text,
+                                encounter.first().id(),
+                                encounter.second().id(),
+                                encounter.meters()),
                         devices,
                         validity)
+                .withValue("meters", encounter.meters())
                 .identifiedBy(encounter.identity())
                 .inGroup(AlarmGroup.of(encounter.mission(), ""));
     }

@@ -1,7 +1,6 @@
 package io.furrow.control.alarm.watch;
 
 import java.util.List;
-import java.util.Locale;
 import java.util.Optional;
 import java.util.function.Function;
 
@@ -77,8 +76,8 @@ public record EncounterReport(
         return first.mission().isEmpty() ? second.mission() : first.mission();
     }
 
-    String meters() {
-        return String.format(Locale.ROOT, "%.1f m", Double.isNaN(minDistance) ? distance : minDistance);
+    double meters() {
+        return Double.isNaN(minDistance) ? distance : minDistance;
     }
 
     private static Member member(Entity entity, CollisionResult.Member names, FiwareScope usual)

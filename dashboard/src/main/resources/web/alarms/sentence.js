@@ -1,0 +1,42 @@
+/** The sentence of an alarm in the language of the page. */
+import { distance, duration, readable, shortId } from '../core/format.js';
+import { store } from '../core/store.js';
+import { fill, texts } from '../texts.js';
+
+const GROUPS = [['mission', 'urn:ngsi-ld:Mission:'], ['domain', 'urn:ngsi-ld:Domain:'], ['field', 'Analytics:FieldTemperature:']];
+const MAX_NAMED = 4;
+
+/** Returns the server's sentence with readable names, or one made of the alarm's values if the language has it. */
+export function sentenceOf(alarm) {
+  const sentence = own(alarm) ?? readable(alarm.text).replace(/\bfield ([\w-]+)/g, (words, id) => store.fields.get(id)?.name ?? words);
+  return sentence.replace(/(\d) (m|s|min|h|°C|%)(?![\w])/g, '$1\u00a0$2');
+}
+
+/** Whether the sentence is the server's, in English. */
+export function isOfServer(alarm) {
+  return own(alarm) === null;
+}
+
+function own({ kind, affected, total, group, devices = [], values = {} }) {
+  const key = affected === undefined ? kind : `${kind}-many`;
+  if (!texts.sentences || !Object.hasOwn(texts.sentences, key)) {
+    return null;
+  }
+  const sentence = texts.sentences[key];
+  const names = devices.map(({ id }) => shortId(id));
+  const known = {
+    affected, total, first: names[0], second: names[1],
+    devices: `${names.slice(0, MAX_NAMED).join(', ')}${affected > MAX_NAMED ? ', …' : ''}`,
+    group: group && groupOf(group),
+    meters: values.meters === undefined ? undefined : distance(values.meters),
+    late: values.late === undefined ? undefined : duration(values.late * 1000),
+  };
+  const isKnown = [...sentence.matchAll(/\{(\w+)/g)].every(([, name]) => known[name] !== undefined);
+  return isKnown ? fill(sentence, known) : null;
+}
+
+function groupOf(id) {
+  const [kind, prefix] = GROUPS.find((each) => id.startsWith(each[1])) ?? ['none', ''];
+  const name = id.slice(prefix.length);
+  return fill(texts.groups[kind], { name: kind === 'field' ? store.fields.get(name)?.name ?? name : name });
+}

@@ -1,0 +1,90 @@
+package io.furrow.suite.page;
+
+import java.util.List;
+
+import com.deque.html.axecore.playwright.AxeBuilder;
+import org.junit.jupiter.api.AutoClose;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
+import org.junit.jupiter.api.Test;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** The page in another language than English. */
+@Tag("full")
+class LanguageIT {
+    @AutoClose
+    private static Chromium chromium;
+
+    @AutoClose
+    private StubFarm farm;
+
+    @BeforeAll
+    static void launch() {
+        chromium = Chromium.start();
+    }
+
+    @BeforeEach
+    void start() throws Exception {
+        farm = new StubFarm(chromium).hasRobot(1).hasAlarms(1).hasField("barn", "farm", 1, 2);
+    }
+
+    @Test
+    void hasEachTextWithTheSameValues() {
+        FarmPage page = farm.open("", 1440, 900);
+
+        assertThat((List<?>) page.run("""
+                async () => {
+                  const flat = (section, path = '') => Object.entries(section).flatMap(([name, text]) =>
+                    typeof text === 'object' ? flat(text, `${path}${name}.`) : `${path}${name} ${[...text.matchAll(/\\{(\\w+)/g)].map((hole) => hole[1]).sort()}`);
+                  const english = flat((await import('/texts.js')).texts);
+                  const spanish = flat({ ...(await import('/texts.es.js')).texts, words: {}, sentences: {}, groups: {} });
+                  const without = (ours, theirs) => ours.filter((each) => !theirs.includes(each));
+                  return [...without(english, spanish), ...without(spanish, english)];
+                }""")).isEmpty();
+    }
+
+    @Test
+    void isThatOfTheBrowserUntilAnotherIsChosen() {
+        FarmPage page = farm.isReadIn("es-MX").open("", 1440, 900);
+        assertThat(page.find("html")).hasAttribute("lang", "es");
+        assertThat(page.find(".rail")).containsText("Misiones");
+        assertThat(page.card("urn:ngsi-ld:Robot:1")).containsText("1,50");
+
+        page.button("Ajustes").click();
+        page.button("English").click();
+        assertThat(page.find("html")).hasAttribute("lang", "en");
+        assertThat(page.find(".rail")).containsText("Missions");
+        assertThat(page.card("urn:ngsi-ld:Robot:1")).containsText("1.50");
+    }
+
+    @Test
+    void makesTheSentencesOfAlarms() {
+        FarmPage page = farm.isReadIn("es")
+                .has("service.alarms", "c", """
+                        {"alarm": "c", "kind": "collision", "severity": "critical", "text": "…", "values": {"meters": 2.14}, "subject": "c", "raised": 1, "count": 1, "state": "open",
+                         "devices": [{"id": "urn:ngsi-ld:Robot:1", "type": "ROBOT"}, {"id": "urn:ngsi-ld:Robot:2", "type": "ROBOT"}]}""")
+                .has("service.alarms", "f", """
+                        {"alarm": "f", "kind": "fault", "severity": "major", "text": "the task 0 failed", "subject": "f", "raised": 1, "count": 1, "state": "open"}""")
+                .open("", 1440, 900);
+
+        assertThat(page.find(".alarm.critical .alarm-text")).hasText("Robot 1 y Robot 2 están a 2,1\u00a0m");
+        assertThat(page.find(".alarm.major .alarm-text")).hasText("the task 0 failed");
+        assertThat(page.find(".alarm.major .alarm-text")).hasAttribute("lang", "en");
+    }
+
+    @Test
+    void isAccessibleInEachView() {
+        FarmPage page = farm.isReadIn("es").open("", 1440, 900);
+        for (String view : List.of("missions", "replays", "analyses", "topics", "platform")) {
+            page.open("#/" + view);
+            assertThat(page.find("furrow-" + view + " h1")).isVisible();
+            assertThat(new AxeBuilder(page.page()).analyze().getViolations())
+                    .as(view)
+                    .extracting(rule -> rule.getId())
+                    .isEmpty();
+        }
+    }
+}
