@@ -56,11 +56,12 @@ class App extends HTMLElement {
     this.map = this.load('furrow-map');
     this.middle = h('main.middle', { id: 'content', tabindex: '-1' }, this.map, this.viewPlace);
     this.side = h('aside.side', { id: 'panel', tabindex: '-1', 'aria-label': t('app.panel') }, this.load('furrow-alarms'), this.load('furrow-cards'));
-    this.timelinePlace = h('section.timeline-place', { 'aria-label': t('app.timeline') }, this.load('furrow-timeline'));
+    this.timelinePlace = h('section.timeline-place', { id: 'timeline', 'aria-label': t('app.timeline') }, this.load('furrow-timeline'));
 
     replace(this,
       h('a.skip.button', { href: '#content', on: { click: (event) => { event.preventDefault(); this.middle.focus(); } } }, t('app.skip')),
       h('a.skip.button.skip-panel', { href: '#panel', on: { click: (event) => { event.preventDefault(); this.side.focus(); } } }, t('app.skipPanel')),
+      h('a.skip.button.skip-panel', { href: '#timeline', on: { click: (event) => { event.preventDefault(); this.timelinePlace.querySelector('[role=slider]')?.focus(); } } }, t('app.skipTimeline')),
       h('header.topbar', null,
         h('a.brand', { href: linkTo('map'), 'aria-label': t('app.title') }, icon('furrow', 22), h('span', null, t('app.title'))),
         this.crumbs, this.mode, this.leave, h('span.spacer'),

@@ -4,7 +4,7 @@ import { language } from './core/language.js';
 const english = {
   app: {
     title: 'Furrow',
-    skip: 'Skip to content', skipPanel: 'Skip to alarms and devices',
+    skip: 'Skip to content', skipPanel: 'Skip to alarms and devices', skipTimeline: 'Skip to timeline',
     find: 'Find a device, field or alarm', findShort: 'Find …',
     live: 'Live', notConnected: 'Not connected',
     replayOf: 'Replay of {mission} · {day}',
@@ -70,6 +70,7 @@ const english = {
     label: 'Map of the farm. Arrow keys move it, plus and minus zoom; the table has the same in rows.',
     controls: 'Map', zoomIn: 'Zoom in', zoomOut: 'Zoom out', fit: 'Show the whole farm', farms: 'Farms', layers: 'What is shown', table: 'The map as a table', closeTable: 'Close the table',
     tables: { devices: 'Devices', encounters: 'Encounters', fields: 'Fields' },
+    base: { title: 'Base map', none: 'none', server: 'of the server', address: 'of {host}', file: 'Choose a PMTiles file …', hint: 'Pictures of tiles; the file is stored in this browser and works offline.', remove: 'Remove {file} from this browser', noPictures: '{file} has no pictures as tiles', failed: 'The base map cannot be shown: {reason}' },
     options: { trails: 'Trails', labels: 'Names', rows: 'Rows of fields' },
     legend: 'Legend', stopped: 'off or stopped', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}', closest: 'closest {distance}',
     devices: '{count device|devices}', unverified: 'unverified', suspects: '{count} suspect', noAlarms: 'no alarms',
@@ -87,8 +88,7 @@ const english = {
   draw: {
     title: 'Draw fields', open: 'Draw and change fields', field: 'New field', zone: 'New zone', type: 'Type corners', changeField: 'Change a field …', done: 'Done', save: 'Save', finish: 'Finish', removeLast: 'Remove last corner',
     attributes: 'Attributes and corners', attributesOf: 'Attributes of {field}', newField: 'New field', newZone: 'New zone without alarms', chooseHint: 'Click a field to change it, or draw a new one.', drawHint: 'Click each corner; click the first one again to finish. Backspace removes the last corner.', shapeHint: 'Drag corners, drag a side to add one, drag the inside to move the whole. Alt and a click removes a corner.',
-    crop: 'Crop', rowDirection: 'Direction of rows', rowDirectionHint: 'Degrees clockwise from north. Empty: no rows are drawn.', alongSide: 'Along the longest side', noDomain: 'none', zoneHint: 'Devices in a zone raise no encounters. The job that finds encounters reads zones when it starts.', corners: 'Corners', cornersLabel: 'Latitude and longitude of each corner', cornersHint: 'One corner per line, in degrees. An empty line is between the border and a hole.',
-    noCorner: 'Line {line} is no corner. Write latitude and longitude in degrees, for example 40.3123456, -3.4823456.', rings: 'The outline has {count ring|rings}. Separate them by empty lines, and no corners of one ring.',
+    crop: 'Crop', rowDirection: 'Direction of rows', rowDirectionHint: 'Degrees clockwise from north. Empty: no rows are drawn.', alongSide: 'Along the longest side', noDomain: 'none', zoneHint: 'Devices in a zone raise no encounters. The job that finds encounters reads zones when it starts.', corners: 'Corners', cornersLabel: 'Latitude and longitude of each corner', cornersHint: 'One corner per line, in degrees. An empty line is between the border and a hole.', noCorner: 'Line {line} is no corner. Write latitude and longitude in degrees, for example 40.3123456, -3.4823456.', rings: 'The outline has {count ring|rings}. Separate them by empty lines, and no corners of one ring.',
     faults: {
       crosses: 'The border crosses itself at {place}. Move a corner so that it does not.', corners: 'A field needs at least three corners. Add some.',
       outside: 'A corner is outside of the map: latitudes are between −85.05 and 85.05, longitudes between −180 and 180.', many: 'The outline has more than 5000 corners. Import it from a file.',
@@ -175,7 +175,7 @@ const english = {
     targets: { mission: 'mission', domain: 'domain', replay: 'replay', alarm: 'alarm', device: 'device', field: 'fields', marker: 'marker', other: 'other' }, refusedBecause: 'refused: {reason}',
     domains: 'Domains', newDomain: 'New domain', noDomains: 'No domains yet', noDomainsHint: 'A domain is a farm, or a part of one; missions and fields belong to it.', domainId: 'Name in topics', domainName: 'Name for people', description: 'Description',
     countMissions: '{count mission|missions}', countFields: '{count field|fields}', deleteDomain: 'Delete domain {domain}', deleteDomainEmpty: 'It has no missions and no fields.', deleteDomainText: 'Deletes {missions} with all devices, and ends {fields}. Recordings and results are kept.', deleteDomainForce: 'Stop what runs: {missions}',
-    fields: 'Fields', noFields: 'No fields yet', noFieldsHint: 'Import the borders of fields as GeoJSON, or drop a file here; averages and presence are computed for each.', fieldColumns: { field: 'Field', domain: 'Domain', kind: 'Kind', from: 'Since' },
+    fields: 'Fields', noFields: 'No fields yet', noFieldsHint: 'Draw fields on the map, import their borders as GeoJSON, or drop a file here; averages and presence are computed for each.', fieldColumns: { field: 'Field', domain: 'Domain', kind: 'Kind', from: 'Since' },
     fieldActs: { rename: 'Rename {field}', end: 'End {field}', delete: 'Delete {field}' }, rename: 'Rename', renameHint: 'The id stays. The next import names it as its file does.', end: 'End', endAt: 'When', endHint: 'Empty: now',
     endText: 'From then on it has no averages and stays. Earlier results are kept, and a replay of an earlier time uses the field as it was.',
     deleteFieldText: 'All its versions are deleted; this cannot be undone. Stored results are kept. To keep its history, end it instead.',

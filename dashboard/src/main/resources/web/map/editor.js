@@ -148,11 +148,20 @@ export class FieldEditor {
     found && found !== this.field && this.change(found);
   }
 
+  /** Goes back a step, unless an outline would be lost: that takes the button. */
+  escape() {
+    if (this.step === 'choose') {
+      this.close();
+    } else if (this.step === 'draw' || !this.changed) {
+      this.choose();
+    }
+  }
+
   /** @returns {boolean} whether the key did something */
   key(event) {
     const isUndo = event.key.toLowerCase() === 'z' && (event.ctrlKey || event.metaKey);
     if (event.key === 'Escape') {
-      this.step === 'choose' ? this.close() : this.choose();
+      this.escape();
     } else if (this.step === 'draw' && (isUndo || event.key === 'Backspace')) {
       this.shape.removeLast();
     } else if (this.step === 'choose' && isUndo && lastChange()) {

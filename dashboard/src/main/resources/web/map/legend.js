@@ -10,14 +10,16 @@ const MAX_BAR_WIDTH = 90;
 
 export function legend() {
   const items = h('ul.legend-items');
+  const menu = h('ul.legend-items.legend-menu', { 'aria-label': t('map.legend') }); // where there is no room on the map
   const bar = h('span.scale-bar', { 'aria-hidden': 'true' });
   const length = h('span.numbers');
   const element = h('div.map-legend', { role: 'group', 'aria-label': t('map.legend') }, items, h('span.scale', null, length, bar));
   return {
     element,
+    menu,
     draw() {
       const palette = readPalette();
-      replace(items, [
+      [items, menu].forEach((place) => replace(place, [
         [[symbol('robot', palette['kind-robot']), symbol('robot', palette['kind-robot-2'])], t('kinds.robot')],
         [symbol('sensor', palette['kind-sensor']), t('kinds.sensor')],
         [symbol('camera', palette['kind-camera']), t('kinds.camera')],
@@ -25,7 +27,7 @@ export function legend() {
         [symbol('sensor', palette.muted, 0.55), t('states.stale')],
         [symbol('sensor', palette.muted, 1, true), t('map.stopped')],
         [h('span.legend-line', { 'aria-hidden': 'true' }), t('map.encounter')],
-      ].map(([image, words]) => h('li', null, image, words)));
+      ].map(([image, words]) => h('li', null, image, words))));
     },
     scale(view) {
       const center = ol.proj.toLonLat(view.getCenter());

@@ -15,7 +15,7 @@ import { Pointing } from './pointing.js';
 import { canvasLayer, isOnMap, project } from './projection.js';
 import { clearSymbols } from './symbols.js';
 import { mapTables } from './table.js';
-import { tiles } from './tiles.js';
+import { BaseMap } from './tiles.js';
 
 const OPTIONS = ['trails', 'labels', 'rows'];
 /** Meters per pixel beyond which a device is too small to be seen, and the margin in which it is hardly seen, px. */
@@ -33,7 +33,7 @@ class FurrowMap extends Pointing(HTMLElement) {
     this.fields = new FieldDrawing();
     this.devices = new DeviceDrawing(this.fields);
     this.legend = legend();
-    this.tiles = tiles();
+    this.tiles = new BaseMap((bounds) => this.showPlace(bounds));
     this.table = mapTables(() => this.toggleTable());
     this.editor = new FieldEditor(this);
     this.target = h('div.map-target', { tabindex: '0', role: 'application', 'aria-label': t('map.label') });
@@ -76,7 +76,7 @@ class FurrowMap extends Pointing(HTMLElement) {
       devices: canvasLayer((frame) => this.devices.draw(frame, this.palette, this.options), 3),
     };
     this.map = new ol.Map({
-      target: this.target, view: this.view, controls: [], layers: [...this.tiles.layers, ...Object.values(this.layers)], moveTolerance: 3,
+      target: this.target, view: this.view, controls: [], layers: [this.tiles.layer, ...Object.values(this.layers)], moveTolerance: 3,
     });
     this.map.on('moveend', () => { this.legend.scale(this.view); this.kept?.place.write(); });
     this.map.on('change:size', () => this.fitFirst());
@@ -241,7 +241,7 @@ class FurrowMap extends Pointing(HTMLElement) {
     const button = (symbol, words, click, attributes = {}) =>
       h('button.button.square', { type: 'button', 'aria-label': words, title: words, on: { click }, ...attributes }, icon(symbol, 18));
     const menu = h('div.map-menu', { id: 'map-layers', popover: 'auto' }, OPTIONS.map((name) => h('label.check', null,
-      h('input', { type: 'checkbox', checked: true, on: { change: (event) => this.setOption(name, event.target.checked) } }), t(`map.options.${name}`))));
+      h('input', { type: 'checkbox', checked: true, on: { change: (event) => this.setOption(name, event.target.checked) } }), t(`map.options.${name}`))), this.tiles.element, this.legend.menu);
     this.editButton = button('pencil', t('draw.open'), () => this.toggleEditor(), { 'aria-expanded': 'false' });
     this.tableButton = button('table', t('map.table'), () => this.toggleTable(), { 'aria-expanded': 'false' });
     return h('div.map-controls', { role: 'group', 'aria-label': t('map.controls') },
@@ -282,11 +282,6 @@ class FurrowMap extends Pointing(HTMLElement) {
     this.classList.remove('is-editing');
     this.editButton.setAttribute('aria-expanded', 'false');
     this.editButton.focus();
-  }
-
-  /** The user works on what the map shows: it is not fitted any more. */
-  worked() {
-    this.moved = true;
   }
 
   showEmpty() {

@@ -1,4 +1,4 @@
-/** Reads tiles of a PMTiles file of version 3 with range requests: https://github.com/protomaps/PMTiles/blob/main/spec/v3/spec.md */
+/** Reads tiles of a PMTiles file of version 3, of a server with range requests or of this computer: https://github.com/protomaps/PMTiles/blob/main/spec/v3/spec.md */
 
 const HEADER_BYTES = 127;
 /** The header and the root directory are within these. */
@@ -11,8 +11,10 @@ const TYPES = { 2: 'image/png', 3: 'image/jpeg', 4: 'image/webp', 5: 'image/avif
 /** @typedef {{tile: number, offset: number, length: number, run: number}} Entry of a directory; without a run it refers to a leaf directory */
 
 export class PmtilesFile {
-  constructor(url) {
-    this.url = url;
+  /** @param {string|File} source URL, or a file */
+  constructor(source) {
+    this.source = source;
+    this.url = source.name ?? source;
     this.leaves = new Map();
   }
 
@@ -72,6 +74,9 @@ export class PmtilesFile {
 
   /** @returns {Promise<ArrayBuffer>} */
   async range(offset, length, compression, signal) {
+    if (this.source instanceof Blob) {
+      return decompressed(await this.source.slice(offset, offset + length).arrayBuffer(), compression);
+    }
     const response = await fetch(this.url, { signal, headers: { Range: `bytes=${offset}-${offset + length - 1}` } });
     if (response.status !== 206) {
       throw new Error(`${this.url} answers ${response.status} to a range request`);

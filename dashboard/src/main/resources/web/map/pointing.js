@@ -4,6 +4,7 @@ import { h, replace } from '../core/dom.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { CELL } from './clusters.js';
+import { project } from './projection.js';
 
 /** Maximum zoom when opening a cluster. */
 const MAX_CLUSTER_ZOOM = 22;
@@ -48,6 +49,17 @@ export const Pointing = (Base) => class extends Base {
   open(extent) {
     this.moved = true;
     this.view.fit(ol.extent.buffer(extent, 5), { padding: [80, 80, 80, 80], maxZoom: MAX_CLUSTER_ZOOM, duration: reducedMotion.matches ? 0 : 300 });
+  }
+
+  /** Moves to a place, unless a part of it is in view. @param {number[]} bounds west, south, east, north */
+  showPlace([west, south, east, north]) {
+    const extent = [...project(west, south), ...project(east, north)];
+    ol.extent.intersects(extent, this.view.calculateExtent(this.map.getSize())) || this.open(extent);
+  }
+
+  /** The user works on what the map shows: it is not fitted any more. */
+  worked() {
+    this.moved = true;
   }
 
   /** Lists devices that cannot be distinguished at any zoom. */

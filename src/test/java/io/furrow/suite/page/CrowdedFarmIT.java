@@ -153,7 +153,7 @@ class CrowdedFarmIT {
                 "furrow-alarms .button:text('Acknowledge') >> nth=-1",
                 "furrow-cards .button.primary >> nth=-1",
                 ".stop-all",
-                ".map-controls .button >> nth=-1")) {
+                ".map-controls > .button >> nth=-1")) {
             page.find(selector).click(new Locator.ClickOptions().setTrial(true));
             assertThat(page.find(selector)).isInViewport();
         }

@@ -69,7 +69,7 @@ class MapTilesIT {
     }
 
     /** The share of the map with this color, before the style sheet mutes it. */
-    private static double share(FarmPage farm, int rgb) {
+    static double share(FarmPage farm, int rgb) {
         Object share = farm.run("""
                         (rgb) => {
                           const canvas = document.querySelector('furrow-map .map-tiles canvas');

@@ -34,6 +34,7 @@ final class StubFarm implements AutoCloseable {
     private final Map<String, WebSocketRoute> sockets = new ConcurrentHashMap<>();
     private final List<String> sent = new CopyOnWriteArrayList<>();
     private final List<FarmPage> pages = new ArrayList<>();
+    private String config = "";
 
     StubFarm(Chromium chromium) throws Exception {
         this.chromium = chromium;
@@ -52,6 +53,12 @@ final class StubFarm implements AutoCloseable {
 
     StubFarm has(String topic, String key, String value, long time) {
         initial.computeIfAbsent(topic, each -> new ArrayList<>()).add(record("prime", topic, key, value, time));
+        return this;
+    }
+
+    /** Adds members to the settings of the page, such as {@code "tiles": "/tiles/{z}/{x}/{y}"}. */
+    StubFarm configures(String members) {
+        config = ", " + members;
         return this;
     }
 
@@ -126,7 +133,8 @@ final class StubFarm implements AutoCloseable {
         page.page()
                 .route(
                         "**/config.json",
-                        route -> json(route, "{\"analytics\": [\"collision\", \"temperature\", \"presence\"]}"));
+                        route -> json(
+                                route, "{\"analytics\": [\"collision\", \"temperature\", \"presence\"]" + config + "}"));
         page.page().route("**/api/**", this::answer);
         page.page().routeWebSocket("**/socket/*", socket -> {
             String topic = socket.url().substring(socket.url().lastIndexOf('/') + 1);

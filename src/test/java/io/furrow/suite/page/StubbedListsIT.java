@@ -119,6 +119,15 @@ class StubbedListsIT {
     }
 
     @Test
+    void reachesTheTimelineWithoutPassingAllCards() {
+        FarmPage page = farm.open("", 1440, 900);
+        assertThat(page.find(".tl-track")).isVisible();
+        page.page().getByText("Skip to timeline").press("Enter");
+
+        assertThat(page.find(".tl-track")).isFocused();
+    }
+
+    @Test
     void readsTheLengthOfACommandedMission() {
         farm.answers("/api/audit", """
                 [{"time": 1, "user": "olga", "target": "service.missionmanager", "command": "start", "about": {"mission": "weeding", "duration": "PT1H30M"}, "result": "started"}]""");

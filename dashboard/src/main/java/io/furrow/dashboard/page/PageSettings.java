@@ -8,7 +8,7 @@ import java.util.List;
  *
  * @param folder with the files of the page, for development; null for those of this build
  * @param tiles URL of map tiles below the fields, with {@code {z}}, {@code {x}} and {@code {y}}; null for none
- * @param tileFile PMTiles file of map tiles instead; null for none
+ * @param tileFile PMTiles file of map tiles, between which and those of the URL users choose; null for none
  * @param images folders whose stored images are served
  * @param signIn URL at which a proxy signs users in; null if each user has a token. In it and in {@code signOut},
  *     <code>{page}</code> stands for the address to return to

@@ -114,8 +114,8 @@ public final class DashboardCommand implements Callable<Integer> {
             names = "--tiles",
             paramLabel = "URL|FILE",
             description =
-                    "Map tiles to draw below the fields: a URL with {z}, {x} and {y}, for instance https://tiles.example.org/{z}/{x}/{y}.png, or a PMTiles file with pictures, which needs no internet. Default: none.")
-    private String tiles;
+                    "Map tiles to draw below the fields: a URL with {z}, {x} and {y}, for instance https://tiles.example.org/{z}/{x}/{y}.png, or a PMTiles file with pictures, which needs no internet. Given twice, one of each: users choose on the map. Default: none.")
+    private List<String> tiles = List.of();
 
     @Option(
             names = "--web",
@@ -182,13 +182,26 @@ public final class DashboardCommand implements Callable<Integer> {
     }
 
     private PageSettings page() {
-        boolean file = tiles != null && !tiles.matches("https?://.*");
-        if (tiles != null && !file && !tiles.contains("{z}")) {
+        String url = tiles(true);
+        String file = tiles(false);
+        if (url != null && !url.contains("{z}")) {
             throw new ParameterException(
-                    spec.commandLine(), "--tiles %s names no tile: a URL has {z}, {x} and {y}.".formatted(tiles));
+                    spec.commandLine(), "--tiles %s names no tile: a URL has {z}, {x} and {y}.".formatted(url));
         }
-        return new PageSettings(
-                web, file ? null : tiles, file ? Path.of(tiles) : null, images == null ? List.of() : images);
+        return new PageSettings(web, url, file == null ? null : Path.of(file), images == null ? List.of() : images);
+    }
+
+    /** Returns the URL of {@code --tiles}, or its file; null if there is none. */
+    private String tiles(boolean url) {
+        List<String> found = tiles.stream()
+                .filter(each -> url == each.matches("https?://.*"))
+                .toList();
+        if (found.size() > 1) {
+            throw new ParameterException(
+                    spec.commandLine(),
+                    "--tiles %s: give one %s only.".formatted(String.join(", ", found), url ? "URL" : "file"));
+        }
+        return found.isEmpty() ? null : found.get(0);
     }
 
     private boolean isLoopback() {

@@ -20,15 +20,16 @@ class DashboardCommandTest {
             --control-plane=127.0.0.1:8085  | --control-plane
             --allowed-hosts=http://x        | --allowed-hosts
             --tiles=https://a.example/b.png | --tiles https://a.example/b.png names no tile: a URL has {z}, {x} and {y}
+            --tiles=a.pmtiles --tiles=b.pmtiles | --tiles a.pmtiles, b.pmtiles: give one file only
             --sign-in-url=javascript:alert()  | --sign-in-url javascript:alert() is neither a path
             --sign-out-url=//a.example/out    | --sign-out-url //a.example/out is neither a path
             """)
-    void rejectsWhatItCannotUseBeforeItListens(String option, String message) {
+    void rejectsWhatItCannotUseBeforeItListens(String options, String message) {
         StringWriter output = new StringWriter();
         CommandLine line = Furrow.commandLine();
         line.setErr(new PrintWriter(output));
 
-        assertThat(line.execute("dashboard", option)).isEqualTo(2);
+        assertThat(line.execute(("dashboard " + options).split(" (?=--)"))).isEqualTo(2);
         assertThat(output.toString()).contains(message).doesNotContain("Exception");
     }
 }
