@@ -75,6 +75,24 @@ class ListWatchTest {
         assertThat(control.output()).isEqualToIgnoringNewLines("none");
     }
 
+    @Test
+    void printsValuesByJsonPath() {
+        control.answer("GET /api/v1/list", "[{'name':'a','at':'2026-11-27T05:00:00Z'},{'name':'b','at':null}]");
+
+        assertThat(run("-o", "jsonpath={.items[*].name}")).isZero();
+        assertThat(run("-o", "jsonpath={range .items[*]}{.name} {.at}{\"\\n\"}{end}"))
+                .isZero();
+        assertThat(control.output().lines()).containsExactly("a b", "a 2026-11-27T05:00:00Z", "b null");
+
+        control.answer("GET /api/missions/typo", 404, "{'error':'unknown','reason':'there is none'}");
+        control.run("mission", "show", "typo", "-o", "jsonpath={.status.state}");
+        assertThat(control.output()).isEqualToIgnoringNewLines("there is none (unknown)");
+        assertThat(control.run("mission", "list", "-o", "jsonpath={.items[}")).isEqualTo(2);
+        assertThat(control.output()).contains("'--output': '.items[' is no JSONPath: cannot be read at character 7");
+        assertThat(control.run("mission", "list", "-o", "jsn")).isEqualTo(2);
+        assertThat(control.output()).contains("expected one of [table, wide, json, yaml, name, jsonpath=, csv, env]");
+    }
+
     /** Otherwise a misspelled name looks like a mission without devices. */
     @ParameterizedTest
     @CsvSource({

@@ -229,7 +229,7 @@ public final class ControlOptions {
 
     private String reason(ControlPlaneException rejection) {
         try {
-            return output.isForPrograms() && rejection.problem() != null
+            return output.isWhole() && rejection.problem() != null
                     ? output.text(rejection.problem())
                     : rejection.sentence(spec);
         } catch (IOException e) { // it was read from JSON
