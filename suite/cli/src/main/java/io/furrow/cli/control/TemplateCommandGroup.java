@@ -49,7 +49,7 @@ public final class TemplateCommandGroup extends CommandGroup {
                 control.print(json);
                 return;
             }
-            Files.writeString(file, ControlOptions.pretty(json) + System.lineSeparator());
+            Files.writeString(file, json.toPrettyString() + System.lineSeparator());
             control.out()
                     .println("exported: template %s@%s to %s"
                             .formatted(
