@@ -28,8 +28,6 @@ public final class Contexts implements IDefaultValueProvider {
     private static final Map<String, List<String>> OPTIONS = Collections.unmodifiableMap(new TreeMap<>(Map.of(
             "api", List.of("FURROW_API"),
             "api-ca", List.of("FURROW_API_CA"),
-            "kafka", List.of("FURROW_KAFKA"),
-            "kafka-properties", List.of(),
             "mongo", List.of("FURROW_MONGO"),
             "output", List.of(),
             "token-file", List.of("FURROW_TOKEN", "FURROW_TOKEN_FILE"))));
@@ -37,7 +35,7 @@ public final class Contexts implements IDefaultValueProvider {
     /** The API of a context that names none. */
     public static final String DEFAULT_API = "http://127.0.0.1:8085";
 
-    private static final List<String> FILES = List.of("api-ca", "kafka-properties", "token-file");
+    private static final List<String> FILES = List.of("api-ca", "token-file");
     private static final String SUFFIX = ".properties";
     private static final String CURRENT = "current";
     private static final String VARIABLE = "FURROW_CONTEXT";

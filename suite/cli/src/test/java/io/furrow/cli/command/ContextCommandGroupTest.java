@@ -80,12 +80,12 @@ class ContextCommandGroupTest {
     @Test
     void prefersVariables() throws IOException {
         Contexts contexts = contexts(Map.of("FURROW_API", "x", "FURROW_TOKEN", "x"));
-        write("farm", "api=http://127.0.0.1:1\nkafka=kafka:9092\ntoken-file=nosuch\n");
+        write("farm", "api=http://127.0.0.1:1\nmongo=mongodb://a\ntoken-file=nosuch\n");
         contexts.use("farm");
 
         CommandLine list = furrow(contexts).getSubcommands().get("catalog");
-        assertThat(contexts.defaultValue(list.getCommandSpec().findOption("--kafka")))
-                .isEqualTo("kafka:9092");
+        assertThat(contexts.defaultValue(list.getCommandSpec().findOption("--mongo")))
+                .isEqualTo("mongodb://a");
         CommandLine audit = furrow(contexts).getSubcommands().get("audit");
         assertThat(contexts.defaultValue(audit.getCommandSpec().findOption("--api")))
                 .isNull();
