@@ -78,7 +78,7 @@ public final class CompareCommand implements Callable<Integer> {
     private String mission;
 
     @Option(
-            names = "--limit",
+            names = {"-n", "--limit"},
             paramLabel = "N",
             description = "Most differences of each kind in the table. Default: ${DEFAULT-VALUE}.")
     private int limit = 40;

@@ -25,11 +25,11 @@ class ListWatchTest {
         private ControlOptions options;
 
         @Mixin
-        private final ListWatch watch = new ListWatch(1);
+        private final ListOptions list = new ListOptions(1);
 
         @Override
         public Integer call() {
-            return watch.show(
+            return list.show(
                     options,
                     "/api/list",
                     new ControlTable("none")
@@ -73,6 +73,21 @@ class ListWatchTest {
         control.output();
         assertThat(run()).isZero();
         assertThat(control.output()).isEqualToIgnoringNewLines("none");
+    }
+
+    @Test
+    void readsAListByPagesUpToItsLimit() {
+        control.answerPage("GET /api/list", "[{'name':'a'},{'name':'b'}]", "?limit=1000&page=2")
+                .answer("GET /api/list?limit=1000&page=2", "[{'name':'c'}]")
+                .answerPage("GET /api/list?limit=2", "[{'name':'a'},{'name':'b'}]", "?limit=2&page=2");
+
+        assertThat(run("-o", "name")).isZero();
+        assertThat(control.output().lines()).containsExactly("a", "b", "c");
+        assertThat(run("-n", "2", "-o", "name")).isZero();
+        assertThat(control.output().lines())
+                .containsExactly("a", "b", "There are more than 2; --limit shows more of them.");
+        assertThat(run("--limit", "0")).isEqualTo(2);
+        assertThat(control.output()).contains("--limit is 1 to 20000, not 0");
     }
 
     @Test

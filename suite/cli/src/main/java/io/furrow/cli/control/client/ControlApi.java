@@ -23,6 +23,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.MissingNode;
 
+import io.furrow.cli.control.table.ControlTable;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -149,7 +150,7 @@ public final class ControlApi {
         boolean ended = false;
         for (int page = 0; next != null && !ended && elements.size() < limit && page < MAX_PAGES; page++) {
             Answer answer = answer("GET", next, null, JSON);
-            for (JsonNode element : read(answer)) {
+            for (JsonNode element : ControlTable.rows(read(answer))) {
                 elements.add(element);
                 ended |= isLast.test(element);
             }
