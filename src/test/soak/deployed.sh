@@ -166,7 +166,7 @@ export FURROW_API=http://127.0.0.1:$control FURROW_TOKEN_FILE=$run/secrets/api-t
 furrow() { FURROW_OPTS="-Xms64m -Xmx256m" "$archive/bin/furrow" "$@"; }
 demo=$home/simulators/devices/src/main/resources/io/furrow/simulators/demo
 python3 -c 'import json,sys; print(json.dumps(json.load(open(sys.argv[1]))["templates"][0]["devices"]))' "$demo/missions.json" >"$run/devices.json"
-furrow fields import "$demo/fields.geojson" --kafka "127.0.0.1:$kafka" --domain farm --valid-from 2020-01-01T00:00:00Z >"$logs/fields.log" 2>&1 || fail "Cannot import the fields: $logs/fields.log"
+furrow fields import "$demo/fields.geojson" --domain farm --valid-from 2020-01-01T00:00:00Z >"$logs/fields.log" 2>&1 || fail "Cannot import the fields: $logs/fields.log"
 furrow domain create farm >"$logs/mission.log"
 furrow mission start mine --domain farm --devices "$run/devices.json" >>"$logs/mission.log"
 timeout 180 "$archive/bin/furrow" mission watch mine --until running >>"$logs/mission.log" || fail "The mission does not run: $logs/mission.log"

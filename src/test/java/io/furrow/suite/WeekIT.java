@@ -145,8 +145,6 @@ class WeekIT {
         ProcessBuilder shell = new ProcessBuilder("bash", "-c", begin + commands);
         Suite suite = running.suite();
         shell.environment().put("FURROW_API", suite.control().toString());
-        shell.environment().put("FURROW_KAFKA", suite.kafka().bootstrapServers());
-        shell.environment().put("FURROW_MONGO", suite.mongo());
         TestProcess.Ended ended = TestProcess.run(shell.directory(directory.toFile()));
         assertThat(ended.status()).as(title + "\n" + ended.output()).isZero();
         return ended.output();

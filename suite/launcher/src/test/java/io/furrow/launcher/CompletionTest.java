@@ -52,7 +52,8 @@ class CompletionTest {
         "'furrow mission sho', show",
         "'furrow ben', bench",
         "'furrow mission list --out', --output",
-        "'furrow mission list --output j', json",
+        "'furrow mission list --output j', 'json jsonpath='",
+        "'furrow mission list --output y', yaml",
         "'furrow alarm show x', ''"
     })
     void completesNames(String line, String replies) throws Exception {

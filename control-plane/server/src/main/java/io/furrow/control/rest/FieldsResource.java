@@ -3,11 +3,8 @@ package io.furrow.control.rest;
 import java.io.IOException;
 import java.io.InputStream;
 import java.nio.charset.StandardCharsets;
-import java.nio.file.Files;
-import java.nio.file.Path;
 import java.time.Instant;
 import java.util.List;
-import java.util.Locale;
 import java.util.Properties;
 import java.util.concurrent.Semaphore;
 
@@ -26,35 +23,26 @@ import jakarta.ws.rs.QueryParam;
 import jakarta.ws.rs.container.ContainerRequestContext;
 import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
-import jakarta.ws.rs.core.MultivaluedMap;
 import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.access.RequestContext;
+import io.furrow.control.rest.description.ParameterValues;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.kafka.field.FieldChange;
 import io.furrow.kafka.field.FieldEdit;
 import io.furrow.kafka.field.FieldsTopic;
 import io.furrow.model.control.CommandResult;
-import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.JsonObjectReader;
 import io.furrow.model.control.RejectedException;
 import io.furrow.model.control.Role;
 import io.furrow.model.field.FieldFile;
 import io.furrow.model.field.FieldReader;
 import io.furrow.model.field.FieldVersion;
-import io.furrow.model.field.ImportOptions;
-import io.furrow.model.field.ImportedField;
-import io.furrow.model.field.InvalidFileException;
-import io.furrow.model.field.RejectedFeature;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.topic.TopicName;
 import io.furrow.model.topic.Topics;
 
-/**
- * {@code /api/fields}: lists the current fields, imports fields of a file like {@code ./furrow fields import}, valid
- * from now, and renames, ends or deletes a field.
- */
+/** {@code /api/fields}: lists fields, imports those of a file, and renames, ends or deletes a field. */
 @jakarta.ws.rs.Path("/api/fields")
 @Consumes({"application/geo+json", MediaType.APPLICATION_JSON, "application/geopackage+sqlite3"})
 @Produces(MediaType.APPLICATION_JSON)
@@ -62,6 +50,7 @@ public final class FieldsResource {
     static final int MAX_BYTES = 16 << 20;
 
     private static final String FIELD = "field";
+    private static final String IMPORT = "import-fields";
     private static final String NAME = "name";
     private static final String END = "validTo";
     private static final int MAX_READERS = 4;
@@ -81,22 +70,30 @@ public final class FieldsResource {
     }
 
     /**
-     * Lists the current fields as a FeatureCollection with {@code validFrom} among the properties.
+     * Lists fields as a FeatureCollection with {@code validFrom} among the properties.
      *
      * @param domain selects fields that belong to it; null for all
+     * @param ats at most one, ISO 8601 or epoch ms: the time as of which they are listed; now by default
+     * @param versions lists all versions of all times instead, those that end a field without a geometry
      */
     @GET
-    public Response list(@QueryParam("domain") String domain) {
+    public Response list(
+            @QueryParam("domain") String domain,
+            @QueryParam("at") List<String> ats,
+            @QueryParam("versions") boolean versions) {
+        long at = ParameterValues.time("at", ats, System.currentTimeMillis());
         if (!readers.tryAcquire()) {
             throw ProblemException.overloaded();
         }
         ObjectNode collection = NgsiJson.object().put("type", "FeatureCollection");
         ArrayNode features = collection.putArray("features");
         try {
-            FieldChange.asOf(System.currentTimeMillis(), topic.read()).values().stream()
-                    .filter(field -> domain == null || domain.equals(field.domain()))
-                    .forEach(field ->
-                            features.addRawValue(new RawValue(new String(field.toBytes(), StandardCharsets.UTF_8))));
+            List<FieldVersion> all = topic.read();
+            (versions ? all : FieldChange.asOf(at, all).values())
+                    .stream()
+                            .filter(field -> domain == null || domain.equals(field.domain()))
+                            .forEach(field -> features.addRawValue(
+                                    new RawValue(new String(field.toBytes(), StandardCharsets.UTF_8))));
         } catch (IOException e) {
             throw unavailable(e);
         } finally {
@@ -107,37 +104,32 @@ public final class FieldsResource {
 
     /**
      * Imports the fields of a file. Features that cannot be repaired are rejected one by one; unchanged fields are not
-     * written again.
-     *
-     * @param domain of all fields; null to use that of each feature. Further parameters are the options of
-     *     {@code ./furrow fields import}: {@code crs}, {@code layer}, {@code id-property}, {@code name-property}
+     * written again. The query parameters are those of a {@link FieldImport}.
      */
     @POST
-    public Response add(@Context ContainerRequestContext request, @QueryParam("domain") String domain, InputStream body)
-            throws IOException {
-        ProblemException.rejectIf(
-                domain != null && !TopicName.isLegal(domain),
-                ErrorCode.WRONG_MEMBER,
-                "'domain' must be 1 to 64 of A-Z a-z 0-9 _ -");
+    public Response add(@Context ContainerRequestContext request, InputStream body) throws IOException {
+        FieldImport desired = FieldImport.of(request.getUriInfo().getQueryParameters());
         if (!changePermit.tryAcquire()) {
             throw ProblemException.overloaded();
         }
         RequestContext caller = RequestContext.of(request);
-        ObjectNode about = NgsiJson.object().put("fields", 0);
-        if (domain != null) {
-            about.put("domain", domain);
-        }
+        ObjectNode about = desired.about();
         try {
-            FieldFile file = read(
-                    JsonBodyReader.bytes(body, MAX_BYTES),
-                    domain,
-                    request.getUriInfo().getQueryParameters());
-            ObjectNode answer = answer(file, write(file));
+            FieldFile file = desired.read(JsonBodyReader.bytes(body, MAX_BYTES), reader);
+            List<FieldChange> changes = desired.changes(file, topic.read());
+            if (!desired.dryRun()) {
+                topic.write(FieldChange.toWrite(changes));
+            }
+            ObjectNode answer = desired.answer(file, changes);
             about.set("fields", answer.path("imported"));
-            audit(caller, "import-fields", about, "imported", null);
+            audit(caller, IMPORT, about, desired.dryRun() ? "dry-run" : "imported", null);
             return JsonResponses.ok(answer);
         } catch (ProblemException problem) {
-            audit(caller, "import-fields", about, null, problem);
+            audit(caller, IMPORT, about, null, problem);
+            throw problem;
+        } catch (IOException e) {
+            ProblemException problem = unavailable(e);
+            audit(caller, IMPORT, about, null, problem);
             throw problem;
         } finally {
             changePermit.release();
@@ -221,75 +213,6 @@ public final class FieldsResource {
     /** Reports what is unavailable and what to do. */
     private static ProblemException unavailable(IOException cause) {
         return new ProblemException(503, "kafka-away", cause.getMessage());
-    }
-
-    private FieldFile read(byte[] bytes, String domain, MultivaluedMap<String, String> options) throws IOException {
-        Path folder = Files.createTempDirectory("furrow-fields");
-        Path file = folder.resolve("fields");
-        try {
-            Files.write(file, bytes);
-            return reader.read(
-                    file,
-                    new ImportOptions(
-                            options.getFirst("layer"),
-                            options.getFirst("crs"),
-                            options.getFirst("id-property"),
-                            options.getFirst("name-property"),
-                            domain,
-                            Instant.now()));
-        } catch (InvalidFileException e) {
-            throw new ProblemException(
-                    400, "unusable-file", withParameters(e.getMessage().replace(file.toString(), "the file")));
-        } finally {
-            Files.deleteIfExists(file);
-            Files.deleteIfExists(folder);
-        }
-    }
-
-    /** Replaces option names in a reason of the import by parameter names. */
-    private static String withParameters(String reason) {
-        return reason.replaceAll("--([a-z-]+)", "'$1'");
-    }
-
-    private List<FieldChange> write(FieldFile file) {
-        try {
-            List<FieldVersion> versions =
-                    file.fields().stream().map(ImportedField::version).toList();
-            List<FieldChange> changes =
-                    FieldChange.of(versions, topic.read(), FieldChange.NONE, System.currentTimeMillis());
-            topic.write(changes.stream()
-                    .filter(each -> each.kind() != FieldChange.Kind.UNCHANGED)
-                    .map(FieldChange::version)
-                    .toList());
-            return changes;
-        } catch (IOException e) {
-            throw unavailable(e);
-        }
-    }
-
-    private static ObjectNode answer(FieldFile file, List<FieldChange> changes) {
-        ObjectNode answer = CommandResult.of("imported").json();
-        int unchanged = (int) changes.stream()
-                .filter(each -> each.kind() == FieldChange.Kind.UNCHANGED)
-                .count();
-        answer.put("imported", changes.size() - unchanged).put("unchanged", unchanged);
-        ArrayNode fields = answer.putArray("fields");
-        for (int field = 0; field < changes.size(); field++) {
-            FieldChange each = changes.get(field);
-            ObjectNode json = fields.addObject()
-                    .put("id", each.version().id())
-                    .put("name", each.version().name())
-                    .put("change", each.kind().name().toLowerCase(Locale.ROOT));
-            file.fields().get(field).notes().forEach(json.putArray("mended")::add);
-        }
-        ArrayNode rejected = answer.putArray("refused");
-        for (RejectedFeature each : file.refused()) {
-            rejected.addObject()
-                    .put("feature", each.number())
-                    .put("id", each.id())
-                    .put("reason", withParameters(each.reason()));
-        }
-        return answer;
     }
 
     /** @param problem null if there is none */

@@ -1,6 +1,7 @@
 package io.furrow.control.rest;
 
 import java.time.Instant;
+import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.Test;
@@ -110,5 +111,40 @@ interface FieldRoutes extends RestApiRoutes {
         await().untilAsserted(
                         () -> assertThat(running().get("/api/audit?limit=1000").findValuesAsText("command"))
                                 .contains("import-fields", "rename-field", "end-field", "delete-field"));
+    }
+
+    @Test
+    default void replacesFieldsAtATimeOrShowsWhatThatWouldChange() throws Exception {
+        String feature =
+                "{\"type\":\"Feature\",\"id\":\"%s\",\"geometry\":{\"type\":\"%s\",\"coordinates\":[[[20,50],[20.001,50],[20.001,50.001],[20,50]]]},\"properties\":{}}";
+        String spring = "/api/fields?domain=%s&validFrom=2026-03-01T00:00:00Z";
+        client().ask("POST", spring.formatted("west"), feature.formatted("w1", "Polygon"));
+        client().ask("POST", spring.formatted("east"), feature.formatted("e1", "Polygon"));
+
+        String replacing = "/api/fields?domain=west&replace=true&validFrom=2026-04-01T00:00:00Z";
+        JsonNode dryRun = client().ask("POST", replacing + "&dryRun=true", feature.formatted("w2", "Polygon"));
+        assertThat(dryRun.path("dryRun").asBoolean()).isTrue();
+        assertThat(dryRun.path("ended").asInt()).isEqualTo(1);
+        assertThat(dryRun.path("fields").findValuesAsText("change")).containsExactly("added", "ended");
+        assertThat(ids("domain=west")).containsExactly("w1");
+        running().rejects("POST", replacing, feature.formatted("w2", "Point"), 400, "refused-features");
+        assertThat(ids("domain=west")).containsExactly("w1");
+
+        client().ask("POST", replacing, feature.formatted("w2", "Polygon"));
+        assertThat(ids("domain=west")).containsExactly("w2");
+        assertThat(ids("domain=west&at=2026-03-31T23:59:59Z")).containsExactly("w1");
+        assertThat(ids("at=2026-02-01T00:00:00Z")).isEmpty();
+        assertThat(ids("versions=true")).contains("e1", "w1", "w1", "w2");
+        JsonNode moved = client().ask("POST", "/api/fields?domain=west", feature.formatted("e1", "Polygon"));
+        assertThat(moved.at("/fields/0/domainBefore").asText()).isEqualTo("east");
+        running().rejects("POST", "/api/fields?replace=maybe", "{}", 400, "wrong-member");
+        running().rejects("POST", "/api/fields?validFrom=spring", "{}", 400, "wrong-member");
+        for (String id : List.of("w1", "w2", "e1")) {
+            assertThat(client().status("DELETE", "/api/fields/" + id, null)).isEqualTo(200);
+        }
+    }
+
+    private List<String> ids(String query) throws Exception {
+        return running().get("/api/fields?" + query).path("features").findValuesAsText("id");
     }
 }

@@ -3,11 +3,14 @@ package io.furrow.kafka.field;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
+import java.util.Locale;
 import java.util.Map;
 import java.util.Set;
 import java.util.TreeMap;
 import java.util.function.Predicate;
 import java.util.stream.Collectors;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
@@ -49,6 +52,30 @@ public record FieldChange(Kind kind, FieldVersion version, FieldVersion before) 
                 .filter(field -> replaced.test(field) && !held.contains(field.id()))
                 .forEach(field -> changes.add(new FieldChange(Kind.ENDED, end(field.id(), validFrom), field)));
         return changes;
+    }
+
+    /** Returns the versions of changes that are to be written. */
+    public static List<FieldVersion> toWrite(List<FieldChange> changes) {
+        return changes.stream()
+                .filter(change -> change.kind() != Kind.UNCHANGED)
+                .map(FieldChange::version)
+                .toList();
+    }
+
+    /**
+     * Returns {@code id}, {@code name}, {@code domain} and {@code change}, in lower case; {@code domainBefore} where it was another.
+     * Name and domain of an ended field are those that it had; missing ones are empty.
+     */
+    public ObjectNode toJson() {
+        FieldVersion shown = kind == Kind.ENDED ? before : version;
+        ObjectNode json = NgsiJson.object()
+                .put("id", shown.id())
+                .put("name", shown.name())
+                .put("domain", shown.domain())
+                .put("change", kind.name().toLowerCase(Locale.ROOT));
+        return before == null || before.domain().equals(shown.domain())
+                ? json
+                : json.put("domainBefore", before.domain());
     }
 
     /** The version that ends a field. */

@@ -35,8 +35,20 @@ public final class MissionFiles {
         long writeTo(OutputStream out) throws IOException;
     }
 
+    /** Stores missions. */
+    public interface Importer {
+        /**
+         * Imports lines into a mission, stored events not again.
+         *
+         * @param source named in messages
+         * @return number of lines
+         */
+        long importFrom(String mission, InputStream in, String source, LongConsumer progress)
+                throws IOException, InterruptedException;
+    }
+
     /** Imports a file, or every {@code .ndjson} and {@code .ndjson.gz} of a folder, into a mission. */
-    public static long importFrom(StoredMissions missions, String mission, Path path, LongConsumer progress)
+    public static long importFrom(Importer missions, String mission, Path path, LongConsumer progress)
             throws IOException, InterruptedException {
         long count = 0;
         for (Path file : filesOf(path)) {

@@ -34,7 +34,7 @@ import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.ngsi.UnreadableException;
 
 /** Lists, exports and imports the missions that are stored in MongoDB. */
-public final class StoredMissions implements AutoCloseable {
+public final class StoredMissions implements MissionFiles.Importer, AutoCloseable {
     private static final int BATCH = 1_000;
     private static final int BATCH_BYTES = 8 << 20;
     private static final int REPORT_INTERVAL = 10_000;
@@ -160,6 +160,7 @@ public final class StoredMissions implements AutoCloseable {
      * @throws IOException if a line is not an event, with an {@link UnreadableException} as cause, or the server rejects it; lines
      *     before it may be stored
      */
+    @Override
     public long importFrom(String mission, InputStream in, String source, LongConsumer progress)
             throws IOException, InterruptedException {
         try (BulkSender<EventDocument> sender = new BulkSender<>(collections, WAITS, ignored -> {})) {

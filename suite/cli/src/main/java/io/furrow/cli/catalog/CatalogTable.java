@@ -62,6 +62,14 @@ public final class CatalogTable {
         return lines;
     }
 
+    /** Domain, mission and type of each entry, as {@code north/weeding/Thermometer}. */
+    public static List<String> names(JsonNode entries) {
+        return entries.valueStream()
+                .map(entry ->
+                        place(entry).replace(" ", "") + "/" + entry.path("type").asText())
+                .toList();
+    }
+
     private static List<ObjectNode> attributes(JsonNode entry) {
         return entry.path("attributes").properties().stream()
                 .map(each -> ((ObjectNode) each.getValue()).deepCopy().put("name", each.getKey()))

@@ -1,27 +1,28 @@
 package io.furrow.cli.command;
 
 import java.io.IOException;
-import java.io.PrintWriter;
-import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.LinkedHashMap;
 import java.util.List;
+import java.util.Map;
 import java.util.concurrent.Callable;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.common.KafkaException;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
-import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
-import picocli.CommandLine.Spec;
 
 import io.furrow.cli.catalog.CatalogTable;
 import io.furrow.cli.catalog.StoredAssets;
 import io.furrow.cli.catalog.StoredTable;
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
-import io.furrow.cli.option.KafkaClient;
-import io.furrow.cli.option.OutputOptions;
+import io.furrow.cli.option.KafkaOptions;
 import io.furrow.flink.job.FileSystemOptions;
 import io.furrow.kafka.catalog.Catalog;
 import io.furrow.model.ngsi.NgsiJson;
@@ -31,25 +32,15 @@ import io.furrow.model.text.FailureText;
 @Command(
         name = "catalog",
         abbreviateSynopsis = true,
-        description = "Lists the content of the topic data.catalog, which ingest writes: missions, entity types, their "
+        description = "Lists what there is, as ingest has counted it: missions, entity types, their "
                 + "attributes with type, unit, range and rate, first and last time, sizes, images; and what is stored: "
                 + "missions with --mongo, images with --images.")
 public final class CatalogCommand implements Callable<Integer> {
-    @Spec
-    private CommandSpec spec;
+    @Mixin
+    private ControlOptions control;
 
-    @Option(
-            names = "--kafka",
-            paramLabel = "HOST:PORT",
-            defaultValue = KafkaClient.DEFAULT,
-            description = "Kafka to read from. " + KafkaClient.DEFAULTS)
-    private String kafka;
-
-    @Option(
-            names = "--kafka-properties",
-            paramLabel = "FILE",
-            description = "Properties for the Kafka client, for instance security settings.")
-    private Path kafkaProperties;
+    @Mixin
+    private KafkaOptions kafka;
 
     @Option(
             names = "--mongo",
@@ -67,9 +58,6 @@ public final class CatalogCommand implements Callable<Integer> {
     @Mixin
     private final FileSystemOptions fileSystems = new FileSystemOptions();
 
-    @Mixin
-    private final OutputOptions output = new OutputOptions();
-
     @Option(names = "--domain", paramLabel = "NAME", description = "Only this domain.")
     private String domain;
 
@@ -81,44 +69,44 @@ public final class CatalogCommand implements Callable<Integer> {
 
     @Override
     public Integer call() {
-        try {
-            show();
-            return 0;
-        } catch (IOException e) {
-            throw new CommandException(FailureText.of(e), e);
-        }
+        return control.run(api -> {
+            ObjectNode all = NgsiJson.object();
+            put(all, "types", control.isGiven("--kafka") ? readCatalog() : list(api));
+            put(all, "missions", mongo == null ? null : StoredAssets.missions(mongo));
+            put(all, "images", images == null ? null : storedImages());
+            control.print(all, CatalogCommand::lines, any -> CatalogTable.names(any.path("types")));
+        });
     }
 
-    private void show() throws IOException {
-        List<JsonNode> types = entries(readCatalog());
-        List<JsonNode> missions = mongo == null ? null : entries(StoredAssets.missions(mongo));
-        List<JsonNode> stored = images == null ? null : entries(storedImages());
-        PrintWriter out = spec.commandLine().getOut();
-        if (!output.isForPeople()) {
-            ObjectNode all = NgsiJson.mapper().createObjectNode();
-            put(all, "types", types);
-            put(all, "missions", missions);
-            put(all, "images", stored);
-            out.println(output.text(all));
-        } else {
-            output.table(CatalogTable.lines(types)).forEach(out::println);
-            if (missions != null) {
-                output.table(StoredTable.missions(missions)).forEach(out::println);
-            }
-            if (stored != null) {
-                output.table(StoredTable.images(stored)).forEach(out::println);
-            }
+    private static List<String> lines(JsonNode all) {
+        List<String> lines = new ArrayList<>(CatalogTable.lines(entries(all, "types")));
+        if (all.has("missions")) {
+            lines.addAll(StoredTable.missions(entries(all, "missions")));
         }
-        out.flush();
+        if (all.has("images")) {
+            lines.addAll(StoredTable.images(entries(all, "images")));
+        }
+        return lines;
+    }
+
+    private static List<JsonNode> entries(JsonNode all, String name) {
+        return all.path(name).valueStream().toList();
+    }
+
+    private List<JsonNode> list(ControlApi api) {
+        Map<String, String> only = new LinkedHashMap<>();
+        only.put("domain", domain);
+        only.put("mission", mission);
+        return api.get("/api/catalog" + ControlApi.query(only)).valueStream().toList();
     }
 
     private List<JsonNode> readCatalog() throws IOException {
         try {
-            return Catalog.read(KafkaClient.settings(kafka, kafkaProperties));
+            return Catalog.read(kafka.client());
         } catch (KafkaException e) {
-            throw new IOException(
+            throw new CommandException(
                     "Kafka at %s cannot be read (%s). Check the address given with --kafka, and that it runs."
-                            .formatted(kafka, FailureText.of(e)),
+                            .formatted(kafka.address(), FailureText.of(e)),
                     e);
         }
     }
@@ -128,16 +116,13 @@ public final class CatalogCommand implements Callable<Integer> {
         return StoredAssets.images(images);
     }
 
-    /** The entries that match the options; MongoDB has no domains. */
-    private List<JsonNode> entries(List<JsonNode> all) {
-        return all.stream()
-                .filter(entry -> Catalog.isOf(entry, domain, mission))
-                .toList();
-    }
-
-    private static void put(ObjectNode all, String name, List<JsonNode> entries) {
+    /** Puts the entries that match the options; MongoDB has no domains. @param entries null for none to be put */
+    private void put(ObjectNode all, String name, List<JsonNode> entries) {
         if (entries != null) {
-            all.putArray(name).addAll(entries);
+            ArrayNode put = all.putArray(name);
+            entries.stream()
+                    .filter(entry -> Catalog.isOf(entry, domain, mission))
+                    .forEach(put::add);
         }
     }
 }

@@ -18,7 +18,7 @@ import io.furrow.cli.option.Contexts;
         name = "context",
         description = {
             "Lists and selects contexts: files ~/.config/furrow/NAME.properties with defaults of the options api, api-ca, "
-                    + "token-file, kafka, kafka-properties, mongo and output.",
+                    + "token-file, mongo and output.",
             "$FURROW_CONTEXT selects one for a shell. An option that is given, and a variable such as $FURROW_API, precede "
                     + "the context."
         },

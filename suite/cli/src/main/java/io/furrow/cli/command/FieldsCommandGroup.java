@@ -3,7 +3,9 @@ package io.furrow.cli.command;
 import java.io.IOException;
 import java.time.Instant;
 import java.time.temporal.ChronoUnit;
+import java.util.LinkedHashMap;
 import java.util.List;
+import java.util.Map;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import picocli.CommandLine.Command;
@@ -13,12 +15,12 @@ import picocli.CommandLine.Parameters;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
-import io.furrow.cli.field.FieldReport;
-import io.furrow.cli.field.FieldsOptions;
-import io.furrow.cli.option.CommandException;
+import io.furrow.cli.field.FieldList;
 import io.furrow.cli.option.CommandGroup;
 import io.furrow.cli.option.Confirmation;
+import io.furrow.cli.option.KafkaOptions;
 import io.furrow.kafka.field.FieldChange;
+import io.furrow.kafka.field.FieldsTopic;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 
@@ -27,18 +29,20 @@ import io.furrow.model.ngsi.NgsiJson;
         name = "fields",
         description = {
             "Imports, lists, renames, ends and deletes the fields of the farm.",
-            "list and import use the topic service.fields itself (--kafka); rename, end and delete ask the control plane (--api)."
+            "With --kafka, list and import use the topic service.fields itself, past the control plane."
         },
         addMethodSubcommands = false,
         synopsisSubcommandLabel = "COMMAND",
         subcommands = FieldsImportCommand.class)
 public final class FieldsCommandGroup extends CommandGroup {
-    private static final String FIELDS = "/api/fields";
+    static final String FIELDS = "/api/fields";
+
     private static final String ID = "Id of the field; ./furrow fields list shows it.";
 
     @Command(name = "list", description = "Prints the fields as of a time.")
     int list(
-            @Mixin FieldsOptions fields,
+            @Mixin ControlOptions control,
+            @Mixin KafkaOptions kafka,
             @Option(
                             names = "--at",
                             paramLabel = "TIME",
@@ -46,18 +50,22 @@ public final class FieldsCommandGroup extends CommandGroup {
                     Instant at,
             @Option(names = "--versions", description = "All versions of all times, including ends.")
                     boolean versions) {
-        try {
-            List<FieldVersion> existing = fields.topic().read();
-            Instant time = at == null ? Instant.now() : at;
-            List<FieldVersion> shown = versions
-                    ? existing
-                    : List.copyOf(
-                            FieldChange.asOf(time.toEpochMilli(), existing).values());
-            fields.print(FieldReport.lines(shown), FieldReport.json(shown));
-            return 0;
-        } catch (IOException e) {
-            throw new CommandException(e.getMessage(), e);
-        }
+        Map<String, Object> query = new LinkedHashMap<>();
+        query.put("at", at);
+        query.put("versions", versions ? true : null);
+        return control.run(api -> control.print(
+                control.isGiven("--kafka") ? stored(kafka, at, versions) : api.get(FIELDS + ControlApi.query(query)),
+                FieldList::lines,
+                FieldList::names));
+    }
+
+    private static JsonNode stored(KafkaOptions kafka, Instant at, boolean versions) throws IOException {
+        List<FieldVersion> all = new FieldsTopic(kafka.client()).read();
+        Instant time = at == null ? Instant.now() : at;
+        return FieldList.json(
+                versions
+                        ? all
+                        : List.copyOf(FieldChange.asOf(time.toEpochMilli(), all).values()));
     }
 
     @Command(name = "rename", description = "Renames a field in all its versions; its id stays.")

@@ -4,19 +4,24 @@ import java.io.IOException;
 import java.nio.file.Path;
 import java.time.Instant;
 import java.time.temporal.ChronoUnit;
+import java.util.LinkedHashMap;
 import java.util.List;
+import java.util.Map;
 import java.util.concurrent.Callable;
 
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
-import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
-import picocli.CommandLine.Spec;
 
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.field.FieldList;
 import io.furrow.cli.field.FieldReport;
-import io.furrow.cli.field.FieldsOptions;
 import io.furrow.cli.option.CommandException;
+import io.furrow.cli.option.KafkaOptions;
 import io.furrow.fields.FieldFiles;
 import io.furrow.kafka.field.FieldChange;
 import io.furrow.kafka.field.FieldsTopic;
@@ -25,23 +30,24 @@ import io.furrow.model.field.FieldVersion;
 import io.furrow.model.field.ImportOptions;
 import io.furrow.model.field.ImportedField;
 import io.furrow.model.field.InvalidFileException;
+import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code ./furrow fields import}. */
 @Command(
         name = "import",
         description = {
-            "Reads fields from GeoJSON, a Shapefile or a GeoPackage in any coordinate system and writes them to "
-                    + "service.fields as longitude and latitude in WGS 84. Edges stay straight between their corners; the "
+            "Reads fields from GeoJSON, a Shapefile or a GeoPackage in any coordinate system and sends them to the "
+                    + "control plane as longitude and latitude in WGS 84. Edges stay straight between their corners; the "
                     + "report gives the error.",
             "Repairable features are repaired and reported; others are refused with the reason, and the exit "
                     + "code is 1. An unchanged field is not written again."
         })
 final class FieldsImportCommand implements Callable<Integer> {
     @Mixin
-    private FieldsOptions fields;
+    private ControlOptions control;
 
-    @Spec
-    private CommandSpec spec;
+    @Mixin
+    private KafkaOptions kafka;
 
     @Parameters(paramLabel = "FILE", description = "A .geojson, .shp (with .dbf and .prj beside it) or .gpkg file.")
     private Path file;
@@ -96,23 +102,20 @@ final class FieldsImportCommand implements Callable<Integer> {
     public Integer call() {
         FieldFile read = read();
         boolean unsafe = replace && !read.refused().isEmpty();
-        try {
-            List<FieldChange> changes = changes(read);
-            if (!dryRun && !unsafe) {
-                write(changes);
-            }
-            FieldReport report = new FieldReport(read, changes, validFrom, !dryRun && !unsafe);
-            fields.print(report.lines(), report.json());
-        } catch (IOException e) {
-            throw new CommandException(e.getMessage(), e);
-        }
+        boolean writes = !dryRun && !unsafe;
+        int code = control.run(api -> {
+            FieldReport report = new FieldReport(
+                    read,
+                    control.isGiven("--kafka") ? store(read, writes) : send(api, read, writes),
+                    validFrom,
+                    writes);
+            control.print(report.json(), any -> report.lines(), FieldReport::names);
+        });
         if (unsafe) {
-            spec.commandLine()
-                    .getErr()
-                    .println("With --replace nothing is written while features are refused, because their fields would"
-                            + " end. Mend the file, or leave out --replace.");
+            control.warn("With --replace nothing is written while features are refused, because their fields would"
+                    + " end. Mend the file, or leave out --replace.");
         }
-        return read.refused().isEmpty() ? 0 : 1;
+        return read.refused().isEmpty() ? code : 1;
     }
 
     private FieldFile read() {
@@ -123,21 +126,34 @@ final class FieldsImportCommand implements Callable<Integer> {
         }
     }
 
-    private List<FieldChange> changes(FieldFile read) throws IOException {
-        List<FieldVersion> versions =
-                read.fields().stream().map(ImportedField::version).toList();
-        return FieldChange.of(
-                versions,
-                fields.topic().read(),
-                field -> replace && (domain == null || domain.equals(field.domain())),
-                validFrom.toEpochMilli());
+    private static List<FieldVersion> versions(FieldFile read) {
+        return read.fields().stream().map(ImportedField::version).toList();
     }
 
-    private void write(List<FieldChange> changes) throws IOException {
-        FieldsTopic topic = fields.topic();
-        topic.write(changes.stream()
-                .filter(change -> change.kind() != FieldChange.Kind.UNCHANGED)
-                .map(FieldChange::version)
-                .toList());
+    /** Returns the changes of the control plane. */
+    private JsonNode send(ControlApi api, FieldFile read, boolean writes) {
+        Map<String, Object> query = new LinkedHashMap<>();
+        query.put("domain", domain);
+        query.put("validFrom", validFrom);
+        query.put("replace", replace ? true : null);
+        query.put("dryRun", writes ? null : true);
+        return api.send("POST", FieldsCommandGroup.FIELDS + ControlApi.query(query), FieldList.json(versions(read)))
+                .path("fields");
+    }
+
+    /** Returns the changes of the topic. */
+    private JsonNode store(FieldFile read, boolean writes) throws IOException {
+        FieldsTopic topic = new FieldsTopic(kafka.client());
+        List<FieldChange> changes = FieldChange.of(
+                versions(read),
+                topic.read(),
+                field -> replace && (domain == null || domain.equals(field.domain())),
+                validFrom.toEpochMilli());
+        if (writes) {
+            topic.write(FieldChange.toWrite(changes));
+        }
+        ArrayNode json = NgsiJson.array();
+        changes.forEach(change -> json.add(change.toJson()));
+        return json;
     }
 }

@@ -1,33 +1,37 @@
 package io.furrow.cli.command;
 
+import java.io.BufferedOutputStream;
 import java.io.File;
 import java.io.IOException;
 import java.io.OutputStream;
-import java.io.PrintWriter;
 import java.io.UncheckedIOException;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.function.LongConsumer;
+import java.util.function.Supplier;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.mongodb.MongoException;
 import org.apache.flink.core.fs.Path;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
-import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
-import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Parameters;
-import picocli.CommandLine.Spec;
 
 import io.furrow.cli.control.MarkerCommand;
 import io.furrow.cli.control.MissionControl;
+import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
-import io.furrow.cli.option.ExportFormat;
-import io.furrow.cli.option.OutputOptions;
+import io.furrow.cli.option.CommandException;
+import io.furrow.cli.recording.ApiStore;
+import io.furrow.cli.recording.DirectStore;
+import io.furrow.cli.recording.ExportFormat;
+import io.furrow.cli.recording.MissionStore;
 import io.furrow.flink.job.FileSystemOptions;
 import io.furrow.mission.archive.MissionArchive;
 import io.furrow.mission.archive.MissionFiles;
-import io.furrow.mission.archive.StoredMissions;
 import io.furrow.mission.export.ExportResult;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.ngsi.NgsiJson;
@@ -37,58 +41,46 @@ import io.furrow.model.text.FailureText;
 /** {@code ./furrow mission}. */
 @Command(
         name = "mission",
-        description = "Creates, starts, follows and stops missions; exports, imports and archives their recordings in "
-                + "MongoDB.",
+        description = "Creates, starts, follows and stops missions; exports, imports and archives their recordings.",
         addMethodSubcommands = false,
         synopsisSubcommandLabel = "COMMAND",
         subcommands = MarkerCommand.class)
 public final class MissionCommandGroup extends MissionControl {
     private static final String MISSION = "Name of the mission, as its entities or as 'mission list' have it.";
-    private static final ControlTable STORED = new ControlTable("No mission is stored.")
-            .text("MISSION", "/mission")
-            .text("EVENTS", "/events")
-            .time("FIRST", "/first")
-            .time("LAST", "/last");
     private static final String FILES = ", on any file system of Flink: a path, file:, hdfs:, s3: …";
-
-    @Spec
-    private CommandSpec spec;
 
     /** Options for the stores of missions. */
     static final class StoreOptions {
-        @Spec(Spec.Target.MIXEE)
-        private CommandSpec spec;
-
         @Option(
                 names = "--mongo",
                 paramLabel = "URI",
                 defaultValue = "${env:FURROW_MONGO:-mongodb://127.0.0.1:27017}",
-                description = "MongoDB; @FILE reads the URI, and so its password, from a file. Default: $FURROW_MONGO, "
-                        + "else that of a suite on this machine, mongodb://127.0.0.1:27017.")
+                description =
+                        "Use this MongoDB itself, not the control plane with its roles and its audit; @FILE reads "
+                                + "the URI, and so its password, from a file. For archive, which always does: default "
+                                + "$FURROW_MONGO, else that of a suite on this machine, mongodb://127.0.0.1:27017.")
         private String mongo;
 
         @Mixin
         private final FileSystemOptions fileSystems = new FileSystemOptions();
     }
 
-    /** An operation on the missions of MongoDB. */
-    private interface Work {
-        void with(StoredMissions missions) throws IOException, InterruptedException;
+    /** An operation on stored missions. */
+    private interface Work<T extends MissionStore> {
+        void with(T missions) throws IOException, InterruptedException;
     }
 
     @Command(
             name = "stored",
-            description = "Lists the stored missions: how many events each one has and from when to when.")
-    int listStored(@Mixin StoreOptions store, @Mixin OutputOptions output) {
-        return run(store, missions -> {
-            ArrayNode stored = NgsiJson.array();
-            missions.all()
-                    .forEach(mission -> stored.addObject()
-                            .put("mission", mission.mission())
-                            .put("events", mission.events())
-                            .put("first", mission.first().toString())
-                            .put("last", mission.last().toString()));
-            output.print(out(), stored, STORED.lines(stored), STORED.names(stored));
+            description =
+                    "Lists the stored missions: from when to when, and with --mongo how many events each one has.")
+    int listStored(@Mixin ControlOptions control, @Mixin StoreOptions store) {
+        return run(control, store, missions -> {
+            ControlTable table = new ControlTable("No mission is stored.").text("MISSION", "/mission");
+            if (control.isGiven("--mongo")) {
+                table.text("EVENTS", "/events");
+            }
+            control.print(missions.list(), table.time("FIRST", "/first").time("LAST", "/last"));
         });
     }
 
@@ -98,6 +90,7 @@ public final class MissionCommandGroup extends MissionControl {
                     "Writes all events of a mission in the order of their times, and its markers. The same events give "
                             + "the same bytes.")
     int export(
+            @Mixin ControlOptions control,
             @Mixin StoreOptions store,
             @Parameters(paramLabel = "MISSION", description = MISSION) String mission,
             @Parameters(
@@ -114,27 +107,47 @@ public final class MissionCommandGroup extends MissionControl {
                                             + "entity, for Foxglove; geojson, a track or point for each entity, for maps. "
                                             + "Default: ${DEFAULT-VALUE}.")
                     ExportFormat format) {
-        return run(store, missions -> {
-            requireStored(missions, mission);
+        return run(control, store, missions -> {
             if (file.equals("-")) {
-                OutputStream terminal = new java.io.BufferedOutputStream(System.out);
-                format.write(new ExportFormat.Source(missions, store.mongo, mission), terminal, ignored -> {});
+                OutputStream terminal = new BufferedOutputStream(System.out);
+                format.write(missions, mission, terminal, ignored -> {});
                 terminal.flush();
                 return;
             }
             requireFolder(new Path(file));
-            ExportFormat.Source source = new ExportFormat.Source(missions, store.mongo, mission);
             ExportResult[] done = new ExportResult[1];
             MissionFiles.write(new Path(file), out -> {
-                done[0] = format.write(source, out, progress("exported"));
+                done[0] = format.write(missions, mission, out, progress(control, "exported"));
                 return done[0].events();
             });
-            out().printf("%s of %s in %s%n", Counts.of(done[0].events(), "event"), mission, file);
-            format.writeMarkers(source, new Path(file))
-                    .ifPresent(markers -> out().printf("its markers in %s%n", markers));
+            ObjectNode answer =
+                    NgsiJson.object().put("mission", mission).put("file", file).put("events", done[0].events());
+            format.writeMarkers(missions, mission, new Path(file))
+                    .ifPresent(markers -> answer.put("markers", markers.toString()));
             done[0].example()
-                    .ifPresent(example -> out().printf("%,d left out, the first: %s%n", done[0].leftOut(), example));
+                    .ifPresent(
+                            example -> answer.put("leftOut", done[0].leftOut()).put("example", example));
+            control.print(answer, MissionCommandGroup::exported);
         });
+    }
+
+    private static List<String> exported(JsonNode answer) {
+        List<String> lines = new ArrayList<>();
+        lines.add("%s of %s in %s"
+                .formatted(
+                        Counts.of(answer.path("events").asLong(), "event"),
+                        answer.path("mission").asText(),
+                        answer.path("file").asText()));
+        if (answer.has("markers")) {
+            lines.add("its markers in " + answer.path("markers").asText());
+        }
+        if (answer.has("leftOut")) {
+            lines.add("%,d left out, the first: %s"
+                    .formatted(
+                            answer.path("leftOut").asLong(),
+                            answer.path("example").asText()));
+        }
+        return lines;
     }
 
     @Command(
@@ -143,6 +156,7 @@ public final class MissionCommandGroup extends MissionControl {
                     "Reads events into a mission. Events that it already has are skipped, so an interrupted import can "
                             + "be repeated.")
     int importFrom(
+            @Mixin ControlOptions control,
             @Mixin StoreOptions store,
             @Parameters(paramLabel = "MISSION", description = MISSION) String mission,
             @Parameters(
@@ -150,9 +164,11 @@ public final class MissionCommandGroup extends MissionControl {
                             description = "A file, or a folder of an archive" + FILES
                                     + " Compressed where the name ends in .gz.")
                     String file) {
-        return run(store, missions -> {
-            long count = MissionFiles.importFrom(missions, mission, new Path(file), progress("imported"));
-            out().printf("%s of %s now in mission %s%n", Counts.of(count, "event"), file, mission);
+        return run(control, store, missions -> {
+            long count = MissionFiles.importFrom(missions, mission, new Path(file), progress(control, "imported"));
+            control.answered(
+                    NgsiJson.object().put("mission", mission).put("file", file).put("events", count),
+                    "%s of %s now in mission %s".formatted(Counts.of(count, "event"), file, mission));
         });
     }
 
@@ -162,54 +178,66 @@ public final class MissionCommandGroup extends MissionControl {
                     "Adds missing events of missions to an archive: one file per day and mission, and another one for "
                             + "later events. Nothing in an archive is changed or removed.")
     int archive(
+            @Mixin ControlOptions control,
             @Mixin StoreOptions store,
             @Parameters(paramLabel = "ROOT", description = "Folder of the archive" + FILES) String root,
             @Parameters(paramLabel = "MISSION", arity = "1..*", description = "Names of the missions.")
                     List<String> names) {
-        return run(store, missions -> {
-            MissionArchive archive = new MissionArchive(missions, new Path(root));
+        return control.run(api -> with(control, store, () -> new DirectStore(store.mongo), missions -> {
+            MissionArchive archive = new MissionArchive(missions.missions(), new Path(root));
+            ArrayNode answer = NgsiJson.array();
             for (String mission : names) {
-                requireStored(missions, mission);
+                missions.require(mission);
                 MissionArchive.Outcome done = archive.archive(mission);
-                out().printf(
-                                "%s: %s added in %s, %,d there before, in %s%n",
-                                mission,
-                                Counts.of(done.added(), "event"),
-                                Counts.of(done.files(), "file"),
-                                done.kept(),
-                                archive.folder(mission));
+                answer.addObject()
+                        .put("mission", mission)
+                        .put("added", done.added())
+                        .put("files", done.files())
+                        .put("before", done.kept())
+                        .put("folder", archive.folder(mission).toString());
             }
-        });
+            control.print(
+                    answer,
+                    all -> all.valueStream().map(MissionCommandGroup::archived).toList());
+        }));
     }
 
-    private int run(StoreOptions store, Work work) {
+    private static String archived(JsonNode mission) {
+        return "%s: %s added in %s, %,d there before, in %s"
+                .formatted(
+                        mission.path("mission").asText(),
+                        Counts.of(mission.path("added").asLong(), "event"),
+                        Counts.of(mission.path("files").asLong(), "file"),
+                        mission.path("before").asLong(),
+                        mission.path("folder").asText());
+    }
+
+    private static int run(ControlOptions control, StoreOptions store, Work<MissionStore> work) {
+        return control.run(api -> with(
+                control,
+                store,
+                control.isGiven("--mongo") ? () -> new DirectStore(store.mongo) : () -> new ApiStore(api),
+                work));
+    }
+
+    private static <T extends MissionStore> void with(
+            ControlOptions control, StoreOptions store, Supplier<T> stored, Work<T> work) throws IOException {
         store.fileSystems.initialize();
-        try (StoredMissions missions = StoredMissions.open(store.mongo)) {
+        try (T missions = stored.get()) {
             work.with(missions);
-            out().flush();
-            return 0;
         } catch (IllegalArgumentException e) {
-            throw new ParameterException(
-                    store.spec.commandLine(),
-                    "%s. Check --mongo and the file's name.".formatted(MongoAccess.fault(store.mongo, e)),
-                    e);
+            throw control.refused(
+                    "%s. Check --mongo and the file's name.".formatted(MongoAccess.fault(store.mongo, e)));
         } catch (MongoException e) {
-            return failed("MongoDB at %s: %s. Check that it runs, and --mongo."
-                    .formatted(new MongoAccess(store.mongo, null), FailureText.of(e)));
+            throw new CommandException(
+                    "MongoDB at %s: %s. Check that it runs, and --mongo."
+                            .formatted(new MongoAccess(store.mongo, null), FailureText.of(e)),
+                    e);
         } catch (UncheckedIOException e) {
-            return failed(FailureText.of(e.getCause()));
-        } catch (IOException e) {
-            return failed(FailureText.of(e));
+            throw e.getCause();
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
-            return failed("interrupted");
-        }
-    }
-
-    private static void requireStored(StoredMissions missions, String mission) throws IOException {
-        if (!missions.has(mission)) {
-            throw new IOException(
-                    "No mission named %s is stored; ./furrow mission stored shows those that are.".formatted(mission));
+            throw new CommandException("interrupted", e);
         }
     }
 
@@ -217,23 +245,16 @@ public final class MissionCommandGroup extends MissionControl {
     private static void requireFolder(Path file) throws IOException {
         File folder = new File(file.getPath()).getAbsoluteFile().getParentFile();
         if (!file.getFileSystem().isDistributedFS() && folder != null && !folder.isDirectory()) {
-            throw new IOException("There is no folder %s; make it first.".formatted(folder));
+            throw new CommandException("There is no folder %s; make it first.".formatted(folder));
         }
     }
 
-    private int failed(String message) {
-        spec.commandLine().getErr().println(message);
-        return spec.exitCodeOnExecutionException();
-    }
-
-    private LongConsumer progress(String done) {
+    private static LongConsumer progress(ControlOptions control, String done) {
         return count -> {
-            out().printf("\r  %s %s", Counts.of(count, "event"), done);
-            out().flush();
+            if (control.isForPeople()) {
+                control.out().printf("\r  %s %s", Counts.of(count, "event"), done);
+                control.out().flush();
+            }
         };
-    }
-
-    private PrintWriter out() {
-        return spec.commandLine().getOut();
     }
 }

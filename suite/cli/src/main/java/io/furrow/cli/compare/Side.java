@@ -44,7 +44,7 @@ record Side(String name, String topic) {
     private static String required(String topic, Collection<String> topics) {
         if (!hasAnyOf(topic, topics)) {
             throw new CommandException(
-                    "There is no topic %s, and none of its results: check the name with ./furrow replay list, and --kafka. One that is played on a topic of another name is named by it."
+                    "There is no topic %s, and none of its results: check the name with ./furrow replay list. One that is played on a topic of another name is named by it."
                             .formatted(topic));
         }
         return topic;

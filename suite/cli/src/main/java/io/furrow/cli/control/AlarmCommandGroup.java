@@ -73,15 +73,13 @@ public final class AlarmCommandGroup extends CommandGroup {
                     String kind,
             @Mixin TimeRangeOptions range,
             @Option(
-                            names = "--limit",
+                            names = {"-n", "--limit"},
                             paramLabel = "N",
                             defaultValue = "50",
                             description = "How many at most, 1 to 9999. Default: ${DEFAULT-VALUE}.")
                     int limit,
             @Mixin ListWatch watch) {
-        if (limit < 1 || limit > MAX_LISTED) {
-            throw control.refused("--limit is 1 to %d, not %d".formatted(MAX_LISTED, limit));
-        }
+        ListOptions.check(control, limit, MAX_LISTED);
         State desired = state != null ? state : range.isGiven() ? State.ALL : State.OPEN;
         Map<String, Object> query = new LinkedHashMap<>();
         query.put("limit", limit + 1);

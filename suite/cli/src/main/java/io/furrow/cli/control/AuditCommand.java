@@ -55,7 +55,7 @@ public final class AuditCommand implements Callable<Integer> {
     private TimeRangeOptions range;
 
     @Option(
-            names = "--limit",
+            names = {"-n", "--limit"},
             paramLabel = "N",
             defaultValue = "50",
             description = "How many to read at most, 1 to 1000. Default: ${DEFAULT-VALUE}.")
@@ -66,9 +66,7 @@ public final class AuditCommand implements Callable<Integer> {
 
     @Override
     public Integer call() {
-        if (limit < 1 || limit > MAX_LISTED) {
-            throw control.refused("--limit is 1 to %d, not %d".formatted(MAX_LISTED, limit));
-        }
+        ListOptions.check(control, limit, MAX_LISTED);
         return control.run(api -> {
             Map<String, Object> query = new LinkedHashMap<>();
             query.put("limit", limit);

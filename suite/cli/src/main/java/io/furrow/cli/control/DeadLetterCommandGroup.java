@@ -47,14 +47,12 @@ public final class DeadLetterCommandGroup extends CommandGroup {
                     String stage,
             @Mixin TimeRangeOptions range,
             @Option(
-                            names = "--limit",
+                            names = {"-n", "--limit"},
                             paramLabel = "N",
                             defaultValue = "50",
                             description = "How many at most, 1 to 1000. Default: ${DEFAULT-VALUE}.")
                     int limit) {
-        if (limit < 1 || limit > MAX_LISTED) {
-            throw control.refused("--limit is 1 to %d, not %d".formatted(MAX_LISTED, limit));
-        }
+        ListOptions.check(control, limit, MAX_LISTED);
         Map<String, Object> query = new LinkedHashMap<>();
         query.put("limit", limit);
         query.put("topic", topic);

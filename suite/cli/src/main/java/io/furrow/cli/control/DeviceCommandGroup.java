@@ -39,7 +39,7 @@ public final class DeviceCommandGroup extends CommandGroup {
     @Command(name = "list", description = "Lists devices: status, last report, battery, whether silent.")
     int list(
             @Mixin ControlOptions control,
-            @Mixin ListWatch watch,
+            @Mixin ListOptions list,
             @Option(names = "--domain", paramLabel = "DOMAIN", description = "Only those of this domain.")
                     String domain,
             @Option(names = "--mission", paramLabel = "MISSION", description = "Only those of this mission.")
@@ -47,7 +47,7 @@ public final class DeviceCommandGroup extends CommandGroup {
         Map<String, String> only = new LinkedHashMap<>();
         only.put("domain", domain);
         only.put("mission", mission);
-        return watch.show(
+        return list.show(
                 control,
                 DEVICES + ControlApi.query(only),
                 new ControlTable("There are no such devices.")

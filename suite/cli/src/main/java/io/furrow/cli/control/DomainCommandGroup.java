@@ -68,8 +68,8 @@ public final class DomainCommandGroup extends CommandGroup {
     }
 
     @Command(name = "list", description = "Lists all domains.")
-    int list(@Mixin ControlOptions control, @Mixin ListWatch watch) {
-        return watch.show(
+    int list(@Mixin ControlOptions control, @Mixin ListOptions list) {
+        return list.show(
                 control,
                 DOMAINS,
                 new ControlTable("There is no domain yet; ./furrow domain create makes one.")

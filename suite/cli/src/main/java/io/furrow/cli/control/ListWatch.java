@@ -5,7 +5,6 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.function.Supplier;
-import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
@@ -16,7 +15,7 @@ import io.furrow.cli.control.table.ControlTable;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** The option {@code --watch} of lists: after a list, it prints each row that is new or has changed. */
-final class ListWatch {
+class ListWatch {
     private final long pollMillis;
 
     @Option(
@@ -31,18 +30,6 @@ final class ListWatch {
     /** @param pollMillis time between two requests */
     ListWatch(long pollMillis) {
         this.pollMillis = pollMillis;
-    }
-
-    /** Prints the list at a path as a table. @param selectors paths of what selects its rows, which must exist */
-    int show(ControlOptions control, String path, ControlTable table, String... selectors) {
-        return control.run(api -> {
-            JsonNode listed = api.get(path);
-            if (ControlTable.rows(listed).isEmpty()) {
-                Stream.of(selectors).forEach(api::get);
-            }
-            control.print(listed, table);
-            follow(control, listed, () -> api.get(path), table);
-        });
     }
 
     /** Prints the changes of a list; returns at once without the option. @param listed is printed already */

@@ -66,10 +66,10 @@ public class MissionControl extends CommandGroup {
     @Command(name = "list", description = "Lists missions with their state.")
     int list(
             @Mixin ControlOptions control,
-            @Mixin ListWatch watch,
+            @Mixin ListOptions list,
             @Option(names = "--domain", paramLabel = "DOMAIN", description = "Only those of this domain.")
                     String domain) {
-        return watch.show(
+        return list.show(
                 control,
                 path(domain),
                 new ControlTable("There is no mission; ./furrow mission create makes one.")

@@ -58,9 +58,7 @@ final class RecordSearch {
         if (device == null && text == null) {
             throw control.refused("Name a device with --device, or a text with --text.");
         }
-        if (limit < 1 || limit > MAX_SELECTED) {
-            throw control.refused("--limit is 1 to %d, not %d".formatted(MAX_SELECTED, limit));
-        }
+        ListOptions.check(control, limit, MAX_SELECTED);
         boolean selects = attribute != null || device != null && text != null;
         Map<String, Object> query = new LinkedHashMap<>();
         query.put("values", selects ? true : null);

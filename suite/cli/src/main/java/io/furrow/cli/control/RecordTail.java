@@ -54,9 +54,7 @@ final class RecordTail {
      * @param line prints one for people
      */
     int print(ControlOptions control, String topic, String key, Function<JsonNode, String> line) {
-        if (limit < 1 || limit > MAX_LISTED) {
-            throw control.refused("--limit is 1 to %d, not %d".formatted(MAX_LISTED, limit));
-        }
+        ListOptions.check(control, limit, MAX_LISTED);
         return control.run(api -> {
             offsets.clear();
             if (follow) {

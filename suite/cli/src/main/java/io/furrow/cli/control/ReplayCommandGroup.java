@@ -27,8 +27,8 @@ public final class ReplayCommandGroup extends CommandGroup {
     private static final String REPLAYS = "/api/replays";
 
     @Command(name = "list", description = "Lists replays, including those that wait at their end.")
-    int list(@Mixin ControlOptions control, @Mixin ListWatch watch) {
-        return watch.show(
+    int list(@Mixin ControlOptions control, @Mixin ListOptions list) {
+        return list.show(
                 control,
                 REPLAYS,
                 new ControlTable("There is no replay; ./furrow replay start MISSION asks for one.")
@@ -44,8 +44,8 @@ public final class ReplayCommandGroup extends CommandGroup {
     @Command(
             name = "missions",
             description = "Lists the missions that can be played back, with their first and last times.")
-    int missions(@Mixin ControlOptions control, @Mixin ListWatch watch) {
-        return watch.show(
+    int missions(@Mixin ControlOptions control, @Mixin ListOptions list) {
+        return list.show(
                 control,
                 "/api/recordings",
                 new ControlTable("No mission is kept yet.")

@@ -11,6 +11,7 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlPlaneException;
+import io.furrow.cli.control.client.ControlTransfer;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -76,7 +77,7 @@ final class ReplayEvents implements AutoCloseable {
     }
 
     private void read() {
-        try (Stream<String> lines = api.events(path + "/events")) {
+        try (Stream<String> lines = new ControlTransfer(api).events(path + "/events")) {
             connected = true;
             event = "";
             data.setLength(0);

@@ -26,8 +26,8 @@ public final class TemplateCommandGroup extends CommandGroup {
     private static final String NAME = "NAME of the template, its newest version, or NAME@VERSION.";
 
     @Command(name = "list", description = "Lists all versions of all templates.")
-    int list(@Mixin ControlOptions control, @Mixin ListWatch watch) {
-        return watch.show(
+    int list(@Mixin ControlOptions control, @Mixin ListOptions list) {
+        return list.show(
                 control,
                 TEMPLATES,
                 new ControlTable("There is no template; ./furrow template import FILE makes one.")
@@ -49,7 +49,7 @@ public final class TemplateCommandGroup extends CommandGroup {
                 control.print(json);
                 return;
             }
-            Files.writeString(file, ControlOptions.pretty(json) + System.lineSeparator());
+            Files.writeString(file, json.toPrettyString() + System.lineSeparator());
             control.out()
                     .println("exported: template %s@%s to %s"
                             .formatted(

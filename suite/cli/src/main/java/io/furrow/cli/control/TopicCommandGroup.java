@@ -26,8 +26,8 @@ public final class TopicCommandGroup extends CommandGroup {
     private static final String TOPIC = "A topic, data.* or service.*, for instance data.raw.";
 
     @Command(name = "list", description = "Lists the topics that can be read, and those of dead letters.")
-    int list(@Mixin ControlOptions control, @Mixin ListWatch watch) {
-        return watch.show(
+    int list(@Mixin ControlOptions control, @Mixin ListOptions list) {
+        return list.show(
                 control,
                 TOPICS,
                 new ControlTable("There are no topics.")

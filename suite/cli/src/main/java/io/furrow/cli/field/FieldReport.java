@@ -1,6 +1,5 @@
 package io.furrow.cli.field;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
@@ -10,29 +9,29 @@ import java.util.TreeMap;
 import java.util.function.Function;
 import java.util.stream.Collectors;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import com.fasterxml.jackson.databind.util.RawValue;
 
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.kafka.field.FieldChange;
 import io.furrow.model.field.FieldFile;
-import io.furrow.model.field.FieldVersion;
 import io.furrow.model.field.ImportedField;
 import io.furrow.model.field.RejectedFeature;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** Reports per field what an import did and did not do; also prints lists of fields. */
+/** Reports per field what an import did and did not do. */
 public final class FieldReport {
     private static final String NO_DOMAIN = "no domain";
 
     private final FieldFile file;
-    private final List<FieldChange> changes;
+    private final JsonNode changes;
     private final Instant validFrom;
     private final boolean written;
     private final Map<String, ImportedField> fields;
 
-    public FieldReport(FieldFile file, List<FieldChange> changes, Instant validFrom, boolean written) {
+    /** @param changes a list, each as of {@link FieldChange#toJson} */
+    public FieldReport(FieldFile file, JsonNode changes, Instant validFrom, boolean written) {
         this.file = file;
         this.changes = changes;
         this.validFrom = validFrom;
@@ -74,14 +73,18 @@ public final class FieldReport {
 
     private ArrayNode rows() {
         ArrayNode rows = NgsiJson.mapper().createArrayNode();
-        for (FieldChange change : changes) {
-            FieldVersion shown = shown(change);
-            ObjectNode row = rows.addObject().put("change", code(change)).put("id", shown.id());
-            row.put("name", nullIfEmpty(shown.name())).put("domain", nullIfEmpty(shown.domain()));
-            if (change.before() != null && !change.before().domain().equals(shown.domain())) {
-                row.put("domain", named(change.before().domain()) + " → " + named(shown.domain()));
-            }
-            ImportedField field = fields.get(shown.id());
+        for (JsonNode change : changes) {
+            ObjectNode row = rows.addObject();
+            row.set("change", change.path("change"));
+            row.set("id", change.path("id"));
+            row.put("name", nullIfEmpty(change.path("name").asText()));
+            String domain = change.path("domain").asText();
+            row.put(
+                    "domain",
+                    change.has("domainBefore")
+                            ? named(change.path("domainBefore").asText()) + " → " + named(domain)
+                            : nullIfEmpty(domain));
+            ImportedField field = fields.get(change.path("id").asText());
             if (field != null) {
                 row.put("hectares", String.format(Locale.ROOT, "%.4f", field.hectares()))
                         .put("notes", nullIfEmpty(String.join("; ", field.notes())));
@@ -97,15 +100,6 @@ public final class FieldReport {
         return rows;
     }
 
-    /** Of an ended field, the previous version. */
-    private static FieldVersion shown(FieldChange change) {
-        return change.kind() == FieldChange.Kind.ENDED ? change.before() : change.version();
-    }
-
-    private static String code(FieldChange change) {
-        return change.kind().name().toLowerCase(Locale.ROOT);
-    }
-
     private static String nullIfEmpty(String text) {
         return text.isEmpty() ? null : text;
     }
@@ -116,10 +110,10 @@ public final class FieldReport {
 
     /** For instance {@code (north 2, south 1)}; empty if no field ends. */
     private String endedByDomain() {
-        Map<String, Long> ended = changes.stream()
-                .filter(change -> change.kind() == FieldChange.Kind.ENDED)
+        Map<String, Long> ended = changes.valueStream()
+                .filter(change -> is(change, FieldChange.Kind.ENDED))
                 .collect(Collectors.groupingBy(
-                        change -> named(change.before().domain()), TreeMap::new, Collectors.counting()));
+                        change -> named(change.path("domain").asText()), TreeMap::new, Collectors.counting()));
         return ended.isEmpty()
                 ? ""
                 : ended.entrySet().stream()
@@ -135,12 +129,12 @@ public final class FieldReport {
         }
         file.notes().forEach(report.putArray("notes")::add);
         ArrayNode all = report.putArray("fields");
-        for (FieldChange change : changes) {
-            FieldVersion shown = shown(change);
+        for (JsonNode change : changes) {
             ObjectNode one = all.addObject();
-            one.put("id", shown.id()).put("name", shown.name()).put("domain", shown.domain());
-            one.put("change", code(change));
-            ImportedField field = fields.get(shown.id());
+            for (String member : List.of("id", "name", "domain", "change")) {
+                one.set(member, change.path(member));
+            }
+            ImportedField field = fields.get(change.path("id").asText());
             if (field != null) {
                 one.put("feature", field.number()).put("hectares", field.hectares());
                 one.put("edgeErrorMeters", field.edgeErrorMeters());
@@ -156,37 +150,12 @@ public final class FieldReport {
         return report;
     }
 
-    /** A table of versions. */
-    public static List<String> lines(List<FieldVersion> versions) {
-        ArrayNode rows = NgsiJson.mapper().createArrayNode();
-        for (FieldVersion version : versions) {
-            rows.addObject()
-                    .put("id", version.id())
-                    .put("name", nullIfEmpty(version.name()))
-                    .put("domain", nullIfEmpty(version.domain()))
-                    .put("validFrom", version.validFrom())
-                    .put(
-                            "shape",
-                            version.isEnd()
-                                    ? "ends"
-                                    : version.geometry().path("type").asText());
-        }
-        return new ControlTable("There are no fields. Bring some with: ./furrow fields import FILE")
-                .text("ID", "/id")
-                .text("NAME", "/name")
-                .text("DOMAIN", "/domain")
-                .time("VALID FROM", "/validFrom")
-                .text("SHAPE", "/shape")
-                .lines(rows);
-    }
-
-    /** The versions as stored in the topic: a GeoJSON FeatureCollection. */
-    public static ObjectNode json(List<FieldVersion> versions) {
-        ObjectNode collection = NgsiJson.mapper().createObjectNode().put("type", "FeatureCollection");
-        ArrayNode features = collection.putArray("features");
-        versions.forEach(
-                version -> features.addRawValue(new RawValue(new String(version.toBytes(), StandardCharsets.UTF_8))));
-        return collection;
+    /** @param report as of {@link #json} */
+    public static List<String> names(JsonNode report) {
+        return report.path("fields")
+                .valueStream()
+                .map(field -> field.path("id").asText())
+                .toList();
     }
 
     private double edgeError() {
@@ -197,6 +166,10 @@ public final class FieldReport {
     }
 
     private long count(FieldChange.Kind kind) {
-        return changes.stream().filter(change -> change.kind() == kind).count();
+        return changes.valueStream().filter(change -> is(change, kind)).count();
+    }
+
+    private static boolean is(JsonNode change, FieldChange.Kind kind) {
+        return change.path("change").asText().equalsIgnoreCase(kind.name());
     }
 }

@@ -2,6 +2,7 @@ package io.furrow.cli.option;
 
 import java.io.IOException;
 import java.io.Reader;
+import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Collections;
@@ -20,20 +21,21 @@ import io.furrow.model.file.FileProblem;
 
 /**
  * The contexts of a user: properties files {@code NAME.properties} with defaults of options. $FURROW_CONTEXT, or else the
- * file {@code current}, names the one that is in use.
+ * file {@code current}, names the one that is in use. Its token is for its own API only.
  */
 public final class Contexts implements IDefaultValueProvider {
     /** The options of a context, and the environment variables that precede it. */
     private static final Map<String, List<String>> OPTIONS = Collections.unmodifiableMap(new TreeMap<>(Map.of(
             "api", List.of("FURROW_API"),
             "api-ca", List.of("FURROW_API_CA"),
-            "kafka", List.of("FURROW_KAFKA"),
-            "kafka-properties", List.of(),
             "mongo", List.of("FURROW_MONGO"),
             "output", List.of(),
             "token-file", List.of("FURROW_TOKEN", "FURROW_TOKEN_FILE"))));
 
-    private static final List<String> FILES = List.of("api-ca", "kafka-properties", "token-file");
+    /** The API of a context that names none. */
+    public static final String DEFAULT_API = "http://127.0.0.1:8085";
+
+    private static final List<String> FILES = List.of("api-ca", "token-file");
     private static final String SUFFIX = ".properties";
     private static final String CURRENT = "current";
     private static final String VARIABLE = "FURROW_CONTEXT";
@@ -126,6 +128,17 @@ public final class Contexts implements IDefaultValueProvider {
         }
         String name = option.longestName().replaceFirst("^--", "");
         return OPTIONS.containsKey(name) ? defaults(option).get(name) : null;
+    }
+
+    /** Whether an API is that of the context in use; its token must not be sent to another. */
+    public boolean isOwnApi(URI api) throws IOException {
+        String current = current();
+        String own = current == null ? DEFAULT_API : read(current).getOrDefault("api", DEFAULT_API);
+        return withoutSlash(own).equals(withoutSlash(api.toString()));
+    }
+
+    private static URI withoutSlash(String api) {
+        return URI.create(api.replaceAll("/+$", ""));
     }
 
     private Map<String, String> defaults(OptionSpec option) {

@@ -8,11 +8,6 @@ import java.util.Properties;
 
 /** Settings of the Kafka clients of a command. */
 public final class KafkaClient {
-    /** Default of the option {@code --kafka}. */
-    public static final String DEFAULT = "${env:FURROW_KAFKA:-127.0.0.1:9092}";
-    /** For its description. */
-    public static final String DEFAULTS = "Default: $FURROW_KAFKA, else 127.0.0.1:9092.";
-
     private KafkaClient() {}
 
     /**

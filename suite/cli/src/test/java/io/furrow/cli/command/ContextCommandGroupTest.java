@@ -56,14 +56,36 @@ class ContextCommandGroupTest {
     }
 
     @Test
+    void sendsItsTokenToItsOwnApiOnly() throws IOException {
+        String api = server.uri("").toString().replaceAll("/+$", "");
+        Files.writeString(folder.resolve("farm.token"), "token-of-the-farm\n");
+        Files.writeString(folder.resolve("other.token"), "other-token\n");
+        write("farm", "api=%s\ntoken-file=farm.token\n".formatted(api));
+        write("barn", "api=http://127.0.0.1:1\ntoken-file=farm.token\n");
+        write("yard", "token-file=farm.token\n");
+
+        Map<String, String> farm = Map.of("FURROW_CONTEXT", "farm");
+        run(farm, "mission", "list", "--api", api + "/");
+        assertThat(tokens).containsExactly("Bearer token-of-the-farm");
+        tokens.clear();
+        for (String other : List.of("barn", "yard")) {
+            assertThat(run(Map.of("FURROW_CONTEXT", other), "mission", "list", "--api", api))
+                    .isZero();
+        }
+        String file = folder.resolve("other.token").toString();
+        run(Map.of("FURROW_CONTEXT", "barn"), "mission", "list", "--api", api, "--token-file", file);
+        assertThat(tokens).containsExactly("null", "null", "Bearer other-token");
+    }
+
+    @Test
     void prefersVariables() throws IOException {
         Contexts contexts = contexts(Map.of("FURROW_API", "x", "FURROW_TOKEN", "x"));
-        write("farm", "api=http://127.0.0.1:1\nkafka=kafka:9092\ntoken-file=nosuch\n");
+        write("farm", "api=http://127.0.0.1:1\nmongo=mongodb://a\ntoken-file=nosuch\n");
         contexts.use("farm");
 
         CommandLine list = furrow(contexts).getSubcommands().get("catalog");
-        assertThat(contexts.defaultValue(list.getCommandSpec().findOption("--kafka")))
-                .isEqualTo("kafka:9092");
+        assertThat(contexts.defaultValue(list.getCommandSpec().findOption("--mongo")))
+                .isEqualTo("mongodb://a");
         CommandLine audit = furrow(contexts).getSubcommands().get("audit");
         assertThat(contexts.defaultValue(audit.getCommandSpec().findOption("--api")))
                 .isNull();

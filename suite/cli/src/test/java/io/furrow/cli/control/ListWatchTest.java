@@ -25,11 +25,11 @@ class ListWatchTest {
         private ControlOptions options;
 
         @Mixin
-        private final ListWatch watch = new ListWatch(1);
+        private final ListOptions list = new ListOptions(1);
 
         @Override
         public Integer call() {
-            return watch.show(
+            return list.show(
                     options,
                     "/api/list",
                     new ControlTable("none")
@@ -73,6 +73,39 @@ class ListWatchTest {
         control.output();
         assertThat(run()).isZero();
         assertThat(control.output()).isEqualToIgnoringNewLines("none");
+    }
+
+    @Test
+    void readsAListByPagesUpToItsLimit() {
+        control.answerPage("GET /api/list", "[{'name':'a'},{'name':'b'}]", "?limit=1000&page=2")
+                .answer("GET /api/list?limit=1000&page=2", "[{'name':'c'}]")
+                .answerPage("GET /api/list?limit=2", "[{'name':'a'},{'name':'b'}]", "?limit=2&page=2");
+
+        assertThat(run("-o", "name")).isZero();
+        assertThat(control.output().lines()).containsExactly("a", "b", "c");
+        assertThat(run("-n", "2", "-o", "name")).isZero();
+        assertThat(control.output().lines())
+                .containsExactly("a", "b", "There are more than 2; --limit shows more of them.");
+        assertThat(run("--limit", "0")).isEqualTo(2);
+        assertThat(control.output()).contains("--limit is 1 to 20000, not 0");
+    }
+
+    @Test
+    void printsValuesByJsonPath() {
+        control.answer("GET /api/v1/list", "[{'name':'a','at':'2026-11-27T05:00:00Z'},{'name':'b','at':null}]");
+
+        assertThat(run("-o", "jsonpath={.items[*].name}")).isZero();
+        assertThat(run("-o", "jsonpath={range .items[*]}{.name} {.at}{\"\\n\"}{end}"))
+                .isZero();
+        assertThat(control.output().lines()).containsExactly("a b", "a 2026-11-27T05:00:00Z", "b null");
+
+        control.answer("GET /api/missions/typo", 404, "{'error':'unknown','reason':'there is none'}");
+        control.run("mission", "show", "typo", "-o", "jsonpath={.status.state}");
+        assertThat(control.output()).isEqualToIgnoringNewLines("there is none (unknown)");
+        assertThat(control.run("mission", "list", "-o", "jsonpath={.items[}")).isEqualTo(2);
+        assertThat(control.output()).contains("'--output': '.items[' is no JSONPath: cannot be read at character 7");
+        assertThat(control.run("mission", "list", "-o", "jsn")).isEqualTo(2);
+        assertThat(control.output()).contains("expected one of [table, wide, json, yaml, name, jsonpath=, csv, env]");
     }
 
     /** Otherwise a misspelled name looks like a mission without devices. */

@@ -51,7 +51,7 @@ class MissionControlTest {
         assertThat(run("mission", "list")).isZero();
 
         assertThat(output.toString()).containsPattern("m +d +- +%s +%s +5 +-".formatted(state, up));
-        assertThat(requested).containsExactly("GET /api/missions");
+        assertThat(requested).containsExactly("GET /api/missions?limit=1000");
     }
 
     @ParameterizedTest

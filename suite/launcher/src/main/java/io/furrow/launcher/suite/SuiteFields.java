@@ -88,11 +88,8 @@ final class SuiteFields {
         List<FieldVersion> desired = read(file == null ? demo(directory) : file).stream()
                 .map(ImportedField::version)
                 .toList();
-        List<FieldVersion> changed =
-                FieldChange.of(desired, existing, field -> file != null, Instant.EPOCH.toEpochMilli()).stream()
-                        .filter(change -> change.kind() != FieldChange.Kind.UNCHANGED)
-                        .map(FieldChange::version)
-                        .toList();
+        List<FieldVersion> changed = FieldChange.toWrite(
+                FieldChange.of(desired, existing, field -> file != null, Instant.EPOCH.toEpochMilli()));
         topic.write(changed);
         return changed;
     }

@@ -1,9 +1,7 @@
 package io.furrow.cli.control.client;
 
-import java.io.BufferedReader;
 import java.io.IOException;
 import java.io.InputStream;
-import java.io.InputStreamReader;
 import java.io.OutputStream;
 import java.net.HttpURLConnection;
 import java.net.URI;
@@ -13,10 +11,10 @@ import java.util.Objects;
 import java.util.StringJoiner;
 import java.util.UUID;
 import java.util.concurrent.TimeUnit;
+import java.util.function.Consumer;
 import java.util.function.Predicate;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
-import java.util.stream.Stream;
 import javax.net.ssl.HttpsURLConnection;
 import javax.net.ssl.SSLContext;
 import javax.net.ssl.SSLSocketFactory;
@@ -25,6 +23,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.MissingNode;
 
+import io.furrow.cli.control.table.ControlTable;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -37,7 +36,7 @@ public final class ControlApi {
     private static final int ATTEMPTS = 10;
     private static final int NOT_READY = 503;
     private static final int NO_TOKEN = 401;
-    private static final int UNKNOWN = 404;
+    static final int UNKNOWN = 404;
     private static final int AFTER_SECONDS = 1;
     private static final int MAX_PAGES = 20;
     private static final String JSON = "application/json";
@@ -58,7 +57,7 @@ public final class ControlApi {
     private final SSLSocketFactory sockets;
 
     /** @param link to further pages; may be empty */
-    private record Answer(int status, String retryAfter, String link, byte[] body) {}
+    record Answer(int status, String retryAfter, String link, byte[] body) {}
 
     /** Elements of a list. @param hasMore whether there are, or may be, others */
     public record Page(ArrayNode elements, boolean hasMore) {}
@@ -151,18 +150,32 @@ public final class ControlApi {
         boolean ended = false;
         for (int page = 0; next != null && !ended && elements.size() < limit && page < MAX_PAGES; page++) {
             Answer answer = answer("GET", next, null, JSON);
-            for (JsonNode element : read(answer)) {
+            for (JsonNode element : ControlTable.rows(read(answer))) {
                 elements.add(element);
                 ended |= isLast.test(element);
             }
-            Matcher link = NEXT.matcher(answer.link());
-            next = link.find() ? path.replaceFirst("\\?.*", "") + link.group(1) : null;
+            next = next(path, answer);
         }
         boolean tooMany = elements.size() > limit;
         while (elements.size() > limit) {
             elements.remove(limit);
         }
         return new Page(elements, tooMany || next != null);
+    }
+
+    /** Gets all pages of a list, however many there are. */
+    public void pages(String path, Consumer<JsonNode> page) {
+        for (String next = path; next != null; ) {
+            Answer answer = answer("GET", next, null, JSON);
+            page.accept(read(answer));
+            next = next(path, answer);
+        }
+    }
+
+    /** The path of the next page; null for none. */
+    private static String next(String path, Answer answer) {
+        Matcher link = NEXT.matcher(answer.link());
+        return link.find() ? path.replaceFirst("\\?.*", "") + link.group(1) : null;
     }
 
     private Answer answer(String method, String path, JsonNode body, String accept) {
@@ -175,7 +188,7 @@ public final class ControlApi {
         return succeeded(answer);
     }
 
-    private Answer succeeded(Answer answer) {
+    Answer succeeded(Answer answer) {
         if (answer.status() / 100 == 2) {
             return answer;
         }
@@ -193,30 +206,6 @@ public final class ControlApi {
                 json.isObject() ? json : null);
     }
 
-    /**
-     * Lines of an event stream, until it ends or the stream is closed.
-     *
-     * @throws ControlPlaneException if it is unavailable or refuses
-     */
-    public Stream<String> events(String path) {
-        try {
-            HttpURLConnection connection = open("GET", path, "text/event-stream");
-            int status = connection.getResponseCode();
-            if (status / 100 != 2) {
-                connection.disconnect();
-                throw new ControlPlaneException(
-                        "The control plane at %s answers %d to %s".formatted(base, status, path),
-                        status == UNKNOWN,
-                        null);
-            }
-            return new BufferedReader(new InputStreamReader(connection.getInputStream(), UTF_8))
-                    .lines()
-                    .onClose(connection::disconnect);
-        } catch (IOException e) {
-            throw ControlPlaneException.noAnswer(base, e);
-        }
-    }
-
     private Answer exchange(String method, String path, JsonNode body, String accept, String key) {
         try {
             HttpURLConnection connection = open(method, path, accept);
@@ -230,19 +219,27 @@ public final class ControlApi {
                     out.write(NgsiJson.write(body == null ? NgsiJson.object() : body));
                 }
             }
-            int status = connection.getResponseCode();
-            try (InputStream answer = status < 400 ? connection.getInputStream() : connection.getErrorStream()) {
-                String retryAfter = Objects.requireNonNullElse(connection.getHeaderField("Retry-After"), "");
-                String link = Objects.requireNonNullElse(connection.getHeaderField("Link"), "");
-                return new Answer(status, retryAfter, link, answer == null ? new byte[0] : answer.readAllBytes());
-            }
+            return received(connection);
         } catch (IOException e) {
-            throw ControlPlaneException.noAnswer(base, e);
+            throw noAnswer(e);
         }
     }
 
+    static Answer received(HttpURLConnection connection) throws IOException {
+        int status = connection.getResponseCode();
+        try (InputStream answer = status < 400 ? connection.getInputStream() : connection.getErrorStream()) {
+            String retryAfter = Objects.requireNonNullElse(connection.getHeaderField("Retry-After"), "");
+            String link = Objects.requireNonNullElse(connection.getHeaderField("Link"), "");
+            return new Answer(status, retryAfter, link, answer == null ? new byte[0] : answer.readAllBytes());
+        }
+    }
+
+    ControlPlaneException noAnswer(IOException e) {
+        return ControlPlaneException.noAnswer(base, e);
+    }
+
     /** Uses a client without threads of its own, for which the JVM would wait at the end, and without PATCH. */
-    private HttpURLConnection open(String method, String path, String accept) throws IOException {
+    HttpURLConnection open(String method, String path, String accept) throws IOException {
         String versioned = isoTimes ? UNVERSIONED.matcher(path).replaceFirst("/api/v1/") : path;
         URI uri = URI.create(base.toString().replaceAll("/+$", "") + versioned);
         HttpURLConnection connection = (HttpURLConnection) uri.toURL().openConnection();
@@ -272,7 +269,7 @@ public final class ControlApi {
         }
     }
 
-    private JsonNode read(Answer answer) {
+    JsonNode read(Answer answer) {
         try {
             return answer.body().length == 0 ? MissingNode.getInstance() : NgsiJson.read(answer.body());
         } catch (UnreadableException e) {

@@ -22,6 +22,7 @@ import picocli.CommandLine.Spec;
 import io.furrow.cli.control.table.AnswerText;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.CredentialList;
+import io.furrow.cli.option.Contexts;
 import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.cli.option.OutputOptions;
 import io.furrow.model.ngsi.NgsiJson;
@@ -36,10 +37,11 @@ public final class ControlOptions {
             names = "--api",
             paramLabel = "URL",
             converter = HttpUriConverter.class,
-            defaultValue = "${env:FURROW_API:-http://127.0.0.1:8085}",
+            defaultValue = "${env:FURROW_API:-" + Contexts.DEFAULT_API + "}",
             description = {
                 "REST API of the control plane.",
-                "Default: $FURROW_API, else http://127.0.0.1:8085." // a line of its own: it would be divided at a dot
+                "Default: $FURROW_API, else " + Contexts.DEFAULT_API
+                        + "." // a line of its own: it would be divided at a dot
             })
     private URI api;
 
@@ -49,7 +51,7 @@ public final class ControlOptions {
             description =
                     "File with the token for the control plane: its first line is a token, or '<name> <token> <role>' as "
                             + "in the file of the control plane. Default: the token in $FURROW_TOKEN, else the file "
-                            + "$FURROW_TOKEN_FILE.")
+                            + "$FURROW_TOKEN_FILE. That of a context is sent to the API of the context only.")
     private Path tokenFile;
 
     @Option(
@@ -216,7 +218,7 @@ public final class ControlOptions {
 
     private int runWith(Work work) {
         try {
-            work.with(new ControlApi(api, token(), trust(), output.isForPrograms()));
+            work.with(client());
             out().flush();
             return 0;
         } catch (ControlPlaneException e) {
@@ -229,12 +231,17 @@ public final class ControlOptions {
 
     private String reason(ControlPlaneException rejection) {
         try {
-            return output.isForPrograms() && rejection.problem() != null
+            return output.isWhole() && rejection.problem() != null
                     ? output.text(rejection.problem())
                     : rejection.sentence(spec);
         } catch (IOException e) { // it was read from JSON
             throw new UncheckedIOException(e);
         }
+    }
+
+    /** Whether an option is on the command line, so that it is not a default. */
+    public boolean isGiven(String option) {
+        return spec.commandLine().getParseResult().hasMatchedOption(option);
     }
 
     /** Rejects the arguments of a command. */
@@ -261,10 +268,6 @@ public final class ControlOptions {
         out().println(output.text(answer));
     }
 
-    public static String pretty(JsonNode json) throws IOException {
-        return NgsiJson.mapper().writerWithDefaultPrettyPrinter().writeValueAsString(json);
-    }
-
     public PrintWriter out() {
         return spec.commandLine().getOut();
     }
@@ -280,19 +283,18 @@ public final class ControlOptions {
         return json;
     }
 
-    private String token() {
+    /** Connects to nothing yet. */
+    private ControlApi client() {
         try {
-            return ClientToken.find(tokenFile, System.getenv()).orElse(null);
+            boolean isOfOther = !isGiven("--token-file")
+                    && spec.commandLine().getDefaultValueProvider() instanceof Contexts contexts
+                    && !contexts.isOwnApi(api);
+            String token = ClientToken.find(isOfOther ? null : tokenFile, System.getenv())
+                    .orElse(null);
+            SSLContext trust = ca == null ? null : TrustedCertificates.context(ca);
+            return new ControlApi(api, token, trust, output.isForPrograms());
         } catch (IOException e) {
             throw new ParameterException(spec.commandLine(), e.getMessage(), e);
-        }
-    }
-
-    private SSLContext trust() {
-        try {
-            return ca == null ? null : TrustedCertificates.context(ca);
-        } catch (IOException e) {
-            throw new ParameterException(spec.commandLine(), "--api-ca " + e.getMessage(), e);
         }
     }
 }

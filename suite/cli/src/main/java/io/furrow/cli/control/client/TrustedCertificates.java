@@ -15,7 +15,7 @@ import javax.net.ssl.TrustManagerFactory;
 final class TrustedCertificates {
     private TrustedCertificates() {}
 
-    /** @throws IOException if the file cannot be read or holds no certificate; the message names it */
+    /** @throws IOException if the file cannot be read or holds no certificate; the message names the option */
     static SSLContext context(Path file) throws IOException {
         try (InputStream pem = Files.newInputStream(file)) {
             KeyStore store = KeyStore.getInstance(KeyStore.getDefaultType());
@@ -33,7 +33,9 @@ final class TrustedCertificates {
             return context;
         } catch (IOException | GeneralSecurityException e) {
             throw new IOException(
-                    file + " cannot be read or holds no certificate in PEM; name that of the control plane's CA", e);
+                    "--api-ca " + file
+                            + " cannot be read or holds no certificate in PEM; name that of the control plane's CA",
+                    e);
         }
     }
 }

@@ -1,4 +1,4 @@
-package io.furrow.cli.option;
+package io.furrow.cli.recording;
 
 import java.io.IOException;
 import java.io.OutputStream;
@@ -10,18 +10,13 @@ import java.util.function.LongConsumer;
 import org.apache.flink.core.fs.Path;
 
 import io.furrow.mission.Recording;
-import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.archive.MissionFiles;
-import io.furrow.mission.archive.StoredMissions;
 import io.furrow.mission.export.ExportResult;
 import io.furrow.mission.export.GeoJsonExport;
 import io.furrow.mission.export.McapExport;
 import io.furrow.mission.export.MissionExport;
 import io.furrow.mission.marker.Marker;
 import io.furrow.mission.marker.MarkerFile;
-import io.furrow.mission.marker.Markers;
-import io.furrow.mission.mongo.MongoAccess;
-import io.furrow.mission.mongo.MongoRecordings;
 
 /** The output formats of {@code ./furrow mission export}. */
 public enum ExportFormat {
@@ -36,30 +31,20 @@ public enum ExportFormat {
         this.export = export;
     }
 
-    /**
-     * A mission in MongoDB.
-     *
-     * @param missions its store
-     */
-    public record Source(StoredMissions missions, String mongo, String mission) {}
-
     /** As it is written on the command line. */
     @Override
     public String toString() {
         return name().toLowerCase(Locale.ROOT);
     }
 
-    public ExportResult write(Source source, OutputStream out, LongConsumer progress) throws IOException {
+    /** @throws IOException if it cannot be read or written */
+    public ExportResult write(MissionStore store, String mission, OutputStream out, LongConsumer progress)
+            throws IOException {
         if (export == null) {
-            return new ExportResult(source.missions().export(source.mission(), out, progress), 0, Optional.empty());
+            return new ExportResult(store.export(mission, out, progress), 0, Optional.empty());
         }
-        MongoRecordings recordings = new MongoRecordings(source.mongo(), MongoAccess.DATABASE);
-        try (Recording recording = recordings
-                .open(source.mission())
-                .orElseThrow(() -> new RecordingDeletedException(
-                        "Mission %s has just been deleted".formatted(source.mission())))) {
-            MissionExport.Source mission = new MissionExport.Source(source.mission(), recording, markers(source));
-            return export.write(mission, out, progress);
+        try (Recording recording = store.open(mission)) {
+            return export.write(new MissionExport.Source(mission, recording, store.markers(mission)), out, progress);
         }
     }
 
@@ -69,12 +54,12 @@ public enum ExportFormat {
      * @param file of the mission
      * @return the file of the markers; empty without markers, or if the mission's file holds them
      */
-    public Optional<Path> writeMarkers(Source source, Path file) throws IOException {
+    public Optional<Path> writeMarkers(MissionStore store, String mission, Path file) throws IOException {
         if (export != null) {
             return Optional.empty();
         }
         Path beside = new Path(MarkerFile.beside(file.toString()));
-        List<Marker> markers = markers(source);
+        List<Marker> markers = store.markers(mission);
         if (markers.isEmpty() && !beside.getFileSystem().exists(beside)) {
             return Optional.empty();
         }
@@ -83,11 +68,5 @@ public enum ExportFormat {
             return markers.size();
         });
         return Optional.of(beside);
-    }
-
-    private static List<Marker> markers(Source source) throws IOException {
-        try (Markers markers = Markers.open(source.mongo(), MongoAccess.DATABASE)) {
-            return markers.list(source.mission());
-        }
     }
 }

@@ -1,0 +1,2 @@
+/** Exports and imports stored missions, through the control plane or past it. */
+package io.furrow.cli.recording;
