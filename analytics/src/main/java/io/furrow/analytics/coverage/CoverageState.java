@@ -42,6 +42,10 @@ public record CoverageState(
                 begin, first.withoutArea(), cell, 0, 0, 0, List.of(), NEVER, List.of(new Sample(begin, 0)));
     }
 
+    boolean isReportDue(long until) {
+        return reportAt != NEVER && reportAt <= until;
+    }
+
     CoverageState with(Swath swath, long newlyCovered, long newlyOverlapped, List<Swath> nowRecent, long nextReport) {
         return new CoverageState(
                 begin,

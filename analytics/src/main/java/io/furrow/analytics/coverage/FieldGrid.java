@@ -93,6 +93,16 @@ final class FieldGrid {
         return tilesPerRow() * ((rows + TILE - 1) / TILE);
     }
 
+    /** The southernmost row of a tile. */
+    int rowOf(int tile) {
+        return tile / tilesPerRow() * TILE;
+    }
+
+    /** The westernmost column of a tile. */
+    int columnOf(int tile) {
+        return tile % tilesPerRow() * Long.SIZE;
+    }
+
     private int tilesPerRow() {
         return (columns + Long.SIZE - 1) / Long.SIZE;
     }

@@ -13,8 +13,4 @@ public record FieldRef(String id, long validFrom, String name, String domain) {
     static FieldRef of(Field field) {
         return new FieldRef(field.id(), field.validFrom(), field.name(), field.domain());
     }
-
-    String key() {
-        return id + '@' + validFrom;
-    }
 }

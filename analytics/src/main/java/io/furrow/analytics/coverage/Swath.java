@@ -81,9 +81,14 @@ public record Swath(
     }
 
     /** The coverage that it belongs to: a mission's, in a version of a field, of one robot or of all. */
-    String key() {
+    public String key() {
+        return to.topic() + '|' + field.validFrom() + '|' + name();
+    }
+
+    /** The same without topic and version. */
+    String name() {
         String mission = to.scope().identity(to.mission().length() + ":" + to.mission());
-        return to.topic() + '|' + mission + '|' + field.key() + '|' + (ofRobot ? robot() : "");
+        return mission + '|' + field.id() + '|' + (ofRobot ? robot() : "");
     }
 
     /** The convex parts of its outline in the meters of a grid. */
