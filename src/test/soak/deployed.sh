@@ -144,7 +144,7 @@ submit() {
     words[0]=$archive/docker/flink/submit
     "${words[@]}" >"$logs/job-$1.log" 2>&1 || fail "Cannot submit $1: $logs/job-$1.log"
 }
-for job in ingest temperature collision presence replay; do submit "$job"; done
+for job in ingest temperature collision presence coverage replay; do submit "$job"; done
 
 # upgrade JOB: follows docs/install-three.md.
 upgrade() {

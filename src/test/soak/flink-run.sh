@@ -57,7 +57,7 @@ jar_of() {
 
 # Each job has a --help that works without Flink.
 check_help() {
-    for name in ingest normalize presence temperature collision; do
+    for name in ingest normalize presence temperature collision coverage; do
         "$java" -jar "$(jar_of "$name")" "$name" --help >"$logs/$name.help" 2>&1 || fail "$name --help fails: $logs/$name.help"
         grep -q -- '--bootstrap-servers' "$logs/$name.help" || fail "$name --help shows no options: $logs/$name.help"
     done
@@ -65,7 +65,7 @@ check_help() {
 
 # An unknown option is reported without a stack trace.
 check_unknown_option() {
-    for name in ingest normalize presence temperature collision; do
+    for name in ingest normalize presence temperature collision coverage; do
         ! "$FLINK_HOME/bin/flink" run -d "$(jar_of "$name")" "$name" --no-such-option >"$logs/$name.error" 2>&1 ||
             fail "flink run of $name with an unknown option ends with 0."
         grep -q "Unknown option: '--no-such-option'" "$logs/$name.error" && grep -q "^See: .* $name --help" "$logs/$name.error" &&

@@ -202,7 +202,7 @@ const english = {
     oneClock: 'With one clock, all show the same event time at any moment.',
     from: 'From ({zone})', to: 'To ({zone})', wrongRange: 'The end must be after the beginning.',
     speed: 'Speed', times: '{speed} ×', fastest: 'as fast as possible',
-    analytics: 'With analytics', analyticsHint: 'Encounters, averages and presence are computed again and shown with the replay.',
+    analytics: 'With analytics', analyticsHint: 'Encounters, averages, presence and worked areas are computed again and shown with the replay.',
     loop: 'Repeat',
     skip: 'Shorten stretches without events to 30 s',
     start: 'Start replay', starting: 'Starting …',

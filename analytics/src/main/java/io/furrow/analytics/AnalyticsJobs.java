@@ -4,6 +4,7 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Option;
 
 import io.furrow.analytics.collision.CollisionOptions;
+import io.furrow.analytics.coverage.CoverageOptions;
 import io.furrow.analytics.job.AnalyticsOptions;
 import io.furrow.analytics.presence.PresenceOptions;
 import io.furrow.analytics.temperature.TemperatureOptions;
@@ -15,7 +16,7 @@ import io.furrow.flink.job.JobOptions;
         name = "furrow-analytics",
         synopsisSubcommandLabel = "JOB",
         description = "Answers one question about what devices report, per job.",
-        subcommands = {CollisionOptions.class, PresenceOptions.class, TemperatureOptions.class})
+        subcommands = {CollisionOptions.class, CoverageOptions.class, PresenceOptions.class, TemperatureOptions.class})
 public final class AnalyticsJobs {
     @Option(
             names = {"-h", "--help"},

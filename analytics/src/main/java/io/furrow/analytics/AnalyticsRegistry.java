@@ -4,6 +4,8 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.analytics.collision.CollisionJob;
 import io.furrow.analytics.collision.CollisionOptions;
+import io.furrow.analytics.coverage.CoverageJob;
+import io.furrow.analytics.coverage.CoverageOptions;
 import io.furrow.analytics.job.AnalyticsOptions;
 import io.furrow.analytics.presence.PresenceJob;
 import io.furrow.analytics.presence.PresenceOptions;
@@ -19,6 +21,7 @@ public final class AnalyticsRegistry {
     public static AnalyticsOptions options(AnalyticsKind kind) {
         return switch (kind) {
             case COLLISION -> new CollisionOptions();
+            case COVERAGE -> new CoverageOptions();
             case PRESENCE -> new PresenceOptions();
             case TEMPERATURE -> new TemperatureOptions();
         };
@@ -28,6 +31,7 @@ public final class AnalyticsRegistry {
     public static StreamExecutionEnvironment assemble(AnalyticsOptions options) {
         return switch (options.kind()) {
             case COLLISION -> CollisionJob.assemble((CollisionOptions) options);
+            case COVERAGE -> CoverageJob.assemble((CoverageOptions) options);
             case PRESENCE -> PresenceJob.assemble((PresenceOptions) options);
             case TEMPERATURE -> TemperatureJob.assemble((TemperatureOptions) options);
         };

@@ -1,6 +1,5 @@
 package io.furrow.analytics.job;
 
-import java.util.Set;
 import java.util.function.BiFunction;
 
 import org.apache.flink.streaming.api.datastream.DataStream;
@@ -26,7 +25,7 @@ public final class AnalyticsJob {
         StreamExecutionEnvironment env = JobEnvironment.create(options);
         DataStream<TopicRecord> records = KafkaInput.reportedChanges(env, options, options.maxDrift());
         KafkaOutput.writeAll(
-                definition.apply(env, records), options, options.topics().settings(Set.of()));
+                definition.apply(env, records), options, options.topics().settings(options.compacted()));
         return env;
     }
 }

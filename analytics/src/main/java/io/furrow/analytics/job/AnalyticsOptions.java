@@ -2,6 +2,7 @@ package io.furrow.analytics.job;
 
 import java.time.Duration;
 import java.util.Optional;
+import java.util.Set;
 
 import picocli.CommandLine.Mixin;
 
@@ -40,6 +41,11 @@ public abstract class AnalyticsOptions extends JobOptions {
     /** The maximum drift of event time between partitions; empty for no limit. */
     public Optional<Duration> maxDrift() {
         return alignment.maxDrift();
+    }
+
+    /** Output topics that retain the newest record of each key forever. */
+    public Set<String> compacted() {
+        return Set.of();
     }
 
     public String output() {

@@ -128,7 +128,7 @@ class ArchiveIT {
     @ParameterizedTest
     @CsvSource({
         "ingest, ingest", "ingest, normalize", "analytics, temperature",
-        "analytics, collision", "analytics, presence", "replay, replay"
+        "analytics, collision", "analytics, presence", "analytics, coverage", "replay, replay"
     })
     void rejectsWrongOptionsOfAJobInASentence(String module, String job) throws Exception {
         String jar = home.resolve("jobs/furrow-%s-%s-job.jar".formatted(module, VERSION))

@@ -22,7 +22,7 @@ public record InputTopics(List<String> names) {
     private static final String MISSION = "data\\.[^.]+\\.realtime\\.[^.]+$";
     /** No mission's topic ends in {@code .dead}, see {@link io.furrow.model.topic.TopicName}. */
     private static final String NO_RESULTS = "(?!.*\\.dead$)(?=" + MISSION
-            + "|(?!.*\\.(?:late|overflow|suspects|clocks|" + String.join("|", AnalyticsKind.jobNames()) + ")$))";
+            + "|(?!.*\\.(?:late|layer|overflow|suspects|clocks|" + String.join("|", AnalyticsKind.jobNames()) + ")$))";
 
     public InputTopics {
         names = List.copyOf(names);

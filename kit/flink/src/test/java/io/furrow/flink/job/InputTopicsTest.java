@@ -59,6 +59,7 @@ class InputTopicsTest {
         "data.north.realtime.dead, false",
         "data.temperature, true",
         "data.presence, false",
+        "data.north.layer, false",
         "other, false"
     })
     void takeWhatMatchesAndNothingThatAJobWrites(String topic, boolean taken) {

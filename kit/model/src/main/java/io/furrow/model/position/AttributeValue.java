@@ -7,13 +7,15 @@ import com.fasterxml.jackson.core.JsonToken;
 
 import io.furrow.model.ngsi.Numbers;
 
-/** Reads the value of a desired attribute if it is a text or a number; each entity overwrites it. */
+/** Reads the value of a desired attribute if it is a text, a number or a truth value; each entity overwrites it. */
 class AttributeValue {
     private enum Kind {
         /** The attribute is missing or null. */
         ABSENT,
         TEXT,
         NUMBER,
+        TRUE,
+        FALSE,
         OTHER
     }
 
@@ -45,6 +47,10 @@ class AttributeValue {
                 kind = Kind.NUMBER;
                 number = number(parser);
                 return tokens.isPlainNumber(number);
+            }
+            case VALUE_TRUE, VALUE_FALSE -> {
+                kind = parser.currentToken() == JsonToken.VALUE_TRUE ? Kind.TRUE : Kind.FALSE;
+                return readOther(tokens, parser);
             }
             default -> {
                 kind = Kind.OTHER;
@@ -124,6 +130,11 @@ class AttributeValue {
 
     boolean isPresent() {
         return kind != Kind.ABSENT;
+    }
+
+    /** Returns the truth value; null for other values. */
+    Boolean truthOrNull() {
+        return kind == Kind.TRUE ? Boolean.TRUE : kind == Kind.FALSE ? Boolean.FALSE : null;
     }
 
     /** Returns the text; null for other values. */

@@ -8,6 +8,7 @@ import java.util.Set;
 
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
+import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.Quantity;
@@ -168,6 +169,13 @@ public final class EntityReader {
         return tree == null
                 ? Optional.ofNullable(value(attribute).textOrNull()).filter(text -> !text.isBlank())
                 : tree.text(attribute);
+    }
+
+    /** Returns the value of a desired attribute as a truth value; empty if it is missing or none. */
+    public Optional<Boolean> truth(String attribute) {
+        return tree == null
+                ? Optional.ofNullable(value(attribute).truthOrNull())
+                : tree.value(attribute).filter(JsonNode::isBoolean).map(JsonNode::booleanValue);
     }
 
     /** Returns the value of a desired attribute as a finite number, also if it was sent as text; otherwise NaN. */

@@ -9,6 +9,7 @@ import java.util.stream.Stream;
 /** The analytics jobs, with the topics of their results. */
 public enum AnalyticsKind {
     COLLISION,
+    COVERAGE,
     PRESENCE,
     TEMPERATURE;
 

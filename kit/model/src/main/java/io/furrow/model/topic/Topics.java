@@ -71,6 +71,11 @@ public final class Topics {
     /** Grid cells with too many close pairs to follow them all. */
     public static final String COLLISION_OVERFLOW = "data.collision.overflow";
 
+    public static final String COVERAGE = "data.coverage";
+    public static final String COVERAGE_LATE = "data.coverage.late";
+    /** Cells of fields that are covered. */
+    public static final String COVERAGE_LAYER = "data.coverage.layer";
+
     public static final String PRESENCE = "data.presence";
     public static final String PRESENCE_LATE = "data.presence.late";
 

@@ -9,6 +9,7 @@ import java.util.Random;
 import java.util.Set;
 import java.util.TreeSet;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
@@ -184,7 +185,8 @@ class EntityReaderTest {
                 reader.has(name),
                 reader.text(name),
                 Double.isNaN(number) ? Optional.empty() : Optional.of(number),
-                reader.number(name, Quantity.SPEED));
+                reader.number(name, Quantity.SPEED),
+                reader.truth(name));
     }
 
     private static Answer ofTree(byte[] bytes) {
@@ -209,7 +211,8 @@ class EntityReaderTest {
                 entity.value(name).isPresent(),
                 entity.text(name),
                 entity.number(name),
-                Quantity.SPEED.of(entity, name).orElse(Double.NaN));
+                Quantity.SPEED.of(entity, name).orElse(Double.NaN),
+                entity.value(name).filter(JsonNode::isBoolean).map(JsonNode::booleanValue));
     }
 
     private static byte[] within(String before, String document, String after) {
