@@ -3,7 +3,7 @@
 export const texts = {
   app: {
     title: 'Furrow',
-    skip: 'Saltar al contenido', skipPanel: 'Saltar a alarmas y dispositivos',
+    skip: 'Saltar al contenido', skipPanel: 'Saltar a alarmas y dispositivos', skipTimeline: 'Saltar a la línea de tiempo',
     find: 'Buscar un dispositivo, una parcela o una alarma', findShort: 'Buscar …',
     live: 'En vivo', notConnected: 'Sin conexión',
     replayOf: 'Reproducción de {mission} · {day}',
@@ -95,6 +95,7 @@ export const texts = {
     label: 'Mapa de la finca. Las flechas lo mueven, más y menos cambian la escala; la tabla contiene lo mismo en filas.',
     controls: 'Mapa', zoomIn: 'Acercar', zoomOut: 'Alejar', fit: 'Mostrar toda la finca', farms: 'Fincas', layers: 'Qué se muestra', table: 'El mapa como tabla', closeTable: 'Cerrar la tabla',
     tables: { devices: 'Dispositivos', encounters: 'Encuentros', fields: 'Parcelas' },
+    base: { title: 'Mapa base', none: 'ninguno', server: 'del servidor', address: 'de {host}', file: 'Elegir un archivo PMTiles …', hint: 'Teselas de imagen; el archivo se guarda en este navegador y funciona sin conexión.', remove: 'Quitar {file} de este navegador', noPictures: '{file} no contiene imágenes como teselas', failed: 'El mapa base no se puede mostrar: {reason}' },
     options: { trails: 'Recorridos', labels: 'Nombres', rows: 'Líneas de las parcelas' },
     legend: 'Leyenda', stopped: 'apagado o parado', encounter: 'encuentro', predicted: '{distance} en {time} s', ended: 'fue {distance}', closest: 'mínimo {distance}',
     devices: '{count dispositivo|dispositivos}', unverified: 'sin verificar', suspects: '{count} sospechosos', noAlarms: 'sin alarmas',
@@ -227,7 +228,7 @@ export const texts = {
     oneClock: 'Con un mismo reloj, todas muestran la misma hora en cada momento.',
     from: 'Desde ({zone})', to: 'Hasta ({zone})', wrongRange: 'El final debe ser posterior al principio.',
     speed: 'Velocidad', times: '{speed} ×', fastest: 'lo más rápido posible',
-    analytics: 'Con análisis', analyticsHint: 'Encuentros, medias y presencia se calculan de nuevo y se muestran con la reproducción.',
+    analytics: 'Con análisis', analyticsHint: 'Encuentros, medias, presencia y superficies trabajadas se calculan de nuevo y se muestran con la reproducción.',
     loop: 'Repetir',
     skip: 'Acortar a 30 s los tramos sin eventos',
     start: 'Iniciar la reproducción', starting: 'Se inicia …',
