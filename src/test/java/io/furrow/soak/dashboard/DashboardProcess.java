@@ -54,7 +54,7 @@ final class DashboardProcess implements AutoCloseable {
                         Integer.toString(port),
                         "--kafka",
                         bootstrapServers,
-                        "--control-plane",
+                        "--api",
                         controlPlane.toString(),
                         "--log",
                         folder.resolve("dashboard.log").toString()));

@@ -69,7 +69,7 @@ public final class DeviceHostCommand implements Callable<Integer> {
     private String trusted;
 
     @Option(
-            names = "--mqtt-qos",
+            names = {"--qos", "--mqtt-qos"},
             paramLabel = "0|1",
             defaultValue = "${env:FURROW_MQTT_QOS:-1}",
             description =
@@ -78,7 +78,7 @@ public final class DeviceHostCommand implements Callable<Integer> {
     private int qos;
 
     @Option(
-            names = "--context-broker",
+            names = {"--orion", "--context-broker"},
             paramLabel = "URL",
             defaultValue = "${env:FURROW_CONTEXT_BROKER:-http://127.0.0.1:1026}",
             description =

@@ -56,7 +56,7 @@ public final class DashboardCommand implements Callable<Integer> {
     private Path kafkaProperties;
 
     @Option(
-            names = "--control-plane",
+            names = {"--api", "--control-plane"},
             paramLabel = "URL",
             converter = HttpUriConverter.class,
             description =
@@ -67,7 +67,7 @@ public final class DashboardCommand implements Callable<Integer> {
             names = "--host",
             paramLabel = "ADDRESS",
             description =
-                    "Address to listen on; another than this machine's needs --insecure. Default: ${DEFAULT-VALUE}.")
+                    "Address to listen on; another than this machine's needs --listen-insecure. Default: ${DEFAULT-VALUE}.")
     private String host = "127.0.0.1";
 
     @Option(
@@ -77,7 +77,7 @@ public final class DashboardCommand implements Callable<Integer> {
     private int port = 8080;
 
     @Option(
-            names = "--insecure",
+            names = {"--listen-insecure", "--insecure"},
             description =
                     "Listen on --host in plain HTTP: a proxy in front terminates TLS, and the control plane requires "
                             + "tokens.")
@@ -163,7 +163,7 @@ public final class DashboardCommand implements Callable<Integer> {
         if (!insecure && !isLoopback()) {
             throw new ParameterException(
                     spec.commandLine(),
-                    "--host %s lets other machines in: tokens would pass in the clear. End TLS in a proxy before it and say --insecure, or keep to 127.0.0.1."
+                    "--host %s lets other machines in: tokens would pass in the clear. End TLS in a proxy before it and say --listen-insecure, or keep to 127.0.0.1."
                             .formatted(host));
         }
         try {
