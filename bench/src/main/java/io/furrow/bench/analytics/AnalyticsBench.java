@@ -14,6 +14,7 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
+import io.furrow.bench.analytics.load.SyntheticFields;
 import io.furrow.bench.frame.Benchmark;
 import io.furrow.bench.frame.Chart;
 import io.furrow.bench.frame.Engines;
@@ -25,7 +26,7 @@ import io.furrow.bench.frame.OutputOption;
         name = "analytics",
         sortOptions = false,
         description = {
-            "Measures collision, temperature and presence on a Kafka and a Flink in this JVM for several numbers "
+            "Measures collision, temperature, presence and coverage on a Kafka and a Flink in this JVM for several numbers "
                     + "of devices and cores, each beside a bare loop without Flink.",
             "Exit code 0 means that in every second that was compared as many encounters start as in the bare "
                     + "loop, and that the rate was held, as far as these parts were measured."
@@ -40,7 +41,8 @@ public final class AnalyticsBench extends Benchmark {
         HELD,
         CROWD,
         BACKLOG,
-        FIELDS
+        FIELDS,
+        COVERAGE
     }
 
     @Option(
@@ -48,7 +50,7 @@ public final class AnalyticsBench extends Benchmark {
             paramLabel = "PART,…",
             split = ",",
             hideParamSyntax = true,
-            defaultValue = "MEMORY,KAFKA,HELD,CROWD,BACKLOG,FIELDS",
+            defaultValue = "MEMORY,KAFKA,HELD,CROWD,BACKLOG,FIELDS,COVERAGE",
             description = {
                 "MEMORY: collision updates per second, from memory.",
                 "KAFKA: the same from NGSI entities in a topic to a topic of results.",
@@ -56,6 +58,7 @@ public final class AnalyticsBench extends Benchmark {
                 "CROWD: devices on one spot: the cell that they share, then the job, for five minutes each.",
                 "BACKLOG: what a job that was away for an hour holds in memory while it catches up.",
                 "FIELDS: points per second and core of the joins with fields.",
+                "COVERAGE: reports of robots per second and core that become worked area, beside a job that only copies.",
                 "Default: all."
             })
     private List<Part> parts;
@@ -125,6 +128,7 @@ public final class AnalyticsBench extends Benchmark {
             case CROWD -> cells() & onKafka(this::crowd);
             case BACKLOG -> onKafka(this::backlog);
             case FIELDS -> fields();
+            case COVERAGE -> coverage();
         };
     }
 
@@ -226,6 +230,13 @@ public final class AnalyticsBench extends Benchmark {
         new FieldMeasurement(load.fields, 50, load.points, this::say).run(cores, figures);
         add("fields", figures);
         draw("fields-cores", figures.chart("cores", List.of("points/s", "bare loop"), "join of"));
+        return true;
+    }
+
+    private boolean coverage() throws Exception {
+        Figures figures = new Figures("Worked area, from memory: a thousand robots in twenty fields of 50 vertices");
+        new CoverageMeasurement(new SyntheticFields(20, 50), load.points, this::say).run(cores, figures);
+        add("coverage", figures);
         return true;
     }
 

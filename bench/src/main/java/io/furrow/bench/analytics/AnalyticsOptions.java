@@ -106,6 +106,9 @@ final class AnalyticsOptions {
             description = "Fields of FIELDS, of 50 vertices. " + Benchmark.DEFAULT)
     int fields = 1000;
 
-    @Option(names = "--points", paramLabel = "N", description = "Points of each round of FIELDS. " + Benchmark.DEFAULT)
+    @Option(
+            names = "--points",
+            paramLabel = "N",
+            description = "Points of each round of FIELDS, reports of COVERAGE. " + Benchmark.DEFAULT)
     long points = 2_000_000;
 }
