@@ -1,11 +1,9 @@
 package io.furrow.analytics.coverage;
 
 import java.util.ArrayList;
-import java.util.Arrays;
 import java.util.Base64;
 import java.util.List;
 import java.util.Map;
-import java.util.TreeSet;
 
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
@@ -20,10 +18,8 @@ import org.slf4j.LoggerFactory;
 import picocli.CommandLine.ParameterException;
 
 import io.furrow.analytics.Replayed;
-import io.furrow.analytics.coverage.CoverageOracle.Exact;
 import io.furrow.analytics.coverage.WorkReport.Work;
 import io.furrow.analytics.field.FieldRecords;
-import io.furrow.analytics.field.FieldVersions;
 import io.furrow.flink.TestClusters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
@@ -81,52 +77,7 @@ class CoverageJobTest {
                             .map(CoverageRun::line)
                             .sorted())
                     .as("drives %d of seed %d", index, seed)
-                    .containsExactlyElementsOf(expected(drives, options));
-        }
-    }
-
-    private static List<String> expected(Drives drives, CoverageOptions options) throws Exception {
-        CoverageRules rules = options.rules();
-        FieldVersions fields = FieldVersions.read(drives.fields.atStart());
-        CoverageOracle oracle =
-                new CoverageOracle(fields.at("f", Drives.START).orElseThrow().area(), rules);
-        List<Exact> all = oracle.swaths(drives.reports);
-        List<String> lines = new ArrayList<>();
-        for (String mission : new TreeSet<>(all.stream().map(Exact::mission).toList())) {
-            List<Exact> ofMission = all.stream()
-                    .filter(swath -> swath.mission().equals(mission))
-                    .toList();
-            addLines(mission + " all", ofMission, oracle, rules, lines);
-            for (String robot :
-                    new TreeSet<>(ofMission.stream().map(Exact::robot).toList())) {
-                List<Exact> own = ofMission.stream()
-                        .filter(swath -> swath.robot().equals(robot))
-                        .toList();
-                addLines(mission + " " + robot, own, oracle, rules, lines);
-            }
-        }
-        lines.sort(null);
-        return lines;
-    }
-
-    private static void addLines(
-            String name, List<Exact> swaths, CoverageOracle oracle, CoverageRules rules, List<String> lines) {
-        long every = rules.every().toMillis();
-        TreeSet<Long> times = new TreeSet<>(swaths.stream()
-                .map(swath -> (swath.time() + every - 1) / every * every)
-                .toList());
-        for (long time : times) {
-            int[][] codes = oracle.codes(
-                    swaths.stream().filter(swath -> swath.time() <= time).toList());
-            long[] counts = new long[4];
-            Arrays.stream(codes).flatMapToInt(Arrays::stream).forEach(code -> counts[code]++);
-            lines.add("%s at %d: %d covered, %d overlapped, %s in gaps"
-                    .formatted(
-                            name,
-                            time,
-                            counts[1] + counts[2],
-                            counts[2],
-                            name.endsWith("all") ? Long.toString(counts[3]) : "?"));
+                    .containsExactlyElementsOf(CoverageRun.expected(drives, options));
         }
     }
 
@@ -254,7 +205,6 @@ class CoverageJobTest {
         }
 
         List<TopicRecord> written = run(options(), SQUARE, records.toArray(TopicRecord[]::new));
-
         assertThat(!written.isEmpty()).isEqualTo(works);
     }
 
@@ -265,7 +215,6 @@ class CoverageJobTest {
             records.add(report(work("r", 10 + second, 10, second, Double.NaN, Work.UNKNOWN)));
         }
         TopicRecord[] all = records.toArray(TopicRecord[]::new);
-
         assertThat(run(options(), SQUARE, all)).isEmpty();
         assertThat(run(options("--working-width", "2", "--types", "Tractor"), SQUARE, all))
                 .isEmpty();

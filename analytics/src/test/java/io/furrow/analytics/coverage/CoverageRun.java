@@ -5,6 +5,7 @@ import java.util.Arrays;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Map;
+import java.util.TreeSet;
 
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
@@ -15,8 +16,10 @@ import io.furrow.analytics.AfterBroadcast;
 import io.furrow.analytics.EachEvent;
 import io.furrow.analytics.Replayed;
 import io.furrow.analytics.TestEnvironment;
+import io.furrow.analytics.coverage.CoverageOracle.Exact;
 import io.furrow.analytics.coverage.WorkReport.Work;
 import io.furrow.analytics.field.FieldInput;
+import io.furrow.analytics.field.FieldVersions;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.kafka.KafkaConnectors;
 import io.furrow.flink.record.TopicRecord;
@@ -128,5 +131,51 @@ final class CoverageRun {
         return entity.number(attribute)
                 .map(hectares -> Long.toString(Math.round(hectares * 10_000 / cell / cell)))
                 .orElse("?");
+    }
+
+    /** What the definition says: a line for each report of each mission's coverage, of all robots and of each. */
+    static List<String> expected(Drives drives, CoverageOptions options) throws Exception {
+        CoverageRules rules = options.rules();
+        FieldVersions fields = FieldVersions.read(drives.fields.atStart());
+        CoverageOracle oracle =
+                new CoverageOracle(fields.at("f", Drives.START).orElseThrow().area(), rules);
+        List<Exact> all = oracle.swaths(drives.reports);
+        List<String> lines = new ArrayList<>();
+        for (String mission : new TreeSet<>(all.stream().map(Exact::mission).toList())) {
+            List<Exact> ofMission = all.stream()
+                    .filter(swath -> swath.mission().equals(mission))
+                    .toList();
+            addLines(mission + " all", ofMission, oracle, rules, lines);
+            for (String robot :
+                    new TreeSet<>(ofMission.stream().map(Exact::robot).toList())) {
+                List<Exact> own = ofMission.stream()
+                        .filter(swath -> swath.robot().equals(robot))
+                        .toList();
+                addLines(mission + " " + robot, own, oracle, rules, lines);
+            }
+        }
+        lines.sort(null);
+        return lines;
+    }
+
+    private static void addLines(
+            String name, List<Exact> swaths, CoverageOracle oracle, CoverageRules rules, List<String> lines) {
+        long every = rules.every().toMillis();
+        TreeSet<Long> times = new TreeSet<>(swaths.stream()
+                .map(swath -> (swath.time() + every - 1) / every * every)
+                .toList());
+        for (long time : times) {
+            int[][] codes = oracle.codes(
+                    swaths.stream().filter(swath -> swath.time() <= time).toList());
+            long[] counts = new long[4];
+            Arrays.stream(codes).flatMapToInt(Arrays::stream).forEach(code -> counts[code]++);
+            lines.add("%s at %d: %d covered, %d overlapped, %s in gaps"
+                    .formatted(
+                            name,
+                            time,
+                            counts[1] + counts[2],
+                            counts[2],
+                            name.endsWith("all") ? Long.toString(counts[3]) : "?"));
+        }
     }
 }
