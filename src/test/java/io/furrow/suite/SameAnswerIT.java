@@ -32,7 +32,8 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class SameAnswerIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
-    private static final List<String> RESULTS = List.of(Topics.COLLISION, Topics.TEMPERATURE, Topics.PRESENCE);
+    private static final List<String> RESULTS = List.of(
+            Topics.COLLISION, Topics.TEMPERATURE, Topics.PRESENCE, Topics.COVERAGE, Topics.COVERAGE_LAYER);
 
     @Test
     void replaysYieldTheLiveResults() throws Exception {
@@ -53,9 +54,9 @@ class SameAnswerIT {
                       {"type": "Thermometer", "period": "PT1S", "path": [[-3.48355, 40.3135]]},
                       {"type": "Thermometer", "period": "PT1S", "path": [[-3.4826, 40.3133]],
                        "faults": [{"kind": "stuck", "value": 60}]},
-                      {"type": "Robot", "period": "PT0.5S", "speed": 1.5, "parameters": {"start": 6},
+                      {"type": "Robot", "period": "PT0.5S", "speed": 1.5, "parameters": {"start": 6, "width": 2},
                        "path": [[-3.484, 40.3128], [-3.4836, 40.3128]]},
-                      {"type": "Robot", "period": "PT0.5S", "speed": 1.5, "parameters": {"start": 6},
+                      {"type": "Robot", "period": "PT0.5S", "speed": 1.5, "parameters": {"start": 6, "width": 2},
                        "path": [[-3.4836, 40.31281], [-3.484, 40.31281]]}]}
                     """);
             await().atMost(TIMEOUT).until(() -> phases(collisions).contains("ended"));
@@ -118,7 +119,7 @@ class SameAnswerIT {
 
     private static String replay(RunningSuite running, String speed) throws Exception {
         JsonNode answer = running.post("/api/replays", """
-                {"mission": "weeding", "speed": %s, "analytics": ["collision", "temperature", "presence"]}
+                {"mission": "weeding", "speed": %s, "analytics": ["collision", "temperature", "presence", "coverage"]}
                 """.formatted(speed));
         assertThat(answer.path("topic").asText()).as(answer.toString()).isNotEmpty();
         return answer.path("topic").asText();

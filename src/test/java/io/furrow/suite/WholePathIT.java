@@ -92,6 +92,23 @@ class WholePathIT {
     }
 
     @Test
+    void writesWhatTheRobotsHaveCoveredOfTheirFieldIntoTheContextBroker() {
+        await().untilAsserted(() -> {
+            JsonNode coverages = running.ngsi().entities("type=Analytics:Coverage");
+            assertThat(coverages)
+                    .extracting(coverage -> coverage.at("/device/value").asText())
+                    .contains("", "urn:ngsi-ld:Robot:1", "urn:ngsi-ld:Robot:2");
+            assertThat(coverages).anySatisfy(all -> {
+                assertThat(all.at("/device/value").asText()).isEmpty();
+                assertThat(all.at("/Mission/value").asText()).isEqualTo("weeding");
+                assertThat(all.at("/field/value").asText()).isEqualTo("field-1");
+                assertThat(all.at("/share/value").asDouble()).isBetween(0.01, 1.0);
+                assertThat(all.at("/timeLeft/value").asLong()).isPositive();
+            });
+        });
+    }
+
+    @Test
     void routesEachMissionToItsTopicWithTheTimesOfAllHops() {
         try (TopicLog weeding = running.topic("data.farm.realtime.weeding");
                 TopicLog dummy = running.topic("data.canary.realtime.dummy")) {

@@ -170,6 +170,9 @@ final class FarmSimulation {
     private static Report update(Robot robot, RobotState state) {
         SimulatedDevice.Identity who = robot.identity();
         EntityBuilder entity = FirosEntity.of(who.entity(), robot.model(), state);
+        if (robot.workingWidth() > 0) {
+            entity.number("workingWidth", robot.workingWidth());
+        }
         if (robot.reportsMission()) {
             entity.text("Domain", who.domain()).text("Mission", who.mission());
         }

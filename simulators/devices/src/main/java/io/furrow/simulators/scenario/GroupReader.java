@@ -154,7 +154,9 @@ final class GroupReader {
                 group.number("meeting", 0, 1000, 0),
                 group.duration("patience", Duration.ofSeconds(20)));
         double driven = group.number("start", 0, 1e9, 0) / way.speed();
-        return new SimulatedDevice.Robot(identity, period, model, driven, group.truth("tellsMission", true));
+        double workingWidth = group.number("width", 0, 100, 0);
+        boolean reportsMission = group.truth("tellsMission", true);
+        return new SimulatedDevice.Robot(identity, period, model, driven, workingWidth, reportsMission);
     }
 
     private static Duration atLeastAMillisecond(ScenarioObjectReader json, String name)

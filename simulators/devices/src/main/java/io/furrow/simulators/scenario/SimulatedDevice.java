@@ -78,8 +78,15 @@ public sealed interface SimulatedDevice {
      * A robot.
      *
      * @param driven seconds of its way behind it at the start
+     * @param workingWidth of its implement, meters; 0 if it reports none
      * @param reportsMission whether it reports {@code Domain} and {@code Mission}, which FIROS does not
      */
-    record Robot(Identity identity, Duration period, RobotModel model, double driven, boolean reportsMission)
+    record Robot(
+            Identity identity,
+            Duration period,
+            RobotModel model,
+            double driven,
+            double workingWidth,
+            boolean reportsMission)
             implements SimulatedDevice {}
 }

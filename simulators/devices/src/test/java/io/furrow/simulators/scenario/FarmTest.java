@@ -160,7 +160,7 @@ class FarmTest {
         "entity": "urn:x:1"         | "entity": "urn:ngsi-ld:Robot:r-1" | missions[1].devices[0].entity: 'urn:ngsi-ld:Robot:r-1' is taken by missions[0].devices[2]; give it another
         "spacing": 4                | "spacing": 4, "margin": 100 | missions[0].devices[2].rows: field 'field-1' has no room for a row 100.0 m from its edge: give a smaller margin
         "rows": {"field": "field-1", "spacing": 4}, | ''          | missions[0].devices[2].rows: is missing; a robot needs either rows or a route
-        "meeting": 5                | "obstacles": {"every": "PT1M"} | missions[0].devices[2].obstacles: is not known here; known are count, entity, id, meeting, patience, period, route, rows, speed, start, tellsMission, turnRate, type
+        "meeting": 5                | "obstacles": {"every": "PT1M"} | missions[0].devices[2].obstacles: is not known here; known are count, entity, id, meeting, patience, period, route, rows, speed, start, tellsMission, turnRate, type, width
         "meanCelsius": 20           | "battery": "PT0S"           | missions[0].devices[0].battery: must be at least PT0.001S
         {"latitude": 40.3,          | {"latitude": 140.3,         | missions[1].devices[0].route[0].latitude: must be a number from -90 to 90, not 140.3
         "type": "Polygon"           | "type": "Point"             | fields.features[0]: the geometry of field 'field-1' is not a Polygon: make each part of a MultiPolygon a field of its own
