@@ -32,8 +32,8 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class SameAnswerIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
-    private static final List<String> RESULTS = List.of(
-            Topics.COLLISION, Topics.TEMPERATURE, Topics.PRESENCE, Topics.COVERAGE, Topics.COVERAGE_LAYER);
+    private static final List<String> RESULTS =
+            List.of(Topics.COLLISION, Topics.TEMPERATURE, Topics.PRESENCE, Topics.COVERAGE, Topics.COVERAGE_LAYER);
 
     @Test
     void replaysYieldTheLiveResults() throws Exception {

@@ -90,8 +90,7 @@ class BaseMapIT {
         farm.configures("\"tiles\": \"/api/tiles/{z}/{x}/{y}\"");
         FarmPage page = open();
         List<String> requested = new CopyOnWriteArrayList<>();
-        page.page()
-                .onRequest(request -> requested.add(URI.create(request.url()).getPath()));
+        page.page().onRequest(request -> requested.add(URI.create(request.url()).getPath()));
         page.page().reload();
         page.until(() -> requested.stream().anyMatch(each -> each.startsWith("/api/tiles/")));
         menu(page).getByLabel("none").check();

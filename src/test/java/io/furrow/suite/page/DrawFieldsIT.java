@@ -58,8 +58,9 @@ class DrawFieldsIT {
     }
 
     private static double[] at(FarmPage page, double x, double y) {
-        List<?> box = (List<?>) page.run(
-                "() => { const box = document.querySelector('.map-target').getBoundingClientRect(); return [box.left, box.top, box.width, box.height]; }");
+        List<?> box = (List<?>)
+                page.run(
+                        "() => { const box = document.querySelector('.map-target').getBoundingClientRect(); return [box.left, box.top, box.width, box.height]; }");
         double[] of =
                 box.stream().mapToDouble(each -> ((Number) each).doubleValue()).toArray();
         return new double[] {of[0] + x * of[2], of[1] + y * of[3]};
@@ -90,8 +91,7 @@ class DrawFieldsIT {
     /** The feature of a request, once it is sent; the page receives it as a version. */
     private JsonObject written(FarmPage page, int number) {
         page.until(() -> posts().size() == number);
-        JsonObject feature = JsonParser.parseString(
-                        posts().get(number - 1).substring("POST /api/fields ".length()))
+        JsonObject feature = JsonParser.parseString(posts().get(number - 1).substring("POST /api/fields ".length()))
                 .getAsJsonObject();
         farm.send(
                 "service.fields",
@@ -174,8 +174,9 @@ class DrawFieldsIT {
         page.button("Finish").click();
 
         assertThat(page.find(".map-edit-hint"))
-                .hasText(Pattern.compile(
-                        "The border crosses itself at 40\\.3\\d+, -3\\.48\\d+\\. Move a corner so that it does not\\."));
+                .hasText(
+                        Pattern.compile(
+                                "The border crosses itself at 40\\.3\\d+, -3\\.48\\d+\\. Move a corner so that it does not\\."));
         assertThat(page.find("dialog[open]")).hasCount(0);
         assertThat(page.button("Save")).isDisabled();
         page.page().keyboard().press("Escape"); // would lose the outline
@@ -214,8 +215,8 @@ class DrawFieldsIT {
         page.page().getByLabel("Change a field …").selectOption("south");
         page.button("End").click();
         page.find("dialog[open] .button.danger").click();
-        page.until(() ->
-                farm.sent().stream().anyMatch(each -> each.startsWith("PATCH /api/fields/south {\"validTo\":")));
+        page.until(
+                () -> farm.sent().stream().anyMatch(each -> each.startsWith("PATCH /api/fields/south {\"validTo\":")));
         farm.send("service.fields", "south@" + Instant.now(), "{\"properties\": {}, \"geometry\": null}");
         page.untilStore("store.fields.size === 0");
 
@@ -238,10 +239,7 @@ class DrawFieldsIT {
 
         page.page().getByLabel("Change a field …").selectOption("south");
         page.button("Attributes and corners").click();
-        farm.send(
-                "service.fields",
-                "south@" + Instant.now(),
-                changed.toString().replace("rye", "oats"));
+        farm.send("service.fields", "south@" + Instant.now(), changed.toString().replace("rye", "oats"));
         page.untilStore("store.fields.get('south').properties.crop === 'oats'");
         page.find("dialog[open] button[type=submit]").click();
         assertThat(page.find("dialog[open]")).containsText("Somebody changed south meanwhile.");

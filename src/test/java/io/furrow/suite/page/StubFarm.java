@@ -134,7 +134,8 @@ final class StubFarm implements AutoCloseable {
                 .route(
                         "**/config.json",
                         route -> json(
-                                route, "{\"analytics\": [\"collision\", \"temperature\", \"presence\"]" + config + "}"));
+                                route,
+                                "{\"analytics\": [\"collision\", \"temperature\", \"presence\"]" + config + "}"));
         page.page().route("**/api/**", this::answer);
         page.page().routeWebSocket("**/socket/*", socket -> {
             String topic = socket.url().substring(socket.url().lastIndexOf('/') + 1);

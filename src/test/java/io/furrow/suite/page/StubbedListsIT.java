@@ -92,8 +92,7 @@ class StubbedListsIT {
     private static String encounter(int number) {
         return """
                 {"topic": "data.collision", "kind": "event", "key": "e%1$d", "time": %2$d, "headers": {}, "value": {"type": "Analytics:Collision", "encounter": {"value": "e%1$d"},
-                 "phase": {"value": "ended"}, "time": {"value": %2$d}, "minDistance": {"value": 3}, "Device1_ID": {"value": "a"}, "Device2_ID": {"value": "b"}}}""".formatted(
-                        number, System.currentTimeMillis() - number * 1_000L);
+                 "phase": {"value": "ended"}, "time": {"value": %2$d}, "minDistance": {"value": 3}, "Device1_ID": {"value": "a"}, "Device2_ID": {"value": "b"}}}""".formatted(number, System.currentTimeMillis() - number * 1_000L);
     }
 
     @Test

@@ -56,8 +56,9 @@ abstract class MoveImagesHarness {
         if (harness != null) {
             harness.close();
         }
-        Awaitility.await().until(() -> Thread.getAllStackTraces().keySet().stream()
-                .noneMatch(thread -> thread.getName().equals("images")));
+        Awaitility.await()
+                .until(() -> Thread.getAllStackTraces().keySet().stream()
+                        .noneMatch(thread -> thread.getName().equals("images")));
     }
 
     /** As a failure does: without waiting for what is under way. */

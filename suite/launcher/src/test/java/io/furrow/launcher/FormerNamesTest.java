@@ -20,8 +20,9 @@ class FormerNamesTest {
     })
     void understandsAFormerName(String command, String former, String name, String value) {
         for (String option : new String[] {former, former.replaceFirst("^[^=]*", name)}) {
-            CommandSpec parsed =
-                    furrow.parseArgs((command + " " + option).split(" ")).subcommand().commandSpec();
+            CommandSpec parsed = furrow.parseArgs((command + " " + option).split(" "))
+                    .subcommand()
+                    .commandSpec();
 
             Object read = parsed.findOption(name).getValue();
             assertThat(read).as(option).hasToString(value);

@@ -248,8 +248,7 @@ public record Alarm(
 
     /** Copies text, devices and extent from the cause. */
     Alarm updated(Cause cause, long now) {
-        return described(Description.of(cause), Extent.of(cause))
-                .updated(now);
+        return described(Description.of(cause), Extent.of(cause)).updated(now);
     }
 
     /** Copies only the text from the cause; this is not a change, so it is not delivered. */

@@ -58,7 +58,8 @@ interface ReplayRoutes extends RestApiRoutes {
                     .path("replay")
                     .asText();
             assertThat(running().get("/api/replays").findValuesAsText("replay")).contains(replay);
-            assertThat(client().status("DELETE", "/api/replays/" + replay, null)).isEqualTo(200);
+            assertThat(client().status("DELETE", "/api/replays/" + replay, null))
+                    .isEqualTo(200);
         }
     }
 
