@@ -10,7 +10,7 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 @PageTest
 @Tag("full")
 class FieldVersionsIT {
-    private static final String KNOWN = "store.fields.get('page-meadow')?.properties.crop ?? 'none'";
+    private static final String KNOWN = "(store.fields.get('page-meadow')?.properties.crop ?? 'none')";
 
     @Test
     void writesAVersionPerChangeAndUndoesThemInTurn(PageSuite suite) {

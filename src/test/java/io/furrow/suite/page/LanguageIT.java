@@ -77,7 +77,11 @@ class LanguageIT {
 
     @Test
     void isAccessibleInEachView() {
-        FarmPage page = farm.isReadIn("es").open("", 1440, 900);
+        FarmPage page = farm.isReadIn("es")
+                .answers(
+                        "/api/platform",
+                        "{\"kafka\": {}, \"controlPlane\": {\"parts\": {}}, \"groups\": [], \"deadLetters\": []}")
+                .open("", 1440, 900);
         for (String view : List.of("missions", "replays", "analyses", "topics", "platform")) {
             page.open("#/" + view);
             assertThat(page.find("furrow-" + view + " h1")).isVisible();

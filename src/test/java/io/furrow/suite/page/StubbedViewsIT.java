@@ -153,6 +153,7 @@ class StubbedViewsIT {
                         + recording.formatted("mowing", now - 20 * MINUTE, now - 15 * MINUTE) + "]");
         FarmPage page = farm.open("", 1440, 900);
         page.untilStore("store.recordings.size === 3");
+        assertThat(page.find(".tl-track")).isVisible();
         page.run("document.querySelector('furrow-timeline').choose(Date.now() - 60000)");
         page.find(".tl-start").click();
 
