@@ -48,7 +48,7 @@ class ReplayCommandGroupTest {
             step --group 0a1b2c3d -3          | POST /api/replays/groups/0a1b2c3d/step {"count":-3}
             loop m.0a1b2c3d --off             | POST /api/replays/m.0a1b2c3d/loop {}
             show m.0a1b2c3d                   | GET /api/replays/m.0a1b2c3d
-            missions                          | GET /api/recordings
+            missions                          | GET /api/recordings?limit=1000
             """)
     void steersAReplayOrAGroup(String arguments, String request) {
         assertThat(run(("replay " + arguments).split(" ")))
