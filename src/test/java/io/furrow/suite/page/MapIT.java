@@ -34,6 +34,7 @@ class MapIT {
     }
 
     /** Red occurs on the map only while two devices are close to each other. */
+    @Tag("full")
     @Test
     void drawsAnEncounterWhileItIsOngoing(FarmPage farm) {
         String ongoing = "[...store.encounters.values()].some((each) => ['started', 'ongoing'].includes(each.phase))";

@@ -29,6 +29,7 @@ class TrackPresenceTest {
     private static final Plot FIELD = new Plot("f", 0, List.of(new Box(1, 1, 1 + 5e-4, 1 + 5e-4)), null);
 
     /** Random stories against the definition; the job stops and continues with 1, 2 and 4 subtasks in the middle of stays. */
+    @Tag("full")
     @Test
     void tellsTheSameAsTheDefinitionHoweverOftenItRestarts() throws Exception {
         compareWithTheDefinition(100);

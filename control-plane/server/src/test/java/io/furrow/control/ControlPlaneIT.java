@@ -46,6 +46,7 @@ class ControlPlaneIT extends ControlPlaneFixture {
         }
     }
 
+    @Tag("full")
     @Test
     void executesEachOfAHundredRequestsOnceThoughItIsKilled() throws Exception {
         Process first = run("first", 0);

@@ -5,6 +5,7 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Random;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -23,6 +24,7 @@ class RestartedStagesTest {
     private static final Logger LOG = LoggerFactory.getLogger(RestartedStagesTest.class);
     private static final long BOUND = 1500;
 
+    @Tag("full")
     @Test
     void tellTheSameAsTheDefinitionHoweverOftenTheyRestart() throws Exception {
         long seed = System.nanoTime();
