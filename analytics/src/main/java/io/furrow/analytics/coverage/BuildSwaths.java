@@ -6,126 +6,68 @@ import java.util.List;
 import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.api.common.state.ValueState;
 import org.apache.flink.api.common.state.ValueStateDescriptor;
-import org.apache.flink.metrics.Counter;
 import org.apache.flink.streaming.api.TimerService;
-import org.apache.flink.streaming.api.functions.co.KeyedBroadcastProcessFunction;
 import org.apache.flink.util.Collector;
-import org.apache.flink.util.OutputTag;
 
-import io.furrow.analytics.clock.LaggingPosition;
 import io.furrow.analytics.eventtime.EventTimeBuffer;
 import io.furrow.analytics.eventtime.SingleTimer;
-import io.furrow.analytics.field.FieldVersions;
+import io.furrow.analytics.field.DeviceInFields;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.kafka.TopicSnapshot;
-import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.EventTimeProgress;
-import io.furrow.flink.time.LatenessAware;
 
 /**
- * Builds the swaths of robots in fields. Key: the device of a topic.
+ * Builds the swaths of robots in fields.
  *
- * <p><b>State</b>: reports that wait for the watermark; of a robot its last position, working width and state, and the coverages to which
- * it has contributed, at most {@value SwathBuilder#MAX_OPENED}. Fields: see {@link FieldVersions}.
+ * <p><b>State</b>: beside that of {@link DeviceInFields}, of a robot its last position, working width and state, and the coverages to which
+ * it has contributed, at most {@value SwathBuilder#MAX_OPENED}.
  *
  * <p><b>Cleared</b>: when it has reported nothing for the time-to-live of a coverage, at once where its working width is unknown.
  *
- * <p><b>Late</b>: a report not after the watermark goes to {@link #LATE}, and to {@link #LAGGING} if the device has reported no newer one.
- * A report beyond the {@value #MAX_WAITING} waiting ones goes to {@code LATE} too, counted as {@code rejectedCrowded}, as is a swath beyond
- * the maximum number of coverages. A version of a field that arrives too late applies from the next position on.
+ * <p><b>Late</b>: see {@link DeviceInFields}. A swath beyond the maximum number of coverages is counted as {@code rejectedCrowded} too. A
+ * version of a field that arrives too late applies from the next position on.
  *
  * <p><b>Emits</b>: each swath twice, for its robot and for all robots, a robot's in the order of their times, before the watermark.
  */
-public final class BuildSwaths extends KeyedBroadcastProcessFunction<String, WorkReport, TopicRecord, Swath>
-        implements LatenessAware {
-    static final OutputTag<PositionFix> LATE = new OutputTag<>("late") {
-        private static final long serialVersionUID = 1L;
-    };
-    static final OutputTag<LaggingPosition> LAGGING = new OutputTag<>("lagging") {
-        private static final long serialVersionUID = 1L;
-    };
-    /** Maximum per device. */
-    static final int MAX_WAITING = 100_000;
-
+public final class BuildSwaths extends DeviceInFields<WorkReport, Swath> {
     private static final long serialVersionUID = 1L;
 
     private final CoverageRules rules;
     private final SwathBuilder builder;
-    private final TopicSnapshot atStart;
 
-    private transient FieldVersions fields;
-    private transient SingleTimer timer;
-    private transient EventTimeBuffer<WorkReport> eventTimeBuffer;
     private transient ValueState<Drive> drive;
-    private transient EventTimeProgress reached;
-    private transient Counter accepted;
-    private transient Counter late;
-    private transient Counter rejectedCrowded;
-    private transient Counter changes;
 
     public BuildSwaths(CoverageRules rules, TopicSnapshot atStart) {
+        super(atStart);
         this.rules = rules;
         this.builder = new SwathBuilder(rules);
-        this.atStart = atStart;
-    }
-
-    @Override
-    public void judgeBy(EventTimeProgress reached) {
-        this.reached = reached;
     }
 
     @Override
     public void open(OpenContext context) throws IOException {
-        fields = FieldVersions.read(atStart);
-        timer = new SingleTimer(getRuntimeContext());
-        eventTimeBuffer = new EventTimeBuffer<>(getRuntimeContext(), WorkReport.class, WorkReport.SEQUENCE, timer);
+        super.open(context);
         drive = getRuntimeContext().getState(new ValueStateDescriptor<>("drive", Drive.class));
-        accepted = getRuntimeContext().getMetricGroup().counter("accepted");
-        late = getRuntimeContext().getMetricGroup().counter("late");
-        rejectedCrowded = getRuntimeContext().getMetricGroup().counter("rejectedCrowded");
-        changes = getRuntimeContext().getMetricGroup().counter("fieldChanges");
     }
 
     @Override
-    public void processElement(WorkReport report, ReadOnlyContext context, Collector<Swath> out) throws Exception {
-        if (reached.hasPassed(report.time(), context.getCurrentKey())) {
-            late.inc();
-            context.output(LATE, report.fix());
-            seeLagging(report.fix(), context);
-        } else if (eventTimeBuffer.offer(report, MAX_WAITING, context.timerService())) {
-            accepted.inc();
-        } else {
-            rejectedCrowded.inc();
-            context.output(LATE, report.fix());
-        }
+    protected EventTimeBuffer<WorkReport> eventTimeBuffer(SingleTimer timer) {
+        return new EventTimeBuffer<>(getRuntimeContext(), WorkReport.class, WorkReport.SEQUENCE, timer);
     }
 
-    private void seeLagging(PositionFix fix, ReadOnlyContext context) throws Exception {
+    @Override
+    protected PositionFix fix(WorkReport report) {
+        return report.fix();
+    }
+
+    @Override
+    protected long newestProcessed() throws IOException {
         Drive known = drive.value();
-        long counted = Math.max(known == null ? Long.MIN_VALUE : known.time(), eventTimeBuffer.newest());
-        if (fix.time() > counted) {
-            long now = reached.of(context.getCurrentKey());
-            context.output(
-                    LAGGING,
-                    new LaggingPosition(
-                            fix.topic(), fix.identity(), fix.id(), fix.mission(), fix.time(), now, counted));
-        }
+        return known == null ? Long.MIN_VALUE : known.time();
     }
 
     @Override
-    public void processBroadcastElement(TopicRecord version, Context context, Collector<Swath> out) {
-        if (fields.take(version)) {
-            changes.inc();
-        }
-    }
-
-    @Override
-    public void onTimer(long time, OnTimerContext context, Collector<Swath> out) throws Exception {
-        timer.rang();
-        TimerService timers = context.timerService();
+    protected void advance(List<WorkReport> due, TimerService timers, Collector<Swath> out) throws Exception {
         Drive known = drive.value();
         Drive now = known == null ? Drive.NONE : known;
-        List<WorkReport> due = eventTimeBuffer.takeDue(timers);
         for (int i = 0; i < due.size(); i++) {
             boolean isReplaced = i + 1 < due.size()
                     && due.get(i + 1).time() == due.get(i).time()
