@@ -238,11 +238,6 @@ const opening = document.querySelector('.opening');
 let failures = 0;
 let retrying = null;
 
-/** Loads the modules of the map view while the server identifies the user. */
-function loadFirst() {
-  ['furrow-map', 'furrow-alarms', 'furrow-cards', 'furrow-timeline'].forEach((name) => import(MODULES[name]).catch(() => {})); // reported where it is shown
-}
-
 async function start() {
   clearTimeout(retrying);
   try {
@@ -251,7 +246,7 @@ async function start() {
     return error.status === 401 ? signIn(start) : unreachable(error);
   }
   signedIn();
-  feeds.start();
+  await feeds.start(); // the server reads the devices' states while the page is built
   replace(document.body, document.createElement('furrow-app'));
   api.onSignedOut(signInAgain);
 }
@@ -273,4 +268,3 @@ function unreachable(error) {
 
 readTokenFromLink();
 start();
-loadFirst();

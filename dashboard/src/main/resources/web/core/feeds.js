@@ -22,7 +22,11 @@ const OVER = new Set(['ended', 'stopped', 'failed']);
 /** Maximum delay of the entities' initial state: an interval between checkpoints of ingest, and a margin. */
 const MAX_STATE_DELAY = 60_000;
 
+/** Time for which the page waits for the socket of the devices' states, ms. */
+const REQUEST_TIMEOUT = 300;
+
 class Feeds {
+  /** @returns {Promise} resolves when the devices' states are requested */
   start() {
     store.feeds = this;
     this.live(); // first: browsers open few connections at a time
@@ -35,6 +39,7 @@ class Feeds {
     Object.entries(LISTS).forEach(([name, list]) => this.syncList(name, list));
     setInterval(() => document.hidden || store.tick(), 1000);
     setInterval(() => document.hidden || this.readImages(), IMAGES_MILLIS);
+    return Promise.race([this.shown[0].requested, new Promise((resolve) => setTimeout(resolve, REQUEST_TIMEOUT))]);
   }
 
   /**
@@ -85,7 +90,7 @@ class Feeds {
         main && this.connection(state, reason);
       },
     });
-    return { close: () => { stream.close(); store.topics.delete(topic); store.notify('topics'); } };
+    return { requested: stream.requested, close: () => { stream.close(); store.topics.delete(topic); store.notify('topics'); } };
   }
 
   connection(state, reason) {

@@ -9,6 +9,29 @@ const MAX_BACKOFF = 15_000;
 const CREATED_INTERVAL = 3_000;
 /** Time for which a hidden tab retains its streams, in case the user returns; streams needed `whileHidden` stay open. */
 const HIDDEN_AFTER = 10_000;
+/** Number of streams that are opened at a time, in the order of subscription: what is shown first does not wait for the work of all others. */
+const OPENED_AT_A_TIME = 3;
+/** Time after which a stream that is being opened no longer delays others, ms. */
+const OPENING_TIMEOUT = 1_000;
+
+let opening = 0;
+const waiting = [];
+
+/** Begins to open a stream. @returns {function()} to be called when it is open, or has failed */
+function startOpening() {
+  opening++;
+  let isOver = false;
+  const end = () => {
+    if (!isOver) {
+      isOver = true;
+      clearTimeout(timeout);
+      opening--;
+      waiting.shift()?.();
+    }
+  };
+  const timeout = setTimeout(end, OPENING_TIMEOUT);
+  return end;
+}
 
 /**
  * A record of a topic.
@@ -32,6 +55,10 @@ class Stream {
     this.state = 'connecting';
     this.backoff = MIN_BACKOFF;
     this.sequence = null;
+    this.isPrimed = options.prime ?? true;
+    this.opened = () => {};
+    /** Resolves when the socket is requested, or has failed. */
+    this.requested = new Promise((resolve) => (this.onRequested = resolve));
     this.isCreatedLater = options.createdLater ?? false;
     this.whileHidden = options.whileHidden ?? (() => false);
     this.hidden = document.hidden && !this.whileHidden();
@@ -68,6 +95,14 @@ class Stream {
     clearTimeout(this.retry);
     const attempt = (this.attempt = Symbol('attempt'));
     this.report('connecting');
+    if (opening >= OPENED_AT_A_TIME) {
+      await new Promise((begin) => waiting.push(begin));
+      if (this.attempt !== attempt) {
+        waiting.shift()?.();
+        return;
+      }
+    }
+    this.opened = startOpening();
     try {
       if (this.isCreatedLater && !(await exists(this.topic))) {
         this.attempt === attempt && this.failed(null, CREATED_INTERVAL);
@@ -86,12 +121,14 @@ class Stream {
   }
 
   open(path) {
+    this.onRequested();
     const url = new URL(path, location.href);
     url.protocol = url.protocol.replace('http', 'ws');
     const socket = (this.socket = new WebSocket(url));
     socket.onopen = () => {
       this.backoff = MIN_BACKOFF;
       this.isFirst = true;
+      this.isPrimed || this.opened();
       this.report('open');
     };
     socket.onmessage = (message) => this.receive(parse(message.data));
@@ -109,6 +146,7 @@ class Stream {
       missed && this.handlers.gap?.(missed);
       this.handlers.records?.(frame.records, frame.merged ?? 0);
     } else if (frame.primed) {
+      this.opened();
       this.handlers.primed?.();
     }
   }
@@ -129,6 +167,8 @@ class Stream {
     if (this.closed || this.hidden) {
       return;
     }
+    this.opened();
+    this.onRequested();
     // retries a rejected request rarely: the topic may be created, or the role may change
     const rejected = interval !== null || error?.status === 403 || error?.status === 404;
     this.report(rejected ? 'refused' : 'waiting', error?.message);
@@ -145,6 +185,7 @@ class Stream {
   disconnect() {
     clearTimeout(this.retry);
     this.attempt = null;
+    this.opened();
     const socket = this.socket;
     this.socket = null;
     socket?.close();
@@ -167,7 +208,7 @@ export const streams = {
    *     exist yet
    * @param {{records: function(TopicRecord[], number)=, primed: function()=, state: function(string, string=)=, gap: function(number)=}} handlers
    *     state is `connecting`, `open`, `waiting` (for the next attempt), `refused` or `paused`
-   * @returns {{close: function(), state: string}}
+   * @returns {{close: function(), state: string, requested: Promise}}
    */
   subscribe(topic, options, handlers) {
     return new Stream(topic, options, handlers);

@@ -289,4 +289,8 @@ class FurrowMap extends Pointing(HTMLElement) {
   }
 }
 
+// OpenLayers is no module
+await new Promise((loaded, failed) => {
+  document.head.append(Object.assign(document.createElement('script'), { src: '/lib/ol/ol.js', onload: loaded, onerror: () => failed(new Error('/lib/ol/ol.js')) }));
+});
 customElements.define('furrow-map', FurrowMap);

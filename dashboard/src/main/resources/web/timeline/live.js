@@ -39,7 +39,7 @@ export class LiveDensity {
       old < now - LIVE_LENGTH - WIDTH && this.counts.delete(old);
     }
     this.show();
-    if (start !== this.countedTo && now - this.requestedAt >= WIDTH) {
+    if (store.primed && start !== this.countedTo && now - this.requestedAt >= WIDTH) {
       this.requestedAt = now;
       this.request(start);
     }

@@ -143,7 +143,8 @@ class Timeline extends Parts(Loading(Showing(Steering(HTMLElement)))) {
   /** Updates each second, and with each status of a replay. */
   tick() {
     this.extend();
-    if (Date.now() - this.lastMoments > (store.isReplay ? MOMENTS_INTERVAL : LIVE_LENGTH)) {
+    // what devices report is shown first
+    if ((store.isReplay || store.primed) && Date.now() - this.lastMoments > (store.isReplay ? MOMENTS_INTERVAL : LIVE_LENGTH)) {
       this.loadMoments();
     }
     store.isReplay ? this.encounters.filter(isBetween).forEach((each) => store.applyRecordedEncounter(each)) : this.live.tick();

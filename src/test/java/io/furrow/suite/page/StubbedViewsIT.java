@@ -4,6 +4,9 @@ import java.net.URI;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.TimeUnit;
 import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
@@ -96,6 +99,26 @@ class StubbedViewsIT {
         assertThat(requested)
                 .contains(topic, "/api/topics")
                 .noneMatch(each -> each.matches(".*/data\\.farm\\.replay\\.weeding\\.1\\.\\w+"));
+    }
+
+    /** What is shown first does not wait for the work of other streams, and no stream waits for one that does not answer. */
+    @Test
+    void opensThreeStreamsAtATime() {
+        List.of("data.raw", "service.alarms", "service.fields")
+                .forEach(topic -> farm.answers("/api/register/" + topic, ""));
+        FarmPage page = farm.open("", 1440, 900);
+        Map<String, Long> registered = new ConcurrentHashMap<>();
+        page.page().onRequest(request -> {
+            String path = URI.create(request.url()).getPath();
+            if (path.startsWith("/api/register/")) {
+                registered.put(path.substring("/api/register/".length()), System.nanoTime());
+            }
+        });
+        page.page().reload();
+        page.until(() -> registered.containsKey("service.replays.status"));
+
+        assertThat(registered.get("service.replays") - registered.get("service.fields"))
+                .isGreaterThan(TimeUnit.MILLISECONDS.toNanos(500));
     }
 
     /** The pill with the distance has some 2,000 pixels in the color of the scheme. */
