@@ -94,10 +94,10 @@ class StubbedViewsIT {
         page.store("store.enterReplay(store.replays.get('weeding.1'))");
         page.go("Analyses");
         assertThat(page.find("furrow-analyses .encounters .empty")).isVisible();
-
         String topic = "/api/register/data.farm.replay.weeding.1";
+        page.until(() -> requested.containsAll(List.of(topic, "/api/topics")));
+
         assertThat(requested)
-                .contains(topic, "/api/topics")
                 .noneMatch(each -> each.matches(".*/data\\.farm\\.replay\\.weeding\\.1\\.\\w+"));
     }
 
