@@ -97,8 +97,7 @@ class StubbedViewsIT {
         String topic = "/api/register/data.farm.replay.weeding.1";
         page.until(() -> requested.containsAll(List.of(topic, "/api/topics")));
 
-        assertThat(requested)
-                .noneMatch(each -> each.matches(".*/data\\.farm\\.replay\\.weeding\\.1\\.\\w+"));
+        assertThat(requested).noneMatch(each -> each.matches(".*/data\\.farm\\.replay\\.weeding\\.1\\.\\w+"));
     }
 
     /** What is shown first does not wait for the work of other streams, and no stream waits for one that does not answer. */
