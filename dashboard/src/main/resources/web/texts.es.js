@@ -1,4 +1,4 @@
-/** The texts of `texts.js` in Spanish: the same names, the same values in braces. `words` and `sentences` translate what devices and the server say in English. */
+/** The texts of `texts.js` in Spanish: the same names, the same values in braces. `words`, `sentences` and `refusals` translate what devices and the server say in English. */
 
 export const texts = {
   app: {
@@ -54,6 +54,18 @@ export const texts = {
     'silent-farm-many': '{affected} de {total} dispositivos de la finca sin señal: no llega nada o acaba de volver',
   },
   groups: { mission: 'la misión {name}', domain: 'el dominio {name}', field: '{name}', none: 'ninguna misión' },
+
+  refusals: {
+    'not-json': 'la petición no es JSON', 'not-a-request': 'no es una petición', 'unknown-command': 'no existe la orden', 'missing-member': 'falta un dato', 'wrong-member': 'un dato no es válido', 'illegal-name': 'el nombre no es válido',
+    'domain-exists': 'el dominio ya existe', 'unknown-domain': 'no existe el dominio', 'missions-running': 'hay misiones en marcha en el dominio',
+    'mission-exists': 'la misión ya existe', 'unknown-mission': 'no existe la misión', 'mission-running': 'la misión está en marcha', 'mission-not-running': 'la misión no está en marcha', 'name-taken': 'el nombre pertenece a una misión de otro dominio', 'unknown-template': 'no existe la plantilla',
+    'device-taken': 'otra misión en marcha tiene el dispositivo', 'unknown-device': 'no existe el dispositivo', 'ambiguous-device': 'varias fincas tienen un dispositivo con este identificador', 'no-credentials': 'el dispositivo tiene sus propias credenciales',
+    'unknown-field': 'no existe la parcela', 'unknown-replay': 'no existe la reproducción', 'replay-exists': 'la reproducción ya existe', 'unknown-alarm': 'no existe la alarma',
+    'wrong-state': 'su estado no lo permite', outdated: 'alguien lo cambió entretanto; vuelva a cargarlo', 'too-large': 'es demasiado grande', 'quota-exceeded': 'se alcanzó el límite', 'request-id-reused': 'el identificador pertenece a otra petición',
+    overloaded: 'el servidor no acepta más peticiones ahora; inténtelo más tarde', 'internal-error': 'el servidor falló y no cambió nada', 'not-ready': 'el servidor todavía se está iniciando; inténtelo más tarde',
+    unauthorized: 'el token de acceso no es válido', forbidden: 'su rol no lo permite', 'kafka-away': 'Kafka no responde', 'mongodb-away': 'MongoDB no responde', 'no-mongodb': 'no hay MongoDB, así que no se guarda nada', 'control-plane-away': 'el plano de control no responde',
+    'unknown-topic': 'no existe el tema', 'topic-not-allowed': 'su rol no permite leer el tema', 'too-much': 'hay demasiados datos', 'too-slow': 'la lectura tardó demasiado', 'too-many-streams': 'hay demasiadas conexiones abiertas', 'unknown-image': 'no existe la imagen',
+  },
 
   views: { map: 'Mapa', missions: 'Misiones', replays: 'Reproducciones', analyses: 'Análisis', topics: 'Temas', platform: 'Plataforma' },
 

@@ -302,6 +302,11 @@ export function t(key, values = {}) {
   return fill(text, values);
 }
 
+/** Why a request was rejected: the server's sentence, and before it one of the code if the language of the page is another. */
+export function refusal(code, reason) {
+  return texts.refusals && Object.hasOwn(texts.refusals, code) ? `${texts.refusals[code]}: ${reason}` : reason;
+}
+
 /** Replaces `{name}` and `{count one|more}` in a text. */
 export function fill(text, values) {
   const counted = text.replace(/\{(\w+) ([^|}]+)\|([^}]+)\}/g, (whole, name, one, more) => `{${name}} ${String(values[name]) === '1' ? one : more}`);

@@ -1,5 +1,5 @@
 /** Calls the REST API with the user's token; requests and responses are JSON. */
-import { t } from '../texts.js';
+import { refusal, t } from '../texts.js';
 import { parse } from './json.js';
 
 const TOKEN = 'furrow-token';
@@ -84,5 +84,6 @@ async function errorOf(response) {
     signedOut.forEach((handler) => handler());
   }
   const reason = problem.reason ?? problem.detail ?? problem.message ?? t('errors.status', { status: response.status });
-  return new ApiError(response.status, problem.error ?? problem.code ?? 'refused', reason);
+  const code = problem.error ?? problem.code ?? 'refused';
+  return new ApiError(response.status, code, refusal(code, reason));
 }

@@ -6,7 +6,7 @@ import { icon } from '../../core/icons.js';
 import { linkTo, navigate } from '../../core/router.js';
 import { resource } from '../../core/resource.js';
 import { store } from '../../core/store.js';
-import { t } from '../../texts.js';
+import { refusal, t } from '../../texts.js';
 import { redraw } from '../../core/redraw.js';
 
 const POLL_MILLIS = 4_000;
@@ -125,7 +125,7 @@ function row(entry) {
     h('td.who', null, entry.user),
     h('td.command', null, t(`missions.targets.${TARGETS[entry.target] ?? 'other'}`), ' ', h('strong', null, word(entry.command ?? '–'))),
     h('td.about', null, aboutOf(entry.about)),
-    h('td', { class: rejected ? 'bad' : '' }, rejected ? t('missions.refusedBecause', { reason: readable(entry.reason ?? entry.error) }) : word(plain(entry.result))));
+    h('td', { class: rejected ? 'bad' : '' }, rejected ? t('missions.refusedBecause', { reason: refusal(entry.error, readable(entry.reason ?? entry.error)) }) : word(plain(entry.result))));
 }
 
 function aboutOf(about = {}) {

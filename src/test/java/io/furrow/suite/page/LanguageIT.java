@@ -1,6 +1,7 @@
 package io.furrow.suite.page;
 
 import java.util.List;
+import java.util.stream.Stream;
 
 import com.deque.html.axecore.playwright.AxeBuilder;
 import org.junit.jupiter.api.AutoClose;
@@ -8,6 +9,8 @@ import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
+
+import io.furrow.model.control.ErrorCode;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -40,7 +43,7 @@ class LanguageIT {
                   const flat = (section, path = '') => Object.entries(section).flatMap(([name, text]) =>
                     typeof text === 'object' ? flat(text, `${path}${name}.`) : `${path}${name} ${[...text.matchAll(/\\{(\\w+)/g)].map((hole) => hole[1]).sort()}`);
                   const english = flat((await import('/texts.js')).texts);
-                  const spanish = flat({ ...(await import('/texts.es.js')).texts, words: {}, sentences: {}, groups: {} });
+                  const spanish = flat({ ...(await import('/texts.es.js')).texts, words: {}, sentences: {}, groups: {}, refusals: {} });
                   const without = (ours, theirs) => ours.filter((each) => !theirs.includes(each));
                   return [...without(english, spanish), ...without(spanish, english)];
                 }""")).isEmpty();
@@ -73,6 +76,28 @@ class LanguageIT {
         assertThat(page.find(".alarm.critical .alarm-text")).hasText("Robot 1 y Robot 2 están a 2,1\u00a0m");
         assertThat(page.find(".alarm.major .alarm-text")).hasText("the task 0 failed");
         assertThat(page.find(".alarm.major .alarm-text")).hasAttribute("lang", "en");
+    }
+
+    @Test
+    void saysWhyARequestIsRejected() {
+        FarmPage page = farm.isReadIn("es")
+                .answers("/api/alarms/a1/acknowledge", "409 wrong-state: alarm 'a1' is closed")
+                .open("", 1440, 900)
+                .expectingError("status of 409");
+        page.button("Reconocer").click();
+
+        assertThat(page.find(".alarm").first())
+                .containsText("su estado no lo permite: alarm 'a1' is closed");
+    }
+
+    @Test
+    void hasARefusalForEachCode() {
+        FarmPage page = farm.open("", 1440, 900);
+
+        assertThat((List<?>) page.run("async () => Object.keys((await import('/texts.es.js')).texts.refusals)"))
+                .extracting(Object::toString)
+                .containsAll(
+                        Stream.of(ErrorCode.values()).map(ErrorCode::code).toList());
     }
 
     @Test

@@ -8,6 +8,8 @@ import java.util.List;
 import java.util.Map;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.CopyOnWriteArrayList;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
 import java.util.stream.Stream;
 
 import com.microsoft.playwright.Browser;
@@ -25,6 +27,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** The page in a real browser on a farm of stubs: its records and responses are those of the test. Starts in a second. */
 final class StubFarm implements AutoCloseable {
+    private static final Pattern CODED = Pattern.compile("([a-z-]+): (.*)");
+
     private final Chromium chromium;
     private final Server server = new Server();
     private final URI uri;
@@ -108,7 +112,7 @@ final class StubFarm implements AutoCloseable {
                 .has(topic, "urn:ngsi-ld:Robot:1", robot(1, "Running"), times[2]);
     }
 
-    /** Answers a path with JSON; {@code 409 reason}, for example, with that status; an empty text never. */
+    /** Answers a path with JSON; {@code 409 reason} or {@code 409 code: reason}, for example, with that status; an empty text never. */
     StubFarm answers(String path, String answer) {
         answers.put(path, answer);
         return this;
@@ -170,9 +174,13 @@ final class StubFarm implements AutoCloseable {
                                                                 : "[]");
         if (answer.matches("\\d{3}.*")) {
             String reason = answer.length() > 3 ? answer.substring(4) : "the stub rejects it";
+            Matcher coded = CODED.matcher(reason);
+            String problem = coded.matches()
+                    ? "{\"error\": \"%s\", \"reason\": \"%s\"}".formatted(coded.group(1), coded.group(2))
+                    : "{\"reason\": \"" + reason + "\"}";
             route.fulfill(new Route.FulfillOptions()
                     .setStatus(Integer.parseInt(answer.substring(0, 3)))
-                    .setBody("{\"reason\": \"" + reason + "\"}"));
+                    .setBody(problem));
         } else if (!answer.isEmpty()) {
             json(route, answer);
         }
