@@ -7,8 +7,6 @@ import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
 import org.assertj.core.data.Offset;
-import org.junit.jupiter.api.AutoClose;
-import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -18,27 +16,15 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** What the user looks at is in the address; and what the scope leaves out is said. */
 @Tag("full")
-class AddressIT {
+class AddressIT extends StubbedPage {
     private static final long MINUTE = 60_000;
     private static final String ROBOT = "urn:ngsi-ld:Robot:";
     private static final String LATITUDE = "ol.proj.toLonLat(document.querySelector('furrow-map').view.getCenter())[1]";
     private static final Offset<Double> METER = Offset.offset(1e-5);
 
-    @AutoClose
-    private static Chromium chromium;
-
-    @AutoClose
-    private StubFarm farm;
-
-    @BeforeAll
-    static void launch() {
-        chromium = Chromium.start();
-    }
-
     @BeforeEach
-    void start() throws Exception {
-        farm = new StubFarm(chromium)
-                .hasRobot(1)
+    void start() {
+        farm.hasRobot(1)
                 .hasRobot(2)
                 .has("data.raw", ROBOT + 3, StubFarm.robot(3, "Running"), System.currentTimeMillis() - 60 * MINUTE)
                 .hasField("near", "farm", -3.4835, 40.3125)

@@ -7,8 +7,6 @@ import java.util.List;
 import java.util.concurrent.CopyOnWriteArrayList;
 
 import com.microsoft.playwright.Locator;
-import org.junit.jupiter.api.AutoClose;
-import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -19,26 +17,15 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** The base map that is chosen in the page: of the server, or a file of the user. */
 @Tag("full")
-class BaseMapIT {
+class BaseMapIT extends StubbedPage {
     private static final int GROUND = 0xC01080;
-
-    @AutoClose
-    private static Chromium chromium;
-
-    @AutoClose
-    private StubFarm farm;
 
     @TempDir
     Path directory;
 
-    @BeforeAll
-    static void launch() {
-        chromium = Chromium.start();
-    }
-
     @BeforeEach
-    void start() throws Exception {
-        farm = new StubFarm(chromium).hasField("south", "farm", -3.4822, 40.3125);
+    void start() {
+        farm.hasField("south", "farm", -3.4822, 40.3125);
     }
 
     private FarmPage open() {

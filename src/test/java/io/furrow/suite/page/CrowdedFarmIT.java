@@ -5,8 +5,6 @@ import java.util.List;
 import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
-import org.junit.jupiter.api.AutoClose;
-import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -18,7 +16,7 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** The page on a farm that has more than the demonstration: many alarms and silent devices, in windows of all sizes. */
-class CrowdedFarmIT {
+class CrowdedFarmIT extends StubbedPage {
     private static final String ROBOT = "urn:ngsi-ld:Robot:";
     private static final long HOUR = 3_600_000;
     private static final long MINUTE = 60_000;
@@ -33,20 +31,9 @@ class CrowdedFarmIT {
     private static final String NOTHING_CUT =
             "[...document.querySelectorAll('furrow-app, .side')].every((each) => getComputedStyle(each).overflowY !== 'hidden' || each.scrollHeight <= each.clientHeight)";
 
-    @AutoClose
-    private static Chromium chromium;
-
-    @AutoClose
-    private StubFarm farm;
-
-    @BeforeAll
-    static void launch() {
-        chromium = Chromium.start();
-    }
-
     @BeforeEach
-    void start() throws Exception {
-        farm = new StubFarm(chromium).hasRobot(1).hasRobot(2).hasRobot(3);
+    void start() {
+        farm.hasRobot(1).hasRobot(2).hasRobot(3);
     }
 
     @Test

@@ -8,8 +8,6 @@ import com.google.gson.JsonObject;
 import com.google.gson.JsonParser;
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Mouse;
-import org.junit.jupiter.api.AutoClose;
-import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -19,25 +17,13 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** Fields that are drawn and changed on the map: each change is a request that writes a version. */
 @Tag("full")
-class DrawFieldsIT {
+class DrawFieldsIT extends StubbedPage {
     private static final double LONGITUDE = -3.4822;
     private static final double LATITUDE = 40.3125;
 
-    @AutoClose
-    private static Chromium chromium;
-
-    @AutoClose
-    private StubFarm farm;
-
-    @BeforeAll
-    static void launch() {
-        chromium = Chromium.start();
-    }
-
     @BeforeEach
-    void start() throws Exception {
-        farm = new StubFarm(chromium)
-                .answers("/api/domains", "[{\"domain\": \"farm\"}]")
+    void start() {
+        farm.answers("/api/domains", "[{\"domain\": \"farm\"}]")
                 .hasField("south", "farm", LONGITUDE, LATITUDE);
     }
 

@@ -4,8 +4,6 @@ import java.util.List;
 import java.util.stream.Stream;
 
 import com.deque.html.axecore.playwright.AxeBuilder;
-import org.junit.jupiter.api.AutoClose;
-import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -17,21 +15,10 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** The page in another language than English. */
 @Tag("full")
-class LanguageIT {
-    @AutoClose
-    private static Chromium chromium;
-
-    @AutoClose
-    private StubFarm farm;
-
-    @BeforeAll
-    static void launch() {
-        chromium = Chromium.start();
-    }
-
+class LanguageIT extends StubbedPage {
     @BeforeEach
-    void start() throws Exception {
-        farm = new StubFarm(chromium).hasRobot(1).hasAlarms(1).hasField("barn", "farm", 1, 2);
+    void start() {
+        farm.hasRobot(1).hasAlarms(1).hasField("barn", "farm", 1, 2);
     }
 
     @Test

@@ -7,9 +7,6 @@ import java.util.concurrent.CopyOnWriteArrayList;
 import java.util.stream.IntStream;
 
 import com.microsoft.playwright.Locator;
-import org.junit.jupiter.api.AutoClose;
-import org.junit.jupiter.api.BeforeAll;
-import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
@@ -18,25 +15,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** Lists and forms of views: their order, their length and their times. */
 @Tag("full")
-class StubbedListsIT {
+class StubbedListsIT extends StubbedPage {
     private static final long START = Instant.parse("2026-01-01T03:04:30Z").toEpochMilli();
     private static final int MANY = 60;
-
-    @AutoClose
-    private static Chromium chromium;
-
-    @AutoClose
-    private StubFarm farm;
-
-    @BeforeAll
-    static void launch() {
-        chromium = Chromium.start();
-    }
-
-    @BeforeEach
-    void start() throws Exception {
-        farm = new StubFarm(chromium);
-    }
 
     /** Not in the language and on the clock of the browser, as in its own input of a time. */
     @Test

@@ -11,9 +11,6 @@ import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.options.FilePayload;
-import org.junit.jupiter.api.AutoClose;
-import org.junit.jupiter.api.BeforeAll;
-import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
@@ -23,25 +20,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** What views show of records and responses that a running farm seldom has. */
 @Tag("full")
-class StubbedViewsIT {
+class StubbedViewsIT extends StubbedPage {
     private static final long MINUTE = 60_000;
     private static final long START = Instant.parse("2026-01-01T03:04:30Z").toEpochMilli();
-
-    @AutoClose
-    private static Chromium chromium;
-
-    @AutoClose
-    private StubFarm farm;
-
-    @BeforeAll
-    static void launch() {
-        chromium = Chromium.start();
-    }
-
-    @BeforeEach
-    void start() throws Exception {
-        farm = new StubFarm(chromium);
-    }
 
     /** A status from before the pause may arrive after it. */
     @Test
