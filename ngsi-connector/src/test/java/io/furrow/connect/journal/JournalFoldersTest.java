@@ -7,6 +7,7 @@ import java.util.List;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.atomic.AtomicBoolean;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -62,6 +63,7 @@ class JournalFoldersTest {
     }
 
     /** Else a record may be confirmed in a journal whose files are deleted the moment after. */
+    @Tag("full")
     @Test
     void deletesNoJournalThatATaskHasTaken() throws Exception {
         AtomicBoolean ended = new AtomicBoolean();
@@ -109,6 +111,7 @@ class JournalFoldersTest {
         assertThat(folders("farm").orphans()).hasSize(2);
     }
 
+    @Tag("full")
     @Test
     void takesTheJournalOfTheSlotWhileOthersLookForOrphans() throws Exception {
         String id;
