@@ -17,8 +17,8 @@ import org.h2.mvstore.Cursor;
 import org.h2.mvstore.MVMap;
 
 /**
- * Indexes documents by a date, for queries on this date alone. Queries that compare it match no value of another type, so that such
- * values have no entry; but they match an array that contains a date: if the collection has one, the index is not used.
+ * Indexes documents by a date, for queries that compare it, unless they name ids. Such queries match no value of another type, so that
+ * such values have no entry; but they match an array that contains a date: if the collection has one, the index is not used.
  */
 final class DateIndex extends Index<Object> {
     private static final String ID = "_id";
@@ -65,14 +65,15 @@ final class DateIndex extends Index<Object> {
         private long to = Long.MAX_VALUE;
         private boolean compares;
 
-        /** @return whether the query has no other condition */
+        /** Ignores conditions on other fields, which only exclude documents. @return whether there is none on the id, which has an index */
         boolean narrow(Document query) {
             for (Map.Entry<String, Object> condition : query.entrySet()) {
                 if (condition.getKey().equals(field)) {
                     narrowTo(condition.getValue());
-                } else if (!condition.getKey().equals("$and")
-                        || !(condition.getValue() instanceof Collection<?> all)
-                        || !all.stream().allMatch(each -> each instanceof Document one && narrow(one))) {
+                } else if (condition.getKey().equals(ID)
+                        || condition.getKey().equals("$and")
+                                && condition.getValue() instanceof Collection<?> all
+                                && !all.stream().allMatch(each -> each instanceof Document one && narrow(one))) {
                     return false;
                 }
             }

@@ -32,8 +32,10 @@ import io.furrow.control.device.RejectedCommandException;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.view.CommandClient;
+import io.furrow.control.rest.view.DeviceHistory;
 import io.furrow.control.rest.view.DeviceName;
 import io.furrow.control.rest.view.DeviceView;
+import io.furrow.control.rest.view.HistoryQuery;
 import io.furrow.control.rest.view.ResourceKind;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.CommandResult;
@@ -45,7 +47,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
-/** {@code /api/devices}: desired state, status and health of devices, and commands to them. */
+/** {@code /api/devices}: desired state, status, health and history of devices, and commands to them. */
 @Path("/api/devices")
 @Consumes(MediaType.APPLICATION_JSON)
 @Produces(MediaType.APPLICATION_JSON)
@@ -69,8 +71,10 @@ public final class DevicesResource {
      *
      * @param commands null if commands are not supported
      * @param credentials null if credentials are not available
+     * @param history null if there is no MongoDB
      */
-    record Dependencies(FiwareScope scope, DeviceCommands commands, DeviceCredentials credentials) {}
+    record Dependencies(
+            FiwareScope scope, DeviceCommands commands, DeviceCredentials credentials, DeviceHistory history) {}
 
     DevicesResource(StateView view, CommandClient managers, Dependencies dependencies) {
         this.view = view;
@@ -96,6 +100,16 @@ public final class DevicesResource {
     public Response get(@BeanParam DeviceName name) {
         String key = keyOf(name);
         return JsonResponses.ok(devices.withConnection(key, withSettings(key, devices.withStatus(key, find(name)))));
+    }
+
+    /** Returns the values of an attribute, thinned; of a device that is not known, or does not have it, none. */
+    @GET
+    @Path("{device}/history")
+    public Response history(@BeanParam DeviceName name, @BeanParam HistoryQuery query) {
+        if (dependencies.history() == null) {
+            throw ProblemException.noMongo();
+        }
+        return JsonResponses.ok(dependencies.history().read(query.of(name, FiwareScope.ofIdentity(keyOf(name)))));
     }
 
     @GET

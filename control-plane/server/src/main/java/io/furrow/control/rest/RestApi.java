@@ -43,6 +43,7 @@ import io.furrow.control.rest.description.ApiDescription;
 import io.furrow.control.rest.description.ApiPage;
 import io.furrow.control.rest.description.IsoTimeFilter;
 import io.furrow.control.rest.view.CommandClient;
+import io.furrow.control.rest.view.DeviceHistory;
 import io.furrow.control.rest.view.EventTiles;
 import io.furrow.control.rest.view.KafkaReads;
 import io.furrow.control.rest.view.MarkerStore;
@@ -82,6 +83,8 @@ public final class RestApi implements AutoCloseable {
     private final MarkerStore markers;
     /** Null if there is no MongoDB. */
     private final EventTiles events;
+    /** Null if there is no MongoDB. */
+    private final DeviceHistory history;
 
     private RestApi(ControlSettings control, RestSettings rest, Readiness readiness) {
         metrics = new RestMetrics(view, answers, readiness);
@@ -91,6 +94,7 @@ public final class RestApi implements AutoCloseable {
         managers = new CommandClient(control.client(), answers, view, rest.timeout(), threads);
         markers = new MarkerStore(control.replays(), threads);
         events = EventTiles.of(control.replays());
+        history = DeviceHistory.of(view, control.replays());
         view.listen(feeds);
     }
 
@@ -150,7 +154,7 @@ public final class RestApi implements AutoCloseable {
         DeviceCredentials credentials =
                 rest.secret() == null ? null : new DeviceCredentials(rest.secret(), rest.mqtt());
         DevicesResource.Dependencies dependencies =
-                new DevicesResource.Dependencies(control.missions().scope(), commands, credentials);
+                new DevicesResource.Dependencies(control.missions().scope(), commands, credentials, history);
         ApiDescription description = ApiDescription.read();
         StateWait waits = new StateWait(threads);
         KafkaReads reads = new KafkaReads(MAX_READERS);
@@ -287,6 +291,7 @@ public final class RestApi implements AutoCloseable {
         markers.close();
         if (events != null) {
             events.close();
+            history.close();
         }
         managers.close();
     }

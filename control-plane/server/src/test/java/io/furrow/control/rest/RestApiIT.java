@@ -66,6 +66,7 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
                 .isEqualTo(200); // HEAD does not look the replay up
         running.rejects("GET", "/api/alarms/none", null, 404, "unknown-alarm");
         running.rejects("GET", "/api/recordings/none/timeline", null, 501, "no-mongodb");
+        running.rejects("GET", "/api/devices/none/history?attribute=speed", null, 501, "no-mongodb");
         running.rejects("DELETE", "/api/recordings/none", null, 501, "no-mongodb");
         running.rejects("GET", "/api/recordings/none/events", null, 501, "no-mongodb");
         running.rejects("POST", "/api/recordings/none/events", "{}", 501, "no-mongodb");

@@ -120,6 +120,39 @@ class TimelineIT {
     }
 
     @Test
+    void servesTheHistoryOfADevice() throws Exception {
+        String lines = IntStream.range(0, 100)
+                .mapToObj(i ->
+                        "{\"id\":\"h%d\",\"time\":%d,\"headers\":{\"fiware-service\":\"farm\"},\"entity\":{\"id\":\"t\",\"type\":\"T\",\"a.b\":{\"type\":\"Number\",\"value\":%d}}}\n"
+                                .formatted(i, TIME + i, i == 42 ? 999 : i % 3))
+                .collect(Collectors.joining());
+        load("hoeing", lines);
+        String path = "/api/devices/t/history?service=farm&servicePath=/&attribute=";
+        String period = "&from=2023-11-14T22:13:20Z&to=" + (TIME + 100);
+
+        JsonNode history = client.get(path + "a.b&points=10" + period);
+        assertThat(history.path("values").asInt()).isEqualTo(100);
+        assertThat(history.path("points").size()).isLessThanOrEqualTo(10);
+        assertThat(history.findValuesAsText("value")).contains("999.0");
+        assertThat(client.get("/api/v1/devices/t/history?service=farm&attribute=a.b&points=10" + period)
+                        .at("/points/0/time")
+                        .asText())
+                .isEqualTo("2023-11-14T22:13:20Z");
+        assertThat(client.get(path + "$where" + period).path("kind").asText()).isEqualTo("none");
+        assertThat(client.get(path.replace("/t/", "/nosuch/") + "a.b" + period).path("points"))
+                .isEmpty();
+
+        assertRejected(path + "a.b&mission=nosuch", "404 unknown-mission");
+        assertRejected(path + "a.b&points=9", "400 wrong-member");
+        assertRejected(path + "a.b&from=2&to=1", "400 wrong-member");
+        assertRejected(path + "x".repeat(257), "400 wrong-member");
+        assertRejected("/api/devices/t/history", "400 missing-member");
+        assertThat(running.client().error("GET", path + "a.b", null))
+                .as("without --mongo")
+                .isEqualTo("501 no-mongodb");
+    }
+
+    @Test
     void deletesAMissionWithItsMarkersUnlessItIsInUse() throws Exception {
         String path = "/api/recordings/hoeing";
         client.send("POST", "/api/missions/hoeing/markers", "{\"time\":5,\"note\":\"n\"}");

@@ -32,7 +32,7 @@ public final class EventDocumentCodec {
     public static final String TIME = "_time";
     static final String ENTITY_ID = "id";
 
-    private static final String HEADERS = "_headers";
+    static final String HEADERS = "_headers";
     private static final String DELETED = "_deleted";
     private static final String STAMP = "ts-";
     private static final Pattern STAMPED = Pattern.compile("[1-9]\\d{0,17}");
