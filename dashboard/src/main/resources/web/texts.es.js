@@ -74,7 +74,7 @@ export const texts = {
   },
 
   units: {
-    second: 's', minute: 'min', hour: 'h', day: 'd', meter: 'm', kilometer: 'km', millimeter: 'mm', meterPerSecond: 'm/s', kilometerPerHour: 'km/h',
+    second: 's', minute: 'min', hour: 'h', day: 'd', meter: 'm', kilometer: 'km', hectare: 'ha', millimeter: 'mm', meterPerSecond: 'm/s', kilometerPerHour: 'km/h',
     celsius: '°C', percent: '%', degree: '°', hectopascal: 'hPa', lux: 'lx', volt: 'V', ampere: 'A', watt: 'W', wattPerSquareMeter: 'W/m²',
     byte: 'B', kilobyte: 'kB', megabyte: 'MB', gigabyte: 'GB', terabyte: 'TB',
   },
@@ -94,13 +94,14 @@ export const texts = {
   map: {
     label: 'Mapa de la finca. Las flechas lo mueven, más y menos cambian la escala; la tabla contiene lo mismo en filas.',
     controls: 'Mapa', zoomIn: 'Acercar', zoomOut: 'Alejar', fit: 'Mostrar toda la finca', farms: 'Fincas', layers: 'Qué se muestra', table: 'El mapa como tabla', closeTable: 'Cerrar la tabla',
-    tables: { devices: 'Dispositivos', encounters: 'Encuentros', fields: 'Parcelas' },
+    tables: { devices: 'Dispositivos', encounters: 'Encuentros', fields: 'Parcelas', coverages: 'Superficie trabajada' },
+    cells: { worked: 'trabajado', 'worked-again': 'trabajado de nuevo', gap: 'hueco' }, workedShare: '{share} trabajado',
     base: { title: 'Mapa base', none: 'ninguno', server: 'del servidor', address: 'de {host}', file: 'Elegir un archivo PMTiles …', hint: 'Teselas de imagen; el archivo se guarda en este navegador y funciona sin conexión.', remove: 'Quitar {file} de este navegador', noPictures: '{file} no contiene imágenes como teselas', failed: 'El mapa base no se puede mostrar: {reason}' },
     options: { trails: 'Recorridos', labels: 'Nombres', rows: 'Líneas de las parcelas' },
     legend: 'Leyenda', stopped: 'apagado o parado', encounter: 'encuentro', predicted: '{distance} en {time} s', ended: 'fue {distance}', closest: 'mínimo {distance}',
     devices: '{count dispositivo|dispositivos}', unverified: 'sin verificar', suspects: '{count} sospechosos', noAlarms: 'sin alarmas',
     cluster: '{count} dispositivos, pulse para abrir', oneSpot: '{count} dispositivos en el mismo punto',
-    columns: { name: 'Nombre', kind: 'Tipo', state: 'Estado', position: 'Posición', speed: 'Velocidad', age: 'Último informe', pair: 'Dispositivos', phase: 'Fase', distance: 'Distancia', closest: 'Mínimo', field: 'Parcela', average: 'Media', devices: 'Dispositivos', suspects: 'Sospechosos' },
+    columns: { name: 'Nombre', kind: 'Tipo', state: 'Estado', position: 'Posición', speed: 'Velocidad', age: 'Último informe', pair: 'Dispositivos', phase: 'Fase', distance: 'Distancia', closest: 'Mínimo', field: 'Parcela', average: 'Media', devices: 'Dispositivos', suspects: 'Sospechosos', mission: 'Misión', hectares: 'Trabajado', share: 'Parte', overlap: 'De nuevo', gaps: 'Huecos', left: 'Tiempo restante' },
     speed: '{speed} m/s',
     phases: { predicted: 'previsto', started: 'demasiado cerca', ongoing: 'demasiado cerca', ended: 'terminado', crossed: 'cruzado' },
     faults: { 'no-number': 'no es un número', 'no-point': 'no es un punto', 'out-of-range': 'fuera del mapa', 'no-fix': 'sin señal de satélite' },

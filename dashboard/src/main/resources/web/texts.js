@@ -49,7 +49,7 @@ const english = {
   },
 
   units: {
-    second: 's', minute: 'min', hour: 'h', day: 'd', meter: 'm', kilometer: 'km', millimeter: 'mm', meterPerSecond: 'm/s', kilometerPerHour: 'km/h',
+    second: 's', minute: 'min', hour: 'h', day: 'd', meter: 'm', kilometer: 'km', hectare: 'ha', millimeter: 'mm', meterPerSecond: 'm/s', kilometerPerHour: 'km/h',
     celsius: '°C', percent: '%', degree: '°', hectopascal: 'hPa', lux: 'lx', volt: 'V', ampere: 'A', watt: 'W', wattPerSquareMeter: 'W/m²',
     byte: 'B', kilobyte: 'kB', megabyte: 'MB', gigabyte: 'GB', terabyte: 'TB',
   },
@@ -69,13 +69,14 @@ const english = {
   map: {
     label: 'Map of the farm. Arrow keys move it, plus and minus zoom; the table has the same in rows.',
     controls: 'Map', zoomIn: 'Zoom in', zoomOut: 'Zoom out', fit: 'Show the whole farm', farms: 'Farms', layers: 'What is shown', table: 'The map as a table', closeTable: 'Close the table',
-    tables: { devices: 'Devices', encounters: 'Encounters', fields: 'Fields' },
+    tables: { devices: 'Devices', encounters: 'Encounters', fields: 'Fields', coverages: 'Worked area' },
+    cells: { worked: 'worked', 'worked-again': 'worked again', gap: 'gap' }, workedShare: '{share} worked',
     base: { title: 'Base map', none: 'none', server: 'of the server', address: 'of {host}', file: 'Choose a PMTiles file …', hint: 'Pictures of tiles; the file is stored in this browser and works offline.', remove: 'Remove {file} from this browser', noPictures: '{file} has no pictures as tiles', failed: 'The base map cannot be shown: {reason}' },
     options: { trails: 'Trails', labels: 'Names', rows: 'Rows of fields' },
     legend: 'Legend', stopped: 'off or stopped', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}', closest: 'closest {distance}',
     devices: '{count device|devices}', unverified: 'unverified', suspects: '{count} suspect', noAlarms: 'no alarms',
     cluster: '{count} devices, click to open', oneSpot: '{count} devices in one spot',
-    columns: { name: 'Name', kind: 'Kind', state: 'State', position: 'Position', speed: 'Speed', age: 'Heard', pair: 'Devices', phase: 'Phase', distance: 'Distance', closest: 'Closest', field: 'Field', average: 'Average', devices: 'Devices', suspects: 'Suspects' },
+    columns: { name: 'Name', kind: 'Kind', state: 'State', position: 'Position', speed: 'Speed', age: 'Heard', pair: 'Devices', phase: 'Phase', distance: 'Distance', closest: 'Closest', field: 'Field', average: 'Average', devices: 'Devices', suspects: 'Suspects', mission: 'Mission', hectares: 'Worked', share: 'Share', overlap: 'Again', gaps: 'Gaps', left: 'Time left' },
     speed: '{speed} m/s',
     phases: { predicted: 'predicted', started: 'too close', ongoing: 'too close', ended: 'over', crossed: 'crossed' },
     faults: { 'no-number': 'no number', 'no-point': 'no point', 'out-of-range': 'outside the map', 'no-fix': 'no fix' },
