@@ -56,7 +56,7 @@ export const texts = {
   },
   groups: { mission: 'la misión {name}', domain: 'el dominio {name}', field: '{name}', none: 'ninguna misión' },
 
-  views: { map: 'Mapa', missions: 'Misiones', replays: 'Reproducciones', analyses: 'Análisis', topics: 'Temas', platform: 'Plataforma' },
+  views: { map: 'Mapa', missions: 'Misiones', replays: 'Reproducciones', analyses: 'Análisis', topics: 'Temas', platform: 'Plataforma', report: 'Informe' },
 
   signIn: {
     title: 'Iniciar sesión',
@@ -189,7 +189,7 @@ export const texts = {
     none: 'Todavía no hay misiones', noneHint: 'Una misión dice qué dispositivos trabajan dónde. Cree una a partir de una plantilla.',
     states: { created: 'sin iniciar', starting: 'iniciándose', running: 'en marcha', stopping: 'parándose', stopped: 'parada', failed: 'fallida' },
     confirmed: '{confirmed} de {devices dispositivo|dispositivos}', missing: 'faltan {count}', since: 'desde hace {age}', notYet: 'todavía no', progress: 'Dispositivos en el estado deseado',
-    startedAt: 'iniciada {time}', lasts: 'durante {duration}', left: 'quedan {duration}', start: 'Iniciar', stop: 'Parar', delete: 'Eliminar', replay: 'Reproducir',
+    startedAt: 'iniciada {time}', lasts: 'durante {duration}', left: 'quedan {duration}', start: 'Iniciar', stop: 'Parar', delete: 'Eliminar', replay: 'Reproducir', report: 'Informe',
     credentials: 'Credenciales', startTitle: '¿Iniciar {mission}?', stopTitle: '¿Parar {mission}?', stopText: 'Los dispositivos simulados se apagan; las credenciales de los reales dejan de valer hasta que se inicie de nuevo. Lo grabado se conserva.', deleteTitle: '¿Eliminar {mission}?', deleteText: 'Se eliminan su plan y sus dispositivos. Lo grabado se conserva en MongoDB.',
     devices: 'Dispositivos', deviceColumns: { device: 'Dispositivo', state: 'Estado', health: 'Salud', battery: 'Batería', seen: 'Último informe', audit: 'Órdenes' }, onMap: 'Mostrar {device} en el mapa', auditOfDevice: 'Quién dio órdenes a {device}',
     viewer: 'Puede verlo todo. Las órdenes requieren el papel de operador', noDevicesYet: 'Se crean sus dispositivos.', planned: '{count dispositivo previsto|dispositivos previstos}, se crean al iniciarse.', moreDevices: 'y {count} más',
@@ -299,6 +299,18 @@ export const texts = {
     noRecording: 'sin grabar', more: 'Se muestran {shown} de {count}: mostrar más',
     stay: '{device} en {field}, de {from} a {to}', stillIn: 'sigue allí', device: 'Dispositivo', entered: 'Entró', left: 'Salió', stayed: 'Estancia',
     at: '{value} a las {time}', chartLabel: 'Medias por parcela a lo largo del tiempo; la tabla contiene los mismos números',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  report: {
+    title: 'Informe de {mission}', reading: 'Se lee el informe …', none: 'Todavía no hay nada que informar', noneHint: 'La misión no ha empezado, o no hay nada guardado de ella.', toMission: 'A la misión', again: 'Leer de nuevo', print: 'Imprimir o guardar como PDF',
+    time: 'Tiempo', length: 'Duración', running: 'sigue en marcha', ofFields: '{share} de {hectares}', map: 'Parcelas', mapLabel: 'Mapa de las parcelas con lo trabajado. {fields}',
+    coverages: 'Superficie trabajada', encounters: 'Encuentros', averages: 'Temperaturas medias', alarms: 'Alarmas', markers: 'Notas', devices: 'Dispositivos',
+    no: { coverages: 'No se conoce superficie trabajada de ese tiempo.', encounters: 'No se conocen encuentros de ese tiempo.', averages: 'No se conocen medias de ese tiempo.', alarms: 'No se conocen alarmas de ese tiempo.', markers: 'Sin notas.', devices: 'No se conocen dispositivos.' },
+    alarmsRetained: 'Las alarmas se conocen hasta un día después de cerrarse.', more: 'Se muestran {shown} de {count}. El CSV contiene todo.', made: 'Hecho el {time} ({zone}) por Furrow.',
+    field: 'Parcela', hectares: 'Trabajado', fieldHectares: 'Superficie', share: 'Parte', overlap: 'Trabajado de nuevo', gaps: 'Huecos', from: 'Desde', to: 'Hasta', mean: 'Media', min: 'Mínima', max: 'Máxima', windows: 'Ventanas', suspects: 'Sospechosos',
+    when: 'Cuándo', severity: 'Gravedad', alarm: 'Alarma', times: 'Veces', open: 'Abierta durante', stillOpen: 'sigue abierta', note: 'Nota', author: 'Quién', device: 'Dispositivo', id: 'Identificador', type: 'Tipo', state: 'Estado',
   },
 
   // ------------------------------------------------------------------------------------------------------------------

@@ -31,7 +31,7 @@ const english = {
     enteredLive: 'Showing live data.',
   },
 
-  views: { map: 'Map', missions: 'Missions', replays: 'Replays', analyses: 'Analyses', topics: 'Topics', platform: 'Platform' },
+  views: { map: 'Map', missions: 'Missions', replays: 'Replays', analyses: 'Analyses', topics: 'Topics', platform: 'Platform', report: 'Report' },
 
   signIn: {
     title: 'Sign in',
@@ -163,7 +163,7 @@ const english = {
     none: 'No missions yet', noneHint: 'A mission says which devices work where. Create one from a template.',
     states: { created: 'not started', starting: 'starting', running: 'running', stopping: 'stopping', stopped: 'stopped', failed: 'failed' },
     confirmed: '{confirmed} of {devices device|devices}', missing: '{count} missing', since: 'for {age}', notYet: 'not yet', progress: 'Devices in the desired state',
-    startedAt: 'started {time}', lasts: 'for {duration}', left: '{duration} left', start: 'Start', stop: 'Stop', delete: 'Delete', replay: 'Replay',
+    startedAt: 'started {time}', lasts: 'for {duration}', left: '{duration} left', start: 'Start', stop: 'Stop', delete: 'Delete', replay: 'Replay', report: 'Report',
     credentials: 'Logins', startTitle: 'Start {mission}?', stopTitle: 'Stop {mission}?', stopText: 'Simulated devices are switched off; the logins of real ones end until it is started again. What it recorded stays.', deleteTitle: 'Delete {mission}?', deleteText: 'Its plan and its devices are deleted. What it recorded stays in MongoDB.',
     devices: 'Devices', deviceColumns: { device: 'Device', state: 'State', health: 'Health', battery: 'Battery', seen: 'Heard', audit: 'Commands' }, onMap: 'Show {device} on the map', auditOfDevice: 'Who commanded {device}',
     viewer: 'You can view everything. Commands require the role of an operator', noDevicesYet: 'Its devices are being created.', planned: '{count device|devices} planned, created when it starts.', moreDevices: 'and {count} more',
@@ -273,6 +273,18 @@ const english = {
     noRecording: 'not recorded', more: '{shown} of {count} are shown: show more',
     stay: '{device} in {field}, {from} to {to}', stillIn: 'still there', device: 'Device', entered: 'Entered', left: 'Left', stayed: 'Stayed',
     at: '{value} at {time}', chartLabel: 'Averages per field over time; the table has the same numbers',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  report: {
+    title: 'Report of {mission}', reading: 'The report is being read …', none: 'Nothing to report yet', noneHint: 'The mission has not begun, or nothing is stored of it.', toMission: 'To the mission', again: 'Read again', print: 'Print or save as PDF',
+    time: 'Time', length: 'Length', running: 'still running', ofFields: '{share} of {hectares}', map: 'Fields', mapLabel: 'Map of the fields with what was worked. {fields}',
+    coverages: 'Worked area', encounters: 'Encounters', averages: 'Average temperatures', alarms: 'Alarms', markers: 'Notes', devices: 'Devices',
+    no: { coverages: 'No worked area is known of that time.', encounters: 'No encounters are known of that time.', averages: 'No averages are known of that time.', alarms: 'No alarms are known of that time.', markers: 'No notes.', devices: 'No devices are known.' },
+    alarmsRetained: 'Alarms are known until a day after they were closed.', more: '{shown} of {count} are shown. The CSV has all.', made: 'Made on {time} ({zone}) by Furrow.',
+    field: 'Field', hectares: 'Worked', fieldHectares: 'Field area', share: 'Share', overlap: 'Worked again', gaps: 'Gaps', from: 'From', to: 'To', mean: 'Average', min: 'Lowest', max: 'Highest', windows: 'Windows', suspects: 'Suspects',
+    when: 'When', severity: 'Severity', alarm: 'Alarm', times: 'Times', open: 'Open for', stillOpen: 'still open', note: 'Note', author: 'Who', device: 'Device', id: 'Id', type: 'Type', state: 'State',
   },
 
   // ------------------------------------------------------------------------------------------------------------------

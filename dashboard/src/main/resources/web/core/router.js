@@ -1,6 +1,6 @@
 /** Routes views of the page by the hash: `#/map?select=urn:…`. */
 
-const VIEWS = ['map', 'missions', 'replays', 'analyses', 'topics', 'platform'];
+const VIEWS = ['map', 'missions', 'replays', 'analyses', 'topics', 'platform', 'report'];
 const handlers = new Set();
 
 /** @type {{view: string, query: Object<string, string>}} */
