@@ -25,6 +25,7 @@ const MODULES = {
   'furrow-history': './views/history.js',
   'furrow-topics': './views/topics.js',
   'furrow-platform': './views/platform.js',
+  'furrow-report': './views/report.js',
 };
 /** Time for which a restored connection is reported, ms. */
 const RESTORED_SHOWN = 10_000;
@@ -108,12 +109,12 @@ class App extends HTMLElement {
     this.map.hidden = !isMap;
     this.timelinePlace.hidden = !WITH_TIMELINE.has(view);
     for (const link of this.rail.children) {
-      link.dataset.view === view ? link.setAttribute('aria-current', 'page') : link.removeAttribute('aria-current');
+      link.dataset.view === (view === 'report' ? 'missions' : view) ? link.setAttribute('aria-current', 'page') : link.removeAttribute('aria-current');
     }
     if (view !== this.view) {
       this.view = view;
-      replace(this.viewPlace, isMap ? null : this.load(`furrow-${view}`));
       document.title = isMap ? t('app.title') : `${t(`views.${view}`)} · ${t('app.title')}`;
+      replace(this.viewPlace, isMap ? null : this.load(`furrow-${view}`)); // which may set a title of its own
       isMap || this.middle.focus({ preventScroll: true });
       this.showMode();
       this.showTime();

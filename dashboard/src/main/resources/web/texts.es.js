@@ -25,6 +25,7 @@ export const texts = {
     gap: 'Faltan {count registro|registros}.',
     panel: 'Alarmas y dispositivos',
     timeline: 'Línea de tiempo',
+    csv: 'Guardar como CSV', csvOf: 'Guardar como CSV: {table}',
     enteredReplay: 'Se muestra la reproducción de {mission}. No se envían órdenes.',
     enteredLive: 'Se muestran datos en vivo.',
   },
@@ -67,7 +68,7 @@ export const texts = {
     'unknown-topic': 'no existe el tema', 'topic-not-allowed': 'su rol no permite leer el tema', 'too-much': 'hay demasiados datos', 'too-slow': 'la lectura tardó demasiado', 'too-many-streams': 'hay demasiadas conexiones abiertas', 'unknown-image': 'no existe la imagen',
   },
 
-  views: { map: 'Mapa', missions: 'Misiones', replays: 'Reproducciones', analyses: 'Análisis', history: 'Historial', topics: 'Temas', platform: 'Plataforma' },
+  views: { map: 'Mapa', missions: 'Misiones', replays: 'Reproducciones', analyses: 'Análisis', history: 'Historial', topics: 'Temas', platform: 'Plataforma', report: 'Informe' },
 
   signIn: {
     title: 'Iniciar sesión',
@@ -86,7 +87,7 @@ export const texts = {
   },
 
   units: {
-    second: 's', minute: 'min', hour: 'h', day: 'd', meter: 'm', kilometer: 'km', millimeter: 'mm', meterPerSecond: 'm/s', kilometerPerHour: 'km/h',
+    second: 's', minute: 'min', hour: 'h', day: 'd', meter: 'm', kilometer: 'km', hectare: 'ha', millimeter: 'mm', meterPerSecond: 'm/s', kilometerPerHour: 'km/h',
     celsius: '°C', percent: '%', degree: '°', hectopascal: 'hPa', lux: 'lx', volt: 'V', ampere: 'A', watt: 'W', wattPerSquareMeter: 'W/m²',
     byte: 'B', kilobyte: 'kB', megabyte: 'MB', gigabyte: 'GB', terabyte: 'TB',
   },
@@ -106,13 +107,14 @@ export const texts = {
   map: {
     label: 'Mapa de la finca. Las flechas lo mueven, más y menos cambian la escala; la tabla contiene lo mismo en filas.',
     controls: 'Mapa', zoomIn: 'Acercar', zoomOut: 'Alejar', fit: 'Mostrar toda la finca', farms: 'Fincas', layers: 'Qué se muestra', table: 'El mapa como tabla', closeTable: 'Cerrar la tabla',
-    tables: { devices: 'Dispositivos', encounters: 'Encuentros', fields: 'Parcelas' },
+    tables: { devices: 'Dispositivos', encounters: 'Encuentros', fields: 'Parcelas', coverages: 'Superficie trabajada' },
+    cells: { worked: 'trabajado', 'worked-again': 'trabajado de nuevo', gap: 'hueco' }, workedShare: '{share} trabajado',
     base: { title: 'Mapa base', none: 'ninguno', server: 'del servidor', address: 'de {host}', file: 'Elegir un archivo PMTiles …', hint: 'Teselas de imagen; el archivo se guarda en este navegador y funciona sin conexión.', remove: 'Quitar {file} de este navegador', noPictures: '{file} no contiene imágenes como teselas', failed: 'El mapa base no se puede mostrar: {reason}' },
     options: { trails: 'Recorridos', labels: 'Nombres', rows: 'Líneas de las parcelas' },
     legend: 'Leyenda', stopped: 'apagado o parado', encounter: 'encuentro', predicted: '{distance} en {time} s', ended: 'fue {distance}', closest: 'mínimo {distance}',
     devices: '{count dispositivo|dispositivos}', unverified: 'sin verificar', suspects: '{count} sospechosos', noAlarms: 'sin alarmas',
     cluster: '{count} dispositivos, pulse para abrir', oneSpot: '{count} dispositivos en el mismo punto',
-    columns: { name: 'Nombre', kind: 'Tipo', state: 'Estado', position: 'Posición', speed: 'Velocidad', age: 'Último informe', pair: 'Dispositivos', phase: 'Fase', distance: 'Distancia', closest: 'Mínimo', field: 'Parcela', average: 'Media', devices: 'Dispositivos', suspects: 'Sospechosos' },
+    columns: { name: 'Nombre', kind: 'Tipo', state: 'Estado', position: 'Posición', speed: 'Velocidad', age: 'Último informe', pair: 'Dispositivos', phase: 'Fase', distance: 'Distancia', closest: 'Mínimo', field: 'Parcela', average: 'Media', devices: 'Dispositivos', suspects: 'Sospechosos', mission: 'Misión', hectares: 'Trabajado', share: 'Parte', overlap: 'De nuevo', gaps: 'Huecos', left: 'Tiempo restante' },
     speed: '{speed} m/s',
     phases: { predicted: 'previsto', started: 'demasiado cerca', ongoing: 'demasiado cerca', ended: 'terminado', crossed: 'cruzado' },
     faults: { 'no-number': 'no es un número', 'no-point': 'no es un punto', 'out-of-range': 'fuera del mapa', 'no-fix': 'sin señal de satélite' },
@@ -195,10 +197,11 @@ export const texts = {
     tabs: { missions: 'Misiones', domains: 'Dominios y parcelas', audit: 'Quién ordenó qué' },
     new: 'Misión nueva', create: 'Crear', cancel: 'Cancelar', name: 'Nombre', nameHint: '1 a 64 de A–Z a–z 0–9 _ -', domain: 'Dominio', template: 'Plantilla', chooseTemplate: 'Elija una plantilla …', templateVersion: '{template}, versión {version}',
     noTemplateList: 'Las plantillas no se pueden listar: {reason}', ownDevices: 'Sin plantilla: dispositivos propios', ids: 'Dispositivos que ya tienen credenciales', ownHint: 'Identificadores de entidad, uno por línea. Vacío si no hay ninguno.', type: 'Tipo', count: 'Cuántos', period: 'Un informe cada', simulated: 'Simulados', simulatedHint: 'Necesita un equipo de dispositivos simulados; un dispositivo real cuenta desde su primer informe', moreDevices2: 'Dispositivos de otro tipo', lessDevices: 'Quitar estos dispositivos', simulatedTemplate: 'Sus dispositivos son simulados', minutes: 'Duración en minutos', minutesHint: 'Vacío: hasta que se pare', startNow: 'Iniciarla enseguida',
+    columns: { mission: 'Misión', domain: 'Dominio', template: 'Plantilla', state: 'Estado', since: 'Desde', start: 'Iniciada', devices: 'Dispositivos', confirmed: 'En el estado deseado' },
     none: 'Todavía no hay misiones', noneHint: 'Una misión dice qué dispositivos trabajan dónde. Cree una a partir de una plantilla.',
     states: { created: 'sin iniciar', starting: 'iniciándose', running: 'en marcha', stopping: 'parándose', stopped: 'parada', failed: 'fallida' },
     confirmed: '{confirmed} de {devices dispositivo|dispositivos}', missing: 'faltan {count}', since: 'desde hace {age}', notYet: 'todavía no', progress: 'Dispositivos en el estado deseado',
-    startedAt: 'iniciada {time}', lasts: 'durante {duration}', left: 'quedan {duration}', start: 'Iniciar', stop: 'Parar', delete: 'Eliminar', replay: 'Reproducir',
+    startedAt: 'iniciada {time}', lasts: 'durante {duration}', left: 'quedan {duration}', start: 'Iniciar', stop: 'Parar', delete: 'Eliminar', replay: 'Reproducir', report: 'Informe',
     credentials: 'Credenciales', startTitle: '¿Iniciar {mission}?', stopTitle: '¿Parar {mission}?', stopText: 'Los dispositivos simulados se apagan; las credenciales de los reales dejan de valer hasta que se inicie de nuevo. Lo grabado se conserva.', deleteTitle: '¿Eliminar {mission}?', deleteText: 'Se eliminan su plan y sus dispositivos. Lo grabado se conserva en MongoDB.',
     devices: 'Dispositivos', deviceColumns: { device: 'Dispositivo', state: 'Estado', health: 'Salud', battery: 'Batería', seen: 'Último informe', audit: 'Órdenes' }, onMap: 'Mostrar {device} en el mapa', auditOfDevice: 'Quién dio órdenes a {device}',
     viewer: 'Puede verlo todo. Las órdenes requieren el papel de operador', noDevicesYet: 'Se crean sus dispositivos.', planned: '{count dispositivo previsto|dispositivos previstos}, se crean al iniciarse.', moreDevices: 'y {count} más',
@@ -299,7 +302,7 @@ export const texts = {
     noAverages: 'Sin medias en este período', noAveragesHint: 'Las medias se calculan por ventana con los termómetros dentro de las parcelas.',
     noEncounters: 'Sin encuentros en este período', noEncountersHint: 'Un encuentro empieza cuando dos dispositivos se acercan más que el umbral.',
     noPresence: 'Ningún dispositivo estuvo en una parcela en este período', noPresenceHint: 'Una estancia empieza cuando un dispositivo entra en una parcela.',
-    window: 'Ventana', field: 'Parcela', mean: 'Media', plain: 'Media simple', devices: 'Dispositivos', suspects: 'Sospechosos', quality: 'Calidad', none: 'ninguno',
+    window: 'Ventana', from: 'Desde', to: 'Hasta', field: 'Parcela', mean: 'Media', plain: 'Media simple', devices: 'Dispositivos', suspects: 'Sospechosos', quality: 'Calidad', none: 'ninguno',
     qualities: { robust: 'robusta', unverified: 'sin verificar' },
     suspectMark: 'Triángulo: un dispositivo era sospechoso en esta ventana', hide: 'Mostrar u ocultar {field}',
     when: 'Cuándo', pair: 'Dispositivos', closest: 'Mínimo', duration: 'Duración', phase: 'Fase', sort: 'Ordenar por {column}',
@@ -326,6 +329,18 @@ export const texts = {
     pictures: 'Imágenes', allPictures: 'Imágenes de todas las cámaras', picture: 'Imagen', pictureCount: '{count imagen|imágenes}', pictureAt: '{name}, {time} · {number} de {count}', previous: 'Imagen anterior', next: 'Imagen siguiente',
     noPictures: 'Ninguna imagen en este período', noPicturesHint: 'Una imagen aparece aquí cuando una cámara la ha enviado y está guardada.',
     around: 'Imágenes', aroundOf: 'Imágenes alrededor de {pair} a las {time}',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  report: {
+    title: 'Informe de {mission}', reading: 'Se lee el informe …', none: 'Todavía no hay nada que informar', noneHint: 'La misión no ha empezado, o no hay nada guardado de ella.', toMission: 'A la misión', again: 'Leer de nuevo', print: 'Imprimir o guardar como PDF',
+    time: 'Tiempo', length: 'Duración', running: 'sigue en marcha', ofFields: '{share} de {hectares}', map: 'Parcelas', mapLabel: 'Mapa de las parcelas con lo trabajado. {fields}',
+    coverages: 'Superficie trabajada', encounters: 'Encuentros', averages: 'Temperaturas medias', alarms: 'Alarmas', markers: 'Notas', devices: 'Dispositivos',
+    no: { coverages: 'No se conoce superficie trabajada de ese tiempo.', encounters: 'No se conocen encuentros de ese tiempo.', averages: 'No se conocen medias de ese tiempo.', alarms: 'No se conocen alarmas de ese tiempo.', markers: 'Sin notas.', devices: 'No se conocen dispositivos.' },
+    alarmsRetained: 'Las alarmas se conocen hasta un día después de cerrarse.', more: 'Se muestran {shown} de {count}. El CSV contiene todo.', made: 'Hecho el {time} ({zone}) por Furrow.',
+    field: 'Parcela', hectares: 'Trabajado', fieldHectares: 'Superficie', share: 'Parte', overlap: 'Trabajado de nuevo', gaps: 'Huecos', from: 'Desde', to: 'Hasta', mean: 'Media', min: 'Mínima', max: 'Máxima', windows: 'Ventanas', suspects: 'Sospechosos',
+    when: 'Cuándo', severity: 'Gravedad', alarm: 'Alarma', times: 'Veces', open: 'Abierta durante', stillOpen: 'sigue abierta', note: 'Nota', author: 'Quién', device: 'Dispositivo', id: 'Identificador', type: 'Tipo', state: 'Estado',
   },
 
   // ------------------------------------------------------------------------------------------------------------------

@@ -26,11 +26,12 @@ const english = {
     gap: '{count record|records} missed.',
     panel: 'Alarms and devices',
     timeline: 'Timeline',
+    csv: 'Save as CSV', csvOf: 'Save as CSV: {table}',
     enteredReplay: 'Showing the replay of {mission}. Commands are not sent.',
     enteredLive: 'Showing live data.',
   },
 
-  views: { map: 'Map', missions: 'Missions', replays: 'Replays', analyses: 'Analyses', history: 'History', topics: 'Topics', platform: 'Platform' },
+  views: { map: 'Map', missions: 'Missions', replays: 'Replays', analyses: 'Analyses', history: 'History', topics: 'Topics', platform: 'Platform', report: 'Report' },
 
   signIn: {
     title: 'Sign in',
@@ -49,7 +50,7 @@ const english = {
   },
 
   units: {
-    second: 's', minute: 'min', hour: 'h', day: 'd', meter: 'm', kilometer: 'km', millimeter: 'mm', meterPerSecond: 'm/s', kilometerPerHour: 'km/h',
+    second: 's', minute: 'min', hour: 'h', day: 'd', meter: 'm', kilometer: 'km', hectare: 'ha', millimeter: 'mm', meterPerSecond: 'm/s', kilometerPerHour: 'km/h',
     celsius: '°C', percent: '%', degree: '°', hectopascal: 'hPa', lux: 'lx', volt: 'V', ampere: 'A', watt: 'W', wattPerSquareMeter: 'W/m²',
     byte: 'B', kilobyte: 'kB', megabyte: 'MB', gigabyte: 'GB', terabyte: 'TB',
   },
@@ -69,13 +70,14 @@ const english = {
   map: {
     label: 'Map of the farm. Arrow keys move it, plus and minus zoom; the table has the same in rows.',
     controls: 'Map', zoomIn: 'Zoom in', zoomOut: 'Zoom out', fit: 'Show the whole farm', farms: 'Farms', layers: 'What is shown', table: 'The map as a table', closeTable: 'Close the table',
-    tables: { devices: 'Devices', encounters: 'Encounters', fields: 'Fields' },
+    tables: { devices: 'Devices', encounters: 'Encounters', fields: 'Fields', coverages: 'Worked area' },
+    cells: { worked: 'worked', 'worked-again': 'worked again', gap: 'gap' }, workedShare: '{share} worked',
     base: { title: 'Base map', none: 'none', server: 'of the server', address: 'of {host}', file: 'Choose a PMTiles file …', hint: 'Pictures of tiles; the file is stored in this browser and works offline.', remove: 'Remove {file} from this browser', noPictures: '{file} has no pictures as tiles', failed: 'The base map cannot be shown: {reason}' },
     options: { trails: 'Trails', labels: 'Names', rows: 'Rows of fields' },
     legend: 'Legend', stopped: 'off or stopped', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}', closest: 'closest {distance}',
     devices: '{count device|devices}', unverified: 'unverified', suspects: '{count} suspect', noAlarms: 'no alarms',
     cluster: '{count} devices, click to open', oneSpot: '{count} devices in one spot',
-    columns: { name: 'Name', kind: 'Kind', state: 'State', position: 'Position', speed: 'Speed', age: 'Heard', pair: 'Devices', phase: 'Phase', distance: 'Distance', closest: 'Closest', field: 'Field', average: 'Average', devices: 'Devices', suspects: 'Suspects' },
+    columns: { name: 'Name', kind: 'Kind', state: 'State', position: 'Position', speed: 'Speed', age: 'Heard', pair: 'Devices', phase: 'Phase', distance: 'Distance', closest: 'Closest', field: 'Field', average: 'Average', devices: 'Devices', suspects: 'Suspects', mission: 'Mission', hectares: 'Worked', share: 'Share', overlap: 'Again', gaps: 'Gaps', left: 'Time left' },
     speed: '{speed} m/s',
     phases: { predicted: 'predicted', started: 'too close', ongoing: 'too close', ended: 'over', crossed: 'crossed' },
     faults: { 'no-number': 'no number', 'no-point': 'no point', 'out-of-range': 'outside the map', 'no-fix': 'no fix' },
@@ -157,10 +159,11 @@ const english = {
     tabs: { missions: 'Missions', domains: 'Domains and fields', audit: 'Who commanded what' },
     new: 'New mission', create: 'Create', cancel: 'Cancel', name: 'Name', nameHint: '1 to 64 of A–Z a–z 0–9 _ -', domain: 'Domain', template: 'Template', chooseTemplate: 'Choose a template …', templateVersion: '{template}, version {version}',
     noTemplateList: 'The templates cannot be listed: {reason}', ownDevices: 'No template: devices of my own', ids: 'Devices that already have a login', ownHint: 'Entity ids, one per line. Empty if there are none.', type: 'Type', count: 'How many', period: 'One report every', simulated: 'Simulated', simulatedHint: 'Needs a host of simulated devices; a real device is up by its first report', moreDevices2: 'Devices of another type', lessDevices: 'Remove these devices', simulatedTemplate: 'Its devices are simulated', minutes: 'Length in minutes', minutesHint: 'Empty: until it is stopped', startNow: 'Start it at once',
+    columns: { mission: 'Mission', domain: 'Domain', template: 'Template', state: 'State', since: 'Since', start: 'Started', devices: 'Devices', confirmed: 'In the desired state' },
     none: 'No missions yet', noneHint: 'A mission says which devices work where. Create one from a template.',
     states: { created: 'not started', starting: 'starting', running: 'running', stopping: 'stopping', stopped: 'stopped', failed: 'failed' },
     confirmed: '{confirmed} of {devices device|devices}', missing: '{count} missing', since: 'for {age}', notYet: 'not yet', progress: 'Devices in the desired state',
-    startedAt: 'started {time}', lasts: 'for {duration}', left: '{duration} left', start: 'Start', stop: 'Stop', delete: 'Delete', replay: 'Replay',
+    startedAt: 'started {time}', lasts: 'for {duration}', left: '{duration} left', start: 'Start', stop: 'Stop', delete: 'Delete', replay: 'Replay', report: 'Report',
     credentials: 'Logins', startTitle: 'Start {mission}?', stopTitle: 'Stop {mission}?', stopText: 'Simulated devices are switched off; the logins of real ones end until it is started again. What it recorded stays.', deleteTitle: 'Delete {mission}?', deleteText: 'Its plan and its devices are deleted. What it recorded stays in MongoDB.',
     devices: 'Devices', deviceColumns: { device: 'Device', state: 'State', health: 'Health', battery: 'Battery', seen: 'Heard', audit: 'Commands' }, onMap: 'Show {device} on the map', auditOfDevice: 'Who commanded {device}',
     viewer: 'You can view everything. Commands require the role of an operator', noDevicesYet: 'Its devices are being created.', planned: '{count device|devices} planned, created when it starts.', moreDevices: 'and {count} more',
@@ -261,7 +264,7 @@ const english = {
     noAverages: 'No averages in this period', noAveragesHint: 'Averages are computed per window from thermometers inside fields.',
     noEncounters: 'No encounters in this period', noEncountersHint: 'An encounter begins when two devices come closer than the threshold.',
     noPresence: 'No device was in a field in this period', noPresenceHint: 'A stay begins when a device enters a field.',
-    window: 'Window', field: 'Field', mean: 'Average', plain: 'Plain mean', devices: 'Devices', suspects: 'Suspects', quality: 'Quality', none: 'none',
+    window: 'Window', from: 'From', to: 'To', field: 'Field', mean: 'Average', plain: 'Plain mean', devices: 'Devices', suspects: 'Suspects', quality: 'Quality', none: 'none',
     qualities: { robust: 'robust', unverified: 'unverified' },
     suspectMark: 'Triangle: a device was suspect in this window', hide: 'Show or hide {field}',
     when: 'When', pair: 'Devices', closest: 'Closest', duration: 'Duration', phase: 'Phase', sort: 'Sort by {column}',
@@ -288,6 +291,18 @@ const english = {
     pictures: 'Pictures', allPictures: 'Pictures of all cameras', picture: 'Picture', pictureCount: '{count picture|pictures}', pictureAt: '{name}, {time} · {number} of {count}', previous: 'Previous picture', next: 'Next picture',
     noPictures: 'No pictures in this period', noPicturesHint: 'A picture appears here when a camera has sent one and it is stored.',
     around: 'Pictures', aroundOf: 'Pictures around {pair} at {time}',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  report: {
+    title: 'Report of {mission}', reading: 'The report is being read …', none: 'Nothing to report yet', noneHint: 'The mission has not begun, or nothing is stored of it.', toMission: 'To the mission', again: 'Read again', print: 'Print or save as PDF',
+    time: 'Time', length: 'Length', running: 'still running', ofFields: '{share} of {hectares}', map: 'Fields', mapLabel: 'Map of the fields with what was worked. {fields}',
+    coverages: 'Worked area', encounters: 'Encounters', averages: 'Average temperatures', alarms: 'Alarms', markers: 'Notes', devices: 'Devices',
+    no: { coverages: 'No worked area is known of that time.', encounters: 'No encounters are known of that time.', averages: 'No averages are known of that time.', alarms: 'No alarms are known of that time.', markers: 'No notes.', devices: 'No devices are known.' },
+    alarmsRetained: 'Alarms are known until a day after they were closed.', more: '{shown} of {count} are shown. The CSV has all.', made: 'Made on {time} ({zone}) by Furrow.',
+    field: 'Field', hectares: 'Worked', fieldHectares: 'Field area', share: 'Share', overlap: 'Worked again', gaps: 'Gaps', from: 'From', to: 'To', mean: 'Average', min: 'Lowest', max: 'Highest', windows: 'Windows', suspects: 'Suspects',
+    when: 'When', severity: 'Severity', alarm: 'Alarm', times: 'Times', open: 'Open for', stillOpen: 'still open', note: 'Note', author: 'Who', device: 'Device', id: 'Id', type: 'Type', state: 'State',
   },
 
   // ------------------------------------------------------------------------------------------------------------------

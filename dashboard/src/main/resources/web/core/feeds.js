@@ -1,8 +1,9 @@
 /** Feeds the store from topics: live, or from a replay. */
 import { api } from './api.js';
+import { followCoverage } from './coverage.js';
 import { exists } from './existing.js';
 import { resource } from './resource.js';
-import { deviceKey, spanOf, store } from './store.js';
+import { COVERAGE_SHOWN, deviceKey, spanOf, store } from './store.js';
 import { streams } from './stream.js';
 import { t } from '../texts.js';
 
@@ -129,6 +130,7 @@ class Feeds {
       this.feed('data.collision', 'all', (record) => store.applyEncounter(record), { createdLater: true }),
       this.feed('data.temperature', 'all', (record) => store.applyTemperature(record), { createdLater: true }),
       this.feed('data.images', 'latest', (record) => store.applyImage(record), { createdLater: true }),
+      followCoverage('data.coverage', Date.now() - COVERAGE_SHOWN, (record) => store.applyCoverage(record)),
     ];
   }
 
@@ -146,8 +148,6 @@ class Feeds {
     }
     store.pastLoaded = true;
   }
-
-  // --- replays -----------------------------------------------------------------------------------------------------
 
   applyReplay(record) {
     const existing = store.replays.get(record.key);
@@ -221,6 +221,7 @@ class Feeds {
       this.feed(each.topic, 'latest', (record) => this.applyReplayed(record), { main: index === 0, forget: (key) => store.forgetEntity(key) }),
       ...['collision', 'temperature'].filter((job) => each.analytics?.includes(job)).map((job) => this.feed(`${each.topic}.${job}`, 'all', (record) => this.applyResult(record, each.topic,
         () => (job === 'collision' ? store.applyEncounter(record) : store.applyTemperature(record, each.mission))), { createdLater: true })),
+      ...(each.analytics?.includes('coverage') ? [followCoverage(`${each.topic}.coverage`, 0, (record) => this.applyResult(record, each.topic, () => store.applyCoverage(record)))] : []),
     ]);
     this.follow(replay.replay);
     this.readImages();

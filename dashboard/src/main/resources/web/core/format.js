@@ -99,6 +99,16 @@ export function distance(meters) {
   return meters < 1000 ? inUnit(decimal(meters, meters < 100 ? 1 : 0), 'meter') : inUnit(decimal(meters / 1000, 1), 'kilometer');
 }
 
+/** "1.25 ha". */
+export function area(hectares) {
+  return Number.isFinite(hectares) ? inUnit(decimal(hectares, 2), 'hectare') : '–';
+}
+
+/** "62 %". @param {number} share 0 to 1 */
+export function percent(share) {
+  return Number.isFinite(share) ? inUnit(decimal(100 * share, 0), 'percent') : '–';
+}
+
 /** "12.4 °C". */
 export function temperature(celsius) {
   return Number.isFinite(celsius) ? inUnit(decimal(celsius, 1), 'celsius') : '–';

@@ -189,6 +189,10 @@ export const Reducers = (Base) => class extends Base {
     this.notify('fields');
   }
 
+  applyCoverage(record) {
+    this.coverages.apply(record) && this.notify('coverages');
+  }
+
   /** The averages of a field, one per tenant, service path and replayed mission of its devices. */
   averagesOf(field) {
     return [...this.averages.get(field)?.values() ?? []];
@@ -218,23 +222,23 @@ export const Reducers = (Base) => class extends Base {
 
   /** Selects the version of a field that is valid at the page's time. */
   showField(id) {
-    const now = this.now();
+    const field = this.fieldAt(id, this.now());
+    if (this.fields.get(id)?.version !== field?.version) {
+      field ? this.fields.set(id, field) : this.fields.delete(id);
+      this.notify('fields');
+    }
+  }
+
+  /** The version of a field that is valid at a time; undefined if there is none. */
+  fieldAt(id, time) {
     const versions = this.fieldVersions.get(id);
-    const validFrom = Math.max(...[...versions.keys()].filter((from) => from <= now));
-    const version = versions.get(validFrom);
-    if (this.fields.get(id)?.version === version) {
-      return;
-    }
-    if (version?.geometry) {
-      const properties = version.properties ?? {};
-      this.fields.set(id, {
-        id, version, validFrom, properties, geometry: version.geometry, name: typeof properties.name === 'string' ? properties.name : id,
-        exclusion: properties.kind === 'exclusion' || properties.zone !== undefined,
-      });
-    } else if (!this.fields.delete(id)) {
-      return;
-    }
-    this.notify('fields');
+    const validFrom = Math.max(...[...versions?.keys() ?? []].filter((from) => from <= time));
+    const version = versions?.get(validFrom);
+    const properties = version?.properties ?? {};
+    return version?.geometry && {
+      id, version, validFrom, properties, geometry: version.geometry, name: typeof properties.name === 'string' ? properties.name : id,
+      exclusion: properties.kind === 'exclusion' || properties.zone !== undefined,
+    };
   }
 
   applyImage(record) {

@@ -1,6 +1,6 @@
 /** Routes views of the page by the hash: `#/map?select=urn:…`. */
 
-const VIEWS = ['map', 'missions', 'replays', 'analyses', 'history', 'topics', 'platform'];
+const VIEWS = ['map', 'missions', 'replays', 'analyses', 'history', 'topics', 'platform', 'report'];
 /** Time before and after an encounter of which pictures are shown, ms. */
 const AROUND_MILLIS = 30_000;
 const handlers = new Set();

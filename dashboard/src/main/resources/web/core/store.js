@@ -1,10 +1,13 @@
 /** The state of the page. Feeds write it, elements subscribe to its changes. */
+import { Coverages } from './coverage.js';
 import { stateOf } from './entity.js';
 import { Identities, isSameType, scope } from './identities.js';
 import { Reducers } from './reducers.js';
 
 /** Time for which an encounter that ended is shown, in the page's time, ms. */
 const ENDED_SHOWN = 10_000;
+/** Time for which the worked area of a mission is shown after its last report, in the page's time, ms. */
+export const COVERAGE_SHOWN = 12 * 3_600_000;
 
 class Store extends Reducers(Object) {
   constructor() {
@@ -47,8 +50,9 @@ class Store extends Reducers(Object) {
     this.suspects = new Map();
     this.images = new Map();
     this.averages = new Map();
+    this.coverages = new Coverages();
     this.all = true;
-    ['entities', 'encounters', 'suspects', 'images', 'fields'].forEach((name) => this.notify(name));
+    ['entities', 'encounters', 'suspects', 'images', 'fields', 'coverages'].forEach((name) => this.notify(name));
   }
 
   // --- subscriptions -----------------------------------------------------------------------------------------------
@@ -206,6 +210,12 @@ class Store extends Reducers(Object) {
   hasInScope(mission, domain) {
     const { scope } = this;
     return scope.domain === null || ((scope.mission === null || scope.mission === mission) && (domain ?? scope.domain) === scope.domain);
+  }
+
+  /** What was worked in the chosen domain and mission, the newest last. */
+  coveragesInScope() {
+    const since = this.now() - COVERAGE_SHOWN;
+    return this.coverages.sorted.filter((each) => each.time > since && this.hasInScope(each.mission, each.domain ?? this.missions.get(each.mission)?.domain));
   }
 
   /** The fields of a domain: those that name it, and those that it lists. */

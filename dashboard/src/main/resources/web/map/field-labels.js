@@ -1,5 +1,5 @@
 /** Draws names of fields with their averages inside or beside the outline, without covering symbols, and where they were before if possible. */
-import { age, temperature } from '../core/format.js';
+import { age, percent, temperature } from '../core/format.js';
 import { withDifference } from '../core/identities.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
@@ -106,8 +106,10 @@ function linesOf(field, now, narrow) {
   if (field.exclusion) {
     return [t('map.noAlarms'), ''];
   }
+  const worked = store.coveragesInScope().findLast((each) => each.field === field.id && each.figures);
+  const share = worked && t('map.workedShare', { share: percent(worked.figures.share) });
   if (!averages.length) {
-    return [''];
+    return worked ? [share, ''] : [''];
   }
   const sum = (part) => averages.reduce((total, each) => total + part(each), 0);
   const value = averages.map((each) => withDifference(temperature(each.value), each.difference)).join(' · ');
@@ -115,7 +117,8 @@ function linesOf(field, now, narrow) {
   const more = [averages.every(({ verified }) => verified) ? t('map.devices', { count: sum(({ count }) => count) }) : t('map.unverified')];
   const suspects = sum((each) => each.suspects.length);
   suspects && more.push(t('map.suspects', { count: suspects }));
-  return [...(narrow ? [] : [[value, ...more, ago].join(' · ')]), `${value} · ${ago}`, value, ''];
+  const full = [value, ...more, ago].join(' · ');
+  return [...(narrow ? [] : [...(worked ? [[share, full].join(' · ')] : []), full]), ...(worked ? [`${value} · ${share}`] : []), `${value} · ${ago}`, value, ''];
 }
 
 function drawLabel(context, field, { x, y, line, name, width, beside: out }, fonts, palette, places) {

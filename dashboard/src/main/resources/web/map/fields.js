@@ -54,7 +54,8 @@ export function isFound(field) {
   return store.isFound(field.name, field.id);
 }
 
-function ringsOf(geometry) {
+/** The rings of a GeoJSON geometry in meters of the projection. */
+export function ringsOf(geometry) {
   const polygons = geometry?.type === 'Polygon' ? [geometry.coordinates] : geometry?.type === 'MultiPolygon' ? geometry.coordinates : [];
   // skips rings with a corner outside of the projection
   return polygons.flat().filter((ring) => Array.isArray(ring) && ring.length > 2 && ring.every((point) => Array.isArray(point) && isOnMap(point[0], point[1])))

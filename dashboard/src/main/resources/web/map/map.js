@@ -4,6 +4,7 @@ import { icon } from '../core/icons.js';
 import { parameter } from '../core/router.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
+import { CoverageDrawing } from './coverage.js';
 import { DeviceDrawing } from './devices.js';
 import { FarmChips } from './farm-chips.js';
 import { FieldEditor } from './editor.js';
@@ -27,12 +28,13 @@ class FurrowMap extends Pointing(HTMLElement) {
   static observedAttributes = ['hidden'];
 
   connectedCallback() {
-    this.options = { trails: true, labels: true, rows: true };
+    this.options = { trails: true, labels: true, rows: true, coverage: true };
     this.fieldsVersion = 0;
     this.palette = readPalette();
     this.fields = new FieldDrawing();
     this.devices = new DeviceDrawing(this.fields);
-    this.legend = legend();
+    this.coverage = new CoverageDrawing();
+    this.legend = legend((name) => this.setOption(name, !this.options[name]));
     this.tiles = new BaseMap((bounds) => this.showPlace(bounds));
     this.table = mapTables(() => this.toggleTable());
     this.editor = new FieldEditor(this);
@@ -43,7 +45,6 @@ class FurrowMap extends Pointing(HTMLElement) {
     this.farms = new FarmChips((field) => this.fields.extent([field]), () => { this.moved = false; this.fit(); this.kept.farm.write(); });
     replace(this, h('h1.visually-hidden', null, t('views.map')), this.target, this.farms.element, this.controls(), this.legend.element, this.tiles.attribution, this.tooltip, this.list, this.empty, this.editor.element, this.table.element);
     this.createMap();
-    this.legend.draw();
     this.subscriptions = [...this.listen(), ...this.keepInAddress()];
   }
 
@@ -72,6 +73,7 @@ class FurrowMap extends Pointing(HTMLElement) {
     this.view = new ol.View({ center: project(10, 50), zoom: 4, minZoom: 2, maxZoom: 23, constrainResolution: false });
     this.layers = {
       fields: canvasLayer((frame, state) => this.fields.draw(frame, state, this.palette, this.options, this.fieldsVersion), 1),
+      coverage: canvasLayer((frame, state) => this.coverage.draw(frame, state, this.palette, this.options, this.fieldsVersion), 1.5),
       trails: canvasLayer((frame, state) => this.devices.drawTrails(frame, state, this.palette, this.options), 2),
       devices: canvasLayer((frame) => this.devices.draw(frame, this.palette, this.options), 3),
     };
@@ -101,6 +103,7 @@ class FurrowMap extends Pointing(HTMLElement) {
     const draw = () => this.draw();
     const fieldsChanged = () => {
       this.fieldsVersion++;
+      this.drawLegend();
       this.fitFirst();
       this.table.changed();
       draw();
@@ -108,9 +111,7 @@ class FurrowMap extends Pointing(HTMLElement) {
     const schemeChanged = () => {
       this.palette = readPalette();
       clearSymbols();
-      this.fieldsVersion++;
-      this.legend.draw();
-      draw();
+      fieldsChanged();
     };
     window.addEventListener('schemechange', schemeChanged);
     fieldsChanged();
@@ -126,7 +127,7 @@ class FurrowMap extends Pointing(HTMLElement) {
         draw();
       }),
       store.on('clock', () => { draw(); this.farms.update(); this.table.changed(); }),
-      store.on('fields', fieldsChanged),
+      ...['fields', 'coverages'].map((name) => store.on(name, fieldsChanged)),
       store.on('mode', () => { this.classList.toggle('is-replay', store.isReplay); this.allowEditor(); draw(); }),
       store.on('me', () => this.allowEditor()),
       store.on('selection', () => { store.reveal && this.reveal(); draw(); }),
@@ -254,7 +255,12 @@ class FurrowMap extends Pointing(HTMLElement) {
 
   setOption(name, on) {
     this.options[name] = on;
+    this.drawLegend();
     this.draw();
+  }
+
+  drawLegend() {
+    this.legend.draw(this.palette, this.options, store.coveragesInScope().some(({ layer }) => layer));
   }
 
   toggleTable() {

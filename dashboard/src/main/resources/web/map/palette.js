@@ -2,7 +2,7 @@
 
 const NAMES = [
   'background', 'panel', 'raised', 'line', 'text', 'muted', 'accent', 'live', 'replay', 'warning', 'critical', 'on-critical', 'information',
-  'field', 'field-row', 'field-border', 'kind-robot', 'kind-robot-2', 'kind-sensor', 'kind-camera', 'kind-other',
+  'field', 'field-row', 'field-border', 'kind-robot', 'kind-robot-2', 'kind-sensor', 'kind-camera', 'kind-other', 'worked', 'worked-again', 'gap',
 ];
 
 /** @returns {Object<string, string>} colors by the token's name */

@@ -1,5 +1,5 @@
 /** Shows the content of the map as tables. */
-import { age, distance, number, shortId, temperature } from '../core/format.js';
+import { age, area, distance, duration, number, percent, shortId, temperature } from '../core/format.js';
 import { h, replace } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { withDifference } from '../core/identities.js';
@@ -8,7 +8,7 @@ import { t } from '../texts.js';
 import { isOnMap } from './projection.js';
 
 const COLUMNS = ['name', 'kind', 'state', 'position', 'speed', 'age'];
-const NUMBERS = new Set(['position', 'speed', 'age', 'average', 'devices', 'distance', 'closest']);
+const NUMBERS = new Set(['position', 'speed', 'age', 'average', 'devices', 'distance', 'closest', 'hectares', 'share', 'overlap', 'gaps', 'left']);
 const MAX_ROWS = 500;
 const REDRAW_MILLIS = 1_000;
 
@@ -21,12 +21,13 @@ export function mapTables(onClose) {
   const more = h('p.small.muted');
   const fields = h('div');
   const encounters = h('div');
+  const coverages = h('div');
   const element = h('section.map-table', { hidden: true, 'aria-label': t('map.table') },
     h('header', null, h('h2', null, t('map.table')), h('button.button.quiet.square.small', { type: 'button', 'aria-label': t('map.closeTable'), on: { click: onClose } }, icon('close', 18))),
     h('div.map-tables', { tabindex: '0', role: 'group', 'aria-label': t('map.table') },
       encounters,
       h('div', null, h('h3', null, t('map.tables.devices')), h('div.table-frame', null, h('table.table', { 'aria-label': t('map.tables.devices') }, h('thead', null, head), body)), more),
-      fields));
+      fields, coverages));
 
   function drawHead() {
     replace(head, COLUMNS.map((name) => h('th', { scope: 'col', 'aria-sort': name === sorted ? (down ? 'descending' : 'ascending') : null, class: NUMBERS.has(name) ? 'numbers' : '' },
@@ -43,6 +44,7 @@ export function mapTables(onClose) {
     focused && body.querySelector(`[data-id="${CSS.escape(focused)}"]`)?.focus();
     drawTable(encounters, 'encounters', ['pair', 'phase', 'distance', 'closest', 'age'], [...store.encounters.values()].sort((a, b) => b.time - a.time).map((each) => encounterRow(each, now)));
     drawTable(fields, 'fields', ['field', 'average', 'devices', 'suspects', 'age'], store.fieldsInScope().sort((a, b) => compare(a.name, b.name)).flatMap((each) => fieldRows(each, now)));
+    drawTable(coverages, 'coverages', ['field', 'mission', 'hectares', 'share', 'overlap', 'gaps', 'left', 'age'], store.coveragesInScope().filter(({ figures }) => figures).reverse().map((each) => coverageRow(each, now)));
   }
 
   drawHead();
@@ -94,6 +96,13 @@ function fieldRow(field, average, now) {
     h('td.numbers', null, average ? `${average.count}${average.verified ? '' : ` · ${t('map.unverified')}`}` : '–'),
     h('td', null, average?.suspects.length ? average.suspects.map(nameOf).join(', ') : '–'),
     h('td.numbers', null, average ? age(now - average.time) : '–'));
+}
+
+function coverageRow({ field, fieldName, mission, figures, time }, now) {
+  return h('tr', null,
+    h('th', { scope: 'row' }, store.fields.get(field)?.name ?? fieldName),
+    h('td', null, mission || '–'),
+    ...[area(figures.hectares), percent(figures.share), area(figures.overlap), area(figures.gaps), duration(figures.left ?? NaN), age(now - time)].map((words) => h('td.numbers', null, words)));
 }
 
 function nameOf(id) {

@@ -1,13 +1,16 @@
 /** Shows the results of analytics: averages of fields, encounters and presence, live or of a replay. */
 import { h, replace, setText } from '../core/dom.js';
-import { clock, dateTime, duration, temperature } from '../core/format.js';
+import { csvButton } from '../core/csv.js';
+import { dateTime } from '../core/format.js';
 import { icon } from '../core/icons.js';
 import { navigate, parameter } from '../core/router.js';
 import { scopeName } from '../core/scope.js';
 import { store } from '../core/store.js';
-import { t, texts } from '../texts.js';
+import { tableOf } from '../core/table.js';
+import { t } from '../texts.js';
 import { startReplay, steer } from '../timeline/control.js';
 import { AveragesChart } from './analyses/chart.js';
+import { COLUMNS } from './analyses/columns.js';
 import { Findings } from './analyses/data.js';
 import { EncounterTable } from './analyses/encounters.js';
 import { PresenceBars } from './analyses/presence.js';
@@ -65,9 +68,10 @@ class Analyses extends HTMLElement {
     const count = h('span.numbers');
     const content = h('div');
     const since = h('p.small.muted', { hidden: true });
+    const csv = csvButton(t(`analyses.${name}`), name, COLUMNS[name], () => this.parts[name].found);
     const asTable = name === 'encounters' ? null : h('button.button.small.quiet', { type: 'button', 'aria-pressed': 'false', on: { click: () => this.toggleTable(name) } }, icon('table', 16), t('analyses.table'));
-    const element = h(`section.panel.stack.analysis.${name}`, { 'aria-label': t(`analyses.${name}`) }, h('div.row', null, h('h2', null, t(`analyses.${name}`)), count, h('span.spacer'), asTable), content, since);
-    return { name, element, count, content, since, asTable, shown: null };
+    const element = h(`section.panel.stack.analysis.${name}`, { 'aria-label': t(`analyses.${name}`) }, h('div.row', null, h('h2', null, t(`analyses.${name}`)), count, h('span.spacer'), csv, asTable), content, since);
+    return { name, element, count, content, since, csv, asTable, shown: null };
   }
 
   toggleTable(name) {
@@ -166,6 +170,8 @@ class Analyses extends HTMLElement {
   fill(part, found, since, draw) {
     const { loading, error } = this.findings;
     setText(part.count, found.length ? String(found.length) : '');
+    part.found = found;
+    part.csv.hidden = !found.length;
     part.asTable && (part.asTable.hidden = !found.length);
     if (!found.length) {
       const state = loading ? 'loading' : error ? 'error' : 'empty';
@@ -194,10 +200,7 @@ class Analyses extends HTMLElement {
       this.chart.show(averages, range);
       return;
     }
-    const suspect = (id) => store.entities.get(id)?.name ?? id.replace(/^urn:ngsi-ld:/, '');
-    this.putTable(part, averages, ['window', 'field', 'mean', 'plain', 'devices', 'suspects', 'quality'], (each) => [
-      `${clock(each.start)} – ${clock(each.end)}`, each.name, temperature(each.value), temperature(each.plain), each.devices ?? '–', each.suspects.map(suspect).join(', ') || t('analyses.none'), texts.analyses.qualities[each.quality] ?? each.quality,
-    ]);
+    this.putTable(part, averages);
   }
 
   showPresence(stays, range) {
@@ -207,17 +210,14 @@ class Analyses extends HTMLElement {
       this.presence.show(stays, range);
       return;
     }
-    this.putTable(part, stays, ['field', 'device', 'entered', 'left', 'stayed'], (each) => [
-      each.fieldName, each.name, dateTime(each.from), each.to === null ? t('analyses.stillIn') : dateTime(each.to), duration((each.to ?? store.now()) - each.from),
-    ]);
+    this.putTable(part, stays);
   }
 
   /** Shows a table, the newest rows first. */
-  putTable(part, found, columns, cells) {
-    const key = `table ${found.length} ${JSON.stringify(found.at(-1))}`;
-    this.put(part, key, h('div.table-frame.analysis-table', { tabindex: '0', role: 'group', 'aria-label': t(`analyses.${part.name}`) }, h('table.table', null,
-      h('thead', null, h('tr', null, columns.map((each) => h('th', { scope: 'col' }, t(`analyses.${each}`))))),
-      h('tbody', null, found.slice(-MAX_ROWS).reverse().map((each) => h('tr', null, cells(each).map((words) => h('td.numbers-left', null, words))))))));
+  putTable(part, found) {
+    const table = tableOf(t(`analyses.${part.name}`), COLUMNS[part.name], found.slice(-MAX_ROWS).reverse());
+    table.classList.add('analysis-table');
+    this.put(part, `table ${found.length} ${JSON.stringify(found.at(-1))}`, table);
   }
 
   /** Shows a moment on the map: by a seek in a replay, else by a replay of the recording. */

@@ -1,4 +1,5 @@
 /** Shows missions with their devices, domains with their fields, and the audit. */
+import { csvButton } from '../core/csv.js';
 import { h, replace } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { navigate, onRoute, route } from '../core/router.js';
@@ -9,7 +10,7 @@ import { auditView } from './missions/audit.js';
 import { createMission } from './missions/create.js';
 import { MissionDetail } from './missions/detail.js';
 import { Domains } from './missions/domains.js';
-import { drawList } from './missions/list.js';
+import { COLUMNS, drawList, missionsInScope } from './missions/list.js';
 import { redraw } from '../core/redraw.js';
 
 /** Below this width the mission is shown below the list. */
@@ -22,9 +23,10 @@ class FurrowMissions extends HTMLElement {
       type: 'button', role: 'tab', id: `tab-${name}`, 'aria-controls': 'missions-panel', on: { click: () => navigate('missions', { tab: name === 'missions' ? null : name }), keydown: (event) => this.tabKey(event) },
     }, t(`missions.tabs.${name}`))));
     this.create = h('button.button.primary', { type: 'button', on: { click: () => this.newMission() } }, icon('plus', 16), t('missions.new'));
+    this.csv = csvButton(t('views.missions'), 'missions', COLUMNS, () => missionsInScope(this.chosen));
     this.viewer = h('p.viewer-note', { hidden: true }, icon('info', 16), t('missions.viewer'));
     this.panel = h('div', { id: 'missions-panel', role: 'tabpanel' });
-    replace(this, h('div.view', null, h('header', null, h('h1', null, t('views.missions')), this.tabs, h('span.spacer'), this.create), this.viewer, this.panel));
+    replace(this, h('div.view', null, h('header', null, h('h1', null, t('views.missions')), this.tabs, h('span.spacer'), this.csv, this.create), this.viewer, this.panel));
     this.subscriptions = [onRoute(() => this.show()), store.on('missions', () => this.drawList()), store.on('scope', () => this.drawList()), store.on('me', () => this.allow())];
     this.answer = resource('/api/missions', { interval: 10_000 });
     this.subscriptions.push(this.answer.on(() => this.applyAnswer()));
@@ -60,6 +62,7 @@ class FurrowMissions extends HTMLElement {
       button.tabIndex = chosen ? 0 : -1;
     }
     this.panel.setAttribute('aria-labelledby', `tab-${tab}`);
+    this.csv.hidden = tab !== 'missions';
     if (tab === 'domains') {
       this.content = new Domains();
       replace(this.panel, this.content.element);

@@ -1,5 +1,6 @@
 /** Lists recorded missions for replays, and the replays that run. */
 import { absence } from '../core/absence.js';
+import { csvButton, dateOf } from '../core/csv.js';
 import { h, replace, setText } from '../core/dom.js';
 import { dateTime, duration, number } from '../core/format.js';
 import { amendAddress, linkTo, onRoute, route } from '../core/router.js';
@@ -30,7 +31,8 @@ class Replays extends HTMLElement {
     this.runningList = h('ul.running-list');
     this.runningTitle = h('h2.section-title', null, t('replays.running'), h('span.numbers'));
     this.noRunning = h('div');
-    this.recordedTitle = h('h2.section-title', null, t('replays.recorded'), h('span.numbers'));
+    this.recordedTitle = h('h2.section-title.spacer', null, t('replays.recorded'), h('span.numbers'));
+    this.csv = csvButton(t('replays.recorded'), 'recordings', this.columns(), () => this.recordings());
     this.body = h('tbody');
     this.table = h('div.table-frame', null, h('table.table.recordings', { 'aria-label': t('replays.recorded') },
       h('thead', null, h('tr', null, h('th', null, h('span.visually-hidden', null, t('replays.choice'))), h('th', null, t('replays.choice')), h('th', null, t('replays.when')),
@@ -41,7 +43,7 @@ class Replays extends HTMLElement {
     replace(this, h('div.view', null,
       h('header', null, h('div', null, h('h1', null, t('replays.title')), h('p.muted', null, t('replays.lead'))), h('span.spacer'), this.announcement),
       h('section.stack', null, this.runningTitle, this.runningList, this.noRunning),
-      h('div.replay-columns', null, h('section.stack', null, this.recordedTitle, this.state, this.table), this.plan.element)));
+      h('div.replay-columns', null, h('section.stack', null, h('div.row', null, this.recordedTitle, this.csv), this.state, this.table), this.plan.element)));
     this.catalog = streams.subscribe('data.catalog', { mode: 'latest', prime: true, createdLater: true }, { records: (records) => this.applyCatalog(records) });
     this.onScheme = () => this.rows.forEach((row) => row.preview.draw());
     window.addEventListener('schemechange', this.onScheme);
@@ -95,8 +97,29 @@ class Replays extends HTMLElement {
     replace(this.noRunning, absence('replays', entries.length, () => h('div.empty', null, h('h3', null, t('replays.noRunning')), h('p.for-operators', null, t('replays.noRunningHint')))));
   }
 
+  /** Those in scope, the newest first. */
+  recordings() {
+    return [...store.recordings.values()].filter(({ mission }) => store.hasInScope(mission, store.missions.get(mission)?.domain)).sort((one, other) => other.last - one.last || one.mission.localeCompare(other.mission));
+  }
+
+  columns() {
+    return [
+      { name: 'replays.choice', value: ({ mission }) => mission },
+      { name: 'missions.domain', value: ({ mission }) => store.missions.get(mission)?.domain },
+      { name: 'analyses.from', value: ({ first }) => dateOf(first) },
+      { name: 'analyses.to', value: ({ last }) => dateOf(last) },
+      { name: 'replays.length', unit: 'second', value: ({ first, last }) => (last - first) / 1000 },
+      { name: 'replays.devices', value: ({ mission }) => this.entitiesOf(mission) || null },
+      { name: 'replays.events', value: ({ mission }) => this.rows.get(mission)?.preview.events },
+    ];
+  }
+
+  entitiesOf(mission) {
+    return [...(this.entities.get(mission)?.values() ?? [])].reduce((sum, each) => sum + each, 0);
+  }
+
   showRecordings() {
-    const recordings = [...store.recordings.values()].filter(({ mission }) => store.hasInScope(mission, store.missions.get(mission)?.domain)).sort((one, other) => other.last - one.last || one.mission.localeCompare(other.mission));
+    const recordings = this.recordings();
     const shown = new Set(recordings.map((each) => each.mission));
     for (const [mission, row] of this.rows) {
       if (!shown.has(mission)) {
@@ -115,7 +138,7 @@ class Replays extends HTMLElement {
       row.preview.update(recording.last);
     });
     setText(this.recordedTitle.lastChild, recordings.length || '');
-    this.table.hidden = recordings.length === 0;
+    this.table.hidden = this.csv.hidden = recordings.length === 0;
     this.plan.element.hidden = recordings.length === 0;
     replace(this.state, others(store.recordings.size - recordings.length), absence('recordings', store.recordings.size, () => this.emptyState()));
     const linked = this.linked && (this.linked.missions ?? recordings.filter(({ first, last }) => first <= this.linked.at && this.linked.at <= last + RECORDING_TIMEOUT).map((each) => each.mission));
@@ -146,7 +169,7 @@ class Replays extends HTMLElement {
 
   fill({ mission, cells, preview, check, element }) {
     const { first, last } = store.recordings.get(mission);
-    const entities = [...(this.entities.get(mission)?.values() ?? [])].reduce((sum, each) => sum + each, 0);
+    const entities = this.entitiesOf(mission);
     setText(cells.name, mission);
     setText(cells.domain, store.missions.get(mission)?.domain ?? '');
     const isRecording = Date.now() - last < RECORDING_TIMEOUT && Boolean(store.missions.get(mission)?.running);

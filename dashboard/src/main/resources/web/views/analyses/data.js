@@ -18,7 +18,7 @@ const MAX_RESULTS = 5_000;
  * @property {number} plain mean including suspects @property {number} devices @property {string[]} suspects @property {string} quality
  */
 /** @returns {Average|null} */
-function readAverage({ value, headers, time }, mission) {
+export function readAverage({ value, headers, time }, mission) {
   const of = (name) => value?.[name]?.value;
   if (value?.type !== 'Analytics:FieldTemperature' || typeof of('averageTemperature') !== 'number') {
     return null;

@@ -1,5 +1,6 @@
 /** Shows the audit: which user sent which command when. */
 import { api } from '../../core/api.js';
+import { csvButton, dateOf } from '../../core/csv.js';
 import { dateTime, duration, moment, plain, readable, shortId, word } from '../../core/format.js';
 import { h } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
@@ -8,6 +9,15 @@ import { resource } from '../../core/resource.js';
 import { store } from '../../core/store.js';
 import { refusal, t } from '../../texts.js';
 import { redraw } from '../../core/redraw.js';
+
+/** Of the entries of the audit. */
+const COLUMNS = [
+  { name: 'missions.auditColumns.time', value: (entry) => dateOf(entry.time) },
+  { name: 'missions.auditColumns.user', value: (entry) => entry.user },
+  { name: 'missions.auditColumns.command', value: (entry) => `${t(`missions.targets.${TARGETS[entry.target] ?? 'other'}`)} ${word(entry.command ?? '')}` },
+  { name: 'missions.auditColumns.about', value: ({ about }) => Object.entries(about ?? {}).map(([name, value]) => `${name} ${textOf(name, value)}`).join(', ') },
+  { name: 'missions.auditColumns.result', value: resultOf },
+];
 
 const POLL_MILLIS = 4_000;
 const TARGETS = { __proto__: null, 'service.missionmanager': 'mission', 'service.domainmanager': 'domain', 'service.replaymanager': 'replay', 'service.alarmmanager': 'alarm', 'service.fields': 'field', device: 'device', marker: 'marker' };
@@ -92,11 +102,13 @@ export function auditTable({ mission, device, limit = 50 } = {}) {
   }
 
   function foot() {
+    const name = [t('missions.audit'), mission, device && shortId(device)].filter(Boolean).join(' · ');
     return [
       failure && h('p.error-note', { role: 'alert' }, icon('warning'), failure),
       older
         ? h('div', null, h('button.button.quiet', { type: 'button', data: { act: 'audit-older' }, 'aria-disabled': String(reading), on: { click: () => reading || showOlder() } }, t(reading ? 'missions.readingOlder' : 'missions.showOlder')))
         : extended && h('p.muted', null, t('missions.noOlder')),
+      entries.length > 0 && h('div', null, csvButton(name, ['audit', mission].filter(Boolean).join('-'), COLUMNS, () => entries)),
     ].filter(Boolean);
   }
 
@@ -119,13 +131,20 @@ export function auditView({ mission, device }) {
 }
 
 function row(entry) {
-  const rejected = entry.error !== undefined || entry.result === 'error';
   return h('tr', null,
     h('td.numbers.when', null, moment(entry.time)),
     h('td.who', null, entry.user),
     h('td.command', null, t(`missions.targets.${TARGETS[entry.target] ?? 'other'}`), ' ', h('strong', null, word(entry.command ?? '–'))),
     h('td.about', null, aboutOf(entry.about)),
-    h('td', { class: rejected ? 'bad' : '' }, rejected ? t('missions.refusedBecause', { reason: refusal(entry.error, readable(entry.reason ?? entry.error)) }) : word(plain(entry.result))));
+    h('td', { class: isRejected(entry) ? 'bad' : '' }, resultOf(entry)));
+}
+
+function isRejected({ error, result }) {
+  return error !== undefined || result === 'error';
+}
+
+function resultOf(entry) {
+  return isRejected(entry) ? t('missions.refusedBecause', { reason: refusal(entry.error, readable(entry.reason ?? entry.error)) }) : word(plain(entry.result));
 }
 
 function aboutOf(about = {}) {

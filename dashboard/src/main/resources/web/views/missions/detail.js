@@ -48,7 +48,7 @@ export class MissionDetail {
     }
     const status = mission.status;
     redraw(this.head,
-      h('div.row.wrap', null, h('h2', null, this.name), statePill(status?.state), h('span.spacer'), h('div.row', null, this.buttons(mission))),
+      h('div.row.wrap', null, h('h2', null, this.name), statePill(status?.state), h('span.spacer'), h('div.row.wrap', null, this.buttons(mission))),
       h('p.small.muted', null, [mission.domain, mission.template, mission.start && t('missions.startedAt', { time: dateTime(mission.start) }), mission.duration && t('missions.lasts', { duration: duration(mission.duration) }), leftOf(mission)].filter(Boolean).join(' · ')),
       status?.reason && status.missing.length === 0 && h('p.error-note', null, icon('warning'), status.reason),
       status && mission.running && h('div.stack', null,
@@ -66,8 +66,9 @@ export class MissionDetail {
   buttons(mission) {
     const onMap = t('topics.showOnly', { name: this.name });
     const map = h('button.button.square', { type: 'button', data: { act: 'map' }, 'aria-label': onMap, title: onMap, on: { click: () => { store.setScope({ domain: mission.domain, mission: this.name }); navigate('map'); } } }, icon('map', 18));
+    const report = h('a.button', { href: linkTo('report', { mission: this.name }), data: { act: 'report' } }, icon('list', 16), t('missions.report'));
     if (!store.may('operate')) {
-      return [map];
+      return [map, report];
     }
     const running = mission.running;
     const button = (act, symbol, words, work, kind = '') => h('button.button', { type: 'button', class: kind, data: { act }, on: { click: work } }, icon(symbol, 16), words);
@@ -77,6 +78,7 @@ export class MissionDetail {
       running ? button('stop', 'stop', t('missions.stop'), () => this.confirmStop()) : button('start', 'play', t('missions.start'), () => this.confirmStart(mission), 'primary'),
       running && store.may('administer') && button('credentials', 'link', t('missions.credentials'), () => showCredentials(this.name)),
       recorded && h('a.button', { href: linkTo('replays', { mission: this.name }), data: { act: 'replay' } }, icon('history', 16), t('missions.replay')),
+      report,
       !running && button('delete', 'trash', t('missions.delete'), () => this.confirmDelete(), 'danger'),
     ];
   }

@@ -1,4 +1,5 @@
 /** Lists missions in scope, running ones first. */
+import { dateOf } from '../../core/csv.js';
 import { duration } from '../../core/format.js';
 import { h } from '../../core/dom.js';
 import { store } from '../../core/store.js';
@@ -9,15 +10,31 @@ import { others } from '../../core/scope.js';
 const ORDER = { __proto__: null, failed: 0, starting: 1, running: 1, stopping: 1, created: 2, stopped: 3 };
 const KINDS = { __proto__: null, running: 'good', starting: 'info', stopping: 'info', failed: 'bad' };
 
+/** Of missions, for their CSV. */
+export const COLUMNS = [
+  { name: 'missions.columns.mission', value: (each) => each.mission },
+  { name: 'missions.columns.domain', value: (each) => each.domain },
+  { name: 'missions.columns.template', value: (each) => each.template },
+  { name: 'missions.columns.state', value: (each) => t(`missions.states.${each.status?.state ?? 'created'}`) },
+  { name: 'missions.columns.since', value: (each) => dateOf(each.status?.since) },
+  { name: 'missions.columns.start', value: (each) => dateOf(each.start) },
+  { name: 'missions.columns.devices', value: (each) => each.status?.devices ?? each.deviceCount },
+  { name: 'missions.columns.confirmed', value: (each) => each.status?.confirmed },
+];
+
+/** The missions in scope, and the chosen one, in the order of the list. */
+export function missionsInScope(chosen) {
+  return [...store.missions.values()].filter((each) => each.mission === chosen || store.hasInScope(each.mission, each.domain)).sort((a, b) => (a.domain === 'canary') - (b.domain === 'canary') || (ORDER[a.status?.state] ?? 2) - (ORDER[b.status?.state] ?? 2) || (a.mission < b.mission ? -1 : 1));
+}
+
 export function statePill(state) {
   return h('span.pill', { class: KINDS[state] ?? '' }, t(`missions.states.${state ?? 'created'}`));
 }
 
 export function drawList(place, chosen, choose) {
-  const all = [...store.missions.values()];
-  const missions = all.filter((each) => each.mission === chosen || store.hasInScope(each.mission, each.domain)).sort((a, b) => (a.domain === 'canary') - (b.domain === 'canary') || (ORDER[a.status?.state] ?? 2) - (ORDER[b.status?.state] ?? 2) || (a.mission < b.mission ? -1 : 1));
+  const missions = missionsInScope(chosen);
   keepPlace(missions, place, chosen);
-  const rest = others(all.length - missions.length);
+  const rest = others(store.missions.size - missions.length);
   redraw(place, rest && h('li', null, rest), missions.map((mission) => {
     const status = mission.status;
     const share = status?.devices ? status.confirmed / status.devices : 0;

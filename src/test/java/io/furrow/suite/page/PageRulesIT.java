@@ -120,6 +120,35 @@ class PageRulesIT {
                         "10 m/s");
     }
 
+    /** Names of devices are whatever somebody gave them. */
+    @Test
+    void writesTablesAsCsvThatASpreadsheetDoesNotRun() {
+        assertThat(run("""
+                const { toCsv } = await import('/core/csv.js');
+                const cell = (value) => toCsv([[value]]).slice(0, -2);
+                return [toCsv([['a', 'b'], [1.5, -2]]), ...['=1+1', '+1', '-1', '@x', ' =1', 'a;=1', 'a\\n=1', '\\t=1', '＝1', 'a=1', 'a-b', 'say "x", y', "it's", '', null, undefined, NaN, new Date(0)].map(cell)];"""))
+                .containsExactly(
+                        "a,b\r\n1.5,-2\r\n",
+                        "'=1+1",
+                        "'+1",
+                        "'-1",
+                        "'@x",
+                        " '=1",
+                        "\"a;'=1\"",
+                        "\"a\n'=1\"",
+                        "\"\t'=1\"",
+                        "'＝1",
+                        "a=1",
+                        "a-b",
+                        "\"say \"\"x\"\", y\"",
+                        "it's",
+                        "",
+                        "",
+                        "",
+                        "",
+                        "1970-01-01T00:00:00.000Z");
+    }
+
     /** The first report is from a device whose clock is two minutes behind, the second has a position of another time. */
     @Test
     void judgesADeviceByTheReceiptOfItsReports() {
