@@ -1,5 +1,6 @@
 /** Saves the rows of a table as CSV. */
 import { h } from './dom.js';
+import { download } from './download.js';
 import { icon } from './icons.js';
 import { t } from '../texts.js';
 
@@ -8,8 +9,6 @@ const FORMULA = /((?:^|[;\t\r\n])[\s"]*)(?=[=+\-@＝＋－＠])/g;
 const QUOTED = /[",;\r\n\t]/;
 /** Spreadsheets do not recognize UTF-8 without it. */
 const BYTE_ORDER_MARK = '\ufeff';
-/** Time after which a file has been saved, ms. */
-const SAVE_MILLIS = 60_000;
 
 /**
  * Writes rows as RFC 4180 defines it. Numbers have a decimal point, times are in UTC as ISO 8601, and an apostrophe precedes a formula, so
@@ -19,6 +18,11 @@ const SAVE_MILLIS = 60_000;
  */
 export function toCsv(rows) {
   return rows.map((row) => `${row.map(cell).join(',')}\r\n`).join('');
+}
+
+/** The rows as a file. @param {Array<Array<string|number|Date|null|undefined>>} rows @returns {Blob} */
+export function csvOf(rows) {
+  return new Blob([BYTE_ORDER_MARK, toCsv(rows)], { type: 'text/csv;charset=utf-8' });
 }
 
 function cell(value) {
@@ -44,16 +48,7 @@ export function csvButton(table, file, columns, rows) {
   const click = () => {
     const written = columns.filter(({ value }) => value);
     const names = written.map(({ name, unit }) => (unit ? `${t(name)} (${t(`units.${unit}`)})` : t(name)));
-    save(`${file}.csv`, toCsv([names, ...rows().map((row) => written.map(({ value }) => value(row)))]));
+    download(csvOf([names, ...rows().map((row) => written.map(({ value }) => value(row)))]), `${file}.csv`);
   };
   return h('button.button.small.quiet.csv', { type: 'button', data: { act: `csv ${file}` }, title: t('app.csv'), 'aria-label': t('app.csvOf', { table }), on: { click } }, icon('download', 16), 'CSV');
-}
-
-function save(name, text) {
-  const url = URL.createObjectURL(new Blob([BYTE_ORDER_MARK, text], { type: 'text/csv;charset=utf-8' }));
-  const link = h('a', { href: url, download: name });
-  document.body.append(link); // Firefox follows only links of the page
-  link.click();
-  link.remove();
-  setTimeout(() => URL.revokeObjectURL(url), SAVE_MILLIS);
 }

@@ -1,7 +1,8 @@
 /** One attribute of a device over time: its chart or table, a threshold, and its files. */
 import { api } from '../../core/api.js';
 import { h, replace, setText } from '../../core/dom.js';
-import { csv, download } from '../../core/download.js';
+import { csvOf } from '../../core/csv.js';
+import { download } from '../../core/download.js';
 import { dateTime, duration, label, number } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
 import { resource } from '../../core/resource.js';
@@ -130,7 +131,7 @@ export class AttributePanel {
     const { times, values, label: name, unit } = this.series;
     const file = `${device} ${attribute} ${new Date(this.history.value.from).toISOString().slice(0, 16)}.${kind}`;
     download(kind === 'csv'
-      ? csv([['time', 'device', 'attribute', 'value', 'unit'], ...times.map((time, index) => [new Date(time).toISOString(), device, attribute, values[index], unit])])
+      ? csvOf([['time', 'device', 'attribute', 'value', 'unit'], ...times.map((time, index) => [new Date(time), device, attribute, values[index], unit])])
       : await this.chart.picture(`${name}${unit && ` (${unit})`} · ${device}`), file);
   }
 }
