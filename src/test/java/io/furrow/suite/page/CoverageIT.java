@@ -8,8 +8,6 @@ import java.util.List;
 import java.util.stream.Collectors;
 
 import com.microsoft.playwright.Locator;
-import org.junit.jupiter.api.AutoClose;
-import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -19,26 +17,15 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** The worked area on the map: live, in a replay and of a mission. */
 @Tag("full")
-class CoverageIT {
+class CoverageIT extends StubbedPage {
     private static final long START = Instant.parse("2026-01-01T03:04:30Z").toEpochMilli();
 
     /** Longitude and latitude of the field. */
     private static final double[] CORNER = {-3.482, 40.312};
 
-    @AutoClose
-    private static Chromium chromium;
-
-    @AutoClose
-    private StubFarm farm;
-
-    @BeforeAll
-    static void launch() {
-        chromium = Chromium.start();
-    }
-
     @BeforeEach
-    void start() throws Exception {
-        farm = new StubFarm(chromium).hasField("barn", "farm", CORNER[0], CORNER[1]);
+    void start() {
+        farm.hasField("barn", "farm", CORNER[0], CORNER[1]);
     }
 
     @Test

@@ -11,8 +11,6 @@ import com.deque.html.axecore.playwright.AxeBuilder;
 import com.microsoft.playwright.Download;
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Route;
-import org.junit.jupiter.api.AutoClose;
-import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -22,7 +20,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** The history of a device: its attributes over time, and the pictures of cameras. */
 @Tag("full")
-class HistoryIT {
+class HistoryIT extends StubbedPage {
     private static final long MINUTE = 60_000;
     private static final String ROBOT = "urn:ngsi-ld:Robot:1";
     private static final String CAMERA = "urn:ngsi-ld:Camera:7";
@@ -30,22 +28,11 @@ class HistoryIT {
     /** A picture of one pixel. */
     private static final String PIXEL = "<svg xmlns='http://www.w3.org/2000/svg' width='4' height='3'/>";
 
-    @AutoClose
-    private static Chromium chromium;
-
-    @AutoClose
-    private StubFarm farm;
-
     private final long now = System.currentTimeMillis();
 
-    @BeforeAll
-    static void launch() {
-        chromium = Chromium.start();
-    }
-
     @BeforeEach
-    void start() throws Exception {
-        farm = new StubFarm(chromium).hasRobot(1).answers(PATH, history("number", 30));
+    void start() {
+        farm.hasRobot(1).answers(PATH, history("number", 30));
     }
 
     /** The values are 0, 1, 2 and so on, the last one a minute ago. */

@@ -11,8 +11,6 @@ import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Page;
 import com.microsoft.playwright.options.ColorScheme;
 import com.microsoft.playwright.options.Media;
-import org.junit.jupiter.api.AutoClose;
-import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -24,31 +22,19 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** The report of a mission on one page, on paper, and the tables of views as CSV. */
 @Tag("full")
-class ReportIT {
+class ReportIT extends StubbedPage {
     private static final long START = Instant.parse("2026-01-01T03:04:30Z").toEpochMilli();
     private static final long END = START + 2 * 3_600_000 + 5 * 60_000;
     private static final String ROBOT = "urn:ngsi-ld:Robot:1";
     /** What a spreadsheet would run. */
     private static final String FORMULA = "=HYPERLINK(1)";
 
-    @AutoClose
-    private static Chromium chromium;
-
-    @AutoClose
-    private StubFarm farm;
-
-    @BeforeAll
-    static void launch() {
-        chromium = Chromium.start();
-    }
-
     @BeforeEach
-    void start() throws Exception {
+    void start() {
         String mission = """
                 {"mission": "weeding", "domain": "farm", "template": "two@1", "running": false, "start": %d, "created": %d, "sequence": 2, "deviceCount": 1,
                  "status": {"mission": "weeding", "domain": "farm", "state": "stopped", "since": %d, "sequence": 2, "devices": 1, "confirmed": 1, "missing": []}}""".formatted(START, START, END);
-        farm = new StubFarm(chromium)
-                .hasField("barn", "farm", -3.482, 40.312)
+        farm.hasField("barn", "farm", -3.482, 40.312)
                 .hasField("far", "other", -3.5, 40.4)
                 .answers("/api/missions", "[" + mission + "]")
                 .answers("/api/missions/weeding", mission)
