@@ -108,7 +108,7 @@ export const texts = {
     label: 'Mapa de la finca. Las flechas lo mueven, más y menos cambian la escala; la tabla contiene lo mismo en filas.',
     controls: 'Mapa', zoomIn: 'Acercar', zoomOut: 'Alejar', fit: 'Mostrar toda la finca', farms: 'Fincas', layers: 'Qué se muestra', table: 'El mapa como tabla', closeTable: 'Cerrar la tabla',
     tables: { devices: 'Dispositivos', encounters: 'Encuentros', fields: 'Parcelas', coverages: 'Superficie trabajada' },
-    cells: { worked: 'trabajado', 'worked-again': 'trabajado de nuevo', gap: 'hueco' }, workedShare: '{share} trabajado',
+    cells: { worked: 'trabajado', 'worked-again': 'trabajado de nuevo', gap: 'hueco' }, toggleCells: 'Mostrar u ocultar lo trabajado', workedShare: '{share} trabajado',
     base: { title: 'Mapa base', none: 'ninguno', server: 'del servidor', address: 'de {host}', file: 'Elegir un archivo PMTiles …', hint: 'Teselas de imagen; el archivo se guarda en este navegador y funciona sin conexión.', remove: 'Quitar {file} de este navegador', noPictures: '{file} no contiene imágenes como teselas', failed: 'El mapa base no se puede mostrar: {reason}' },
     options: { trails: 'Recorridos', labels: 'Nombres', rows: 'Líneas de las parcelas' },
     legend: 'Leyenda', stopped: 'apagado o parado', encounter: 'encuentro', predicted: '{distance} en {time} s', ended: 'fue {distance}', closest: 'mínimo {distance}',

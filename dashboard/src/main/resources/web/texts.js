@@ -71,7 +71,7 @@ const english = {
     label: 'Map of the farm. Arrow keys move it, plus and minus zoom; the table has the same in rows.',
     controls: 'Map', zoomIn: 'Zoom in', zoomOut: 'Zoom out', fit: 'Show the whole farm', farms: 'Farms', layers: 'What is shown', table: 'The map as a table', closeTable: 'Close the table',
     tables: { devices: 'Devices', encounters: 'Encounters', fields: 'Fields', coverages: 'Worked area' },
-    cells: { worked: 'worked', 'worked-again': 'worked again', gap: 'gap' }, workedShare: '{share} worked',
+    cells: { worked: 'worked', 'worked-again': 'worked again', gap: 'gap' }, toggleCells: 'Show or hide what was worked', workedShare: '{share} worked',
     base: { title: 'Base map', none: 'none', server: 'of the server', address: 'of {host}', file: 'Choose a PMTiles file …', hint: 'Pictures of tiles; the file is stored in this browser and works offline.', remove: 'Remove {file} from this browser', noPictures: '{file} has no pictures as tiles', failed: 'The base map cannot be shown: {reason}' },
     options: { trails: 'Trails', labels: 'Names', rows: 'Rows of fields' },
     legend: 'Legend', stopped: 'off or stopped', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}', closest: 'closest {distance}',

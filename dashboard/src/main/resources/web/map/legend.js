@@ -52,7 +52,7 @@ export function legend(toggle) {
 function coverageEntries(isShown, toggle) {
   const [first, ...others] = CELL_COLORS.filter(Boolean).map((name) => [swatch(name), t(`map.cells.${name}`)]);
   return [
-    h('li', null, h('button.button.small.quiet.legend-entry', { type: 'button', data: { act: 'coverage' }, 'aria-pressed': String(isShown), on: { click: toggle } }, first)),
+    h('li', null, h('button.button.small.quiet.legend-entry', { type: 'button', title: t('map.toggleCells'), 'aria-label': t('map.toggleCells'), data: { act: 'coverage' }, 'aria-pressed': String(isShown), on: { click: toggle } }, first)),
     ...(isShown ? others.map((each) => h('li', null, each)) : []),
   ];
 }
