@@ -15,8 +15,8 @@ const MINUTE = 60_000;
 const HOUR = 60 * MINUTE;
 const PERIODS = [HOUR, 6 * HOUR, 24 * HOUR, 7 * 24 * HOUR];
 /** Of a period that ends now: parts after each of which it is read again. */
-const REFRESHES = 240;
-const MIN_INTERVAL = 15_000;
+const REFRESHES = 120;
+const MIN_INTERVAL = 30_000;
 const MAX_ATTRIBUTES = 200;
 
 class History extends HTMLElement {
@@ -196,7 +196,7 @@ class History extends HTMLElement {
       this.loadAttributes(entity ?? { name: shortId(selection ?? ''), identity: { id: selection } }, attributes, { mission, interval });
     }
     const hasPictures = this.ofAll || entity?.kind === 'camera' || Boolean(entity && store.imageOf(entity));
-    this.loadPictures(hasPictures && `${key} ${this.ofAll}`, { entity: this.ofAll ? null : entity, range: () => this.range(), interval });
+    this.loadPictures(hasPictures && `${key} ${this.ofAll}`, { entity: this.ofAll ? null : entity, range: () => this.range(), interval: interval && Math.max(MINUTE, interval) });
     this.showNone(selection ? 'noAttribute' : 'noDevice', attributes.length > 0 || hasPictures);
   }
 

@@ -68,7 +68,7 @@ class CardsIT {
     @Tag("full")
     @Test
     void leadsToWhatWasRecordedOfADevice(FarmPage farm) {
-        LocatorAssertions.IsVisibleOptions recorded = new LocatorAssertions.IsVisibleOptions().setTimeout(60_000);
+        LocatorAssertions.IsVisibleOptions recorded = new LocatorAssertions.IsVisibleOptions().setTimeout(90_000);
         farm.card(ROBOT).getByLabel("History of").click();
         assertThat(farm.find(".history-panel canvas")).isVisible(recorded);
         assertThat(farm.find(".history-panel")).containsText("m/s");
