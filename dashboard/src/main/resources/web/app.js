@@ -22,13 +22,14 @@ const MODULES = {
   'furrow-missions': './views/missions.js',
   'furrow-replays': './views/replays.js',
   'furrow-analyses': './views/analyses.js',
+  'furrow-history': './views/history.js',
   'furrow-topics': './views/topics.js',
   'furrow-platform': './views/platform.js',
 };
 /** Time for which a restored connection is reported, ms. */
 const RESTORED_SHOWN = 10_000;
 /** Views with the timeline below, which show a replay; all others are live, and say so. */
-const WITH_TIMELINE = new Set(['map', 'replays', 'analyses']);
+const WITH_TIMELINE = new Set(['map', 'replays', 'analyses', 'history']);
 
 class App extends HTMLElement {
   connectedCallback() {

@@ -55,7 +55,7 @@ export const texts = {
   },
   groups: { mission: 'la misión {name}', domain: 'el dominio {name}', field: '{name}', none: 'ninguna misión' },
 
-  views: { map: 'Mapa', missions: 'Misiones', replays: 'Reproducciones', analyses: 'Análisis', topics: 'Temas', platform: 'Plataforma' },
+  views: { map: 'Mapa', missions: 'Misiones', replays: 'Reproducciones', analyses: 'Análisis', history: 'Historial', topics: 'Temas', platform: 'Plataforma' },
 
   signIn: {
     title: 'Iniciar sesión',
@@ -296,6 +296,24 @@ export const texts = {
     noRecording: 'sin grabar', more: 'Se muestran {shown} de {count}: mostrar más',
     stay: '{device} en {field}, de {from} a {to}', stillIn: 'sigue allí', device: 'Dispositivo', entered: 'Entró', left: 'Salió', stayed: 'Estancia',
     at: '{value} a las {time}', chartLabel: 'Medias por parcela a lo largo del tiempo; la tabla contiene los mismos números',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  history: {
+    title: 'Historial', of: 'Historial de {name}', live: 'Lo que las misiones han grabado de un dispositivo.', replay: 'Lo que se grabó de un dispositivo en la misión {mission}.',
+    device: 'Dispositivo', choose: 'Elija un dispositivo …', attribute: 'Atributo', second: 'Al lado', alone: 'nada',
+    hour: 'última hora', days: 'últimos {days} d', own: 'De … a', show: 'Mostrar',
+    threshold: 'Umbral', csv: 'CSV', png: 'PNG',
+    chart: '{label} de {device} del {from} al {to}: mínimo {min}, máximo {max}, último {now}; la tabla tiene los mismos números',
+    noDevice: 'Ningún dispositivo elegido', noDeviceHint: 'Elija uno arriba, o el signo de gráfico de su tarjeta.',
+    noAttribute: 'Ningún número de este dispositivo', noAttributeHint: 'Ahora no envía ninguno. Elija otro dispositivo.',
+    none: 'Ningún valor en este período', noneHint: 'Ninguna misión lo ha grabado. Un período más largo puede tener alguno.',
+    other: 'No es un número', otherHint: 'Un gráfico muestra números, y sí o no. La vista de temas muestra valores de otras clases.',
+    since: 'Guardado desde {time}, o no leído más atrás.', notStored: 'Nada de este período está guardado.', thinned: '{values} valores; de cada {part} se muestran el mínimo y el máximo.', skipped: '{count valor omitido|valores omitidos}: no son números, o tienen otra unidad.',
+    pictures: 'Imágenes', allPictures: 'Imágenes de todas las cámaras', picture: 'Imagen', pictureCount: '{count imagen|imágenes}', pictureAt: '{name}, {time} · {number} de {count}', previous: 'Imagen anterior', next: 'Imagen siguiente',
+    noPictures: 'Ninguna imagen en este período', noPicturesHint: 'Una imagen aparece aquí cuando una cámara la ha enviado y está guardada.',
+    around: 'Imágenes', aroundOf: 'Imágenes alrededor de {pair} a las {time}',
   },
 
   // ------------------------------------------------------------------------------------------------------------------

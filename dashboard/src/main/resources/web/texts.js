@@ -30,7 +30,7 @@ const english = {
     enteredLive: 'Showing live data.',
   },
 
-  views: { map: 'Map', missions: 'Missions', replays: 'Replays', analyses: 'Analyses', topics: 'Topics', platform: 'Platform' },
+  views: { map: 'Map', missions: 'Missions', replays: 'Replays', analyses: 'Analyses', history: 'History', topics: 'Topics', platform: 'Platform' },
 
   signIn: {
     title: 'Sign in',
@@ -270,6 +270,24 @@ const english = {
     noRecording: 'not recorded', more: '{shown} of {count} are shown: show more',
     stay: '{device} in {field}, {from} to {to}', stillIn: 'still there', device: 'Device', entered: 'Entered', left: 'Left', stayed: 'Stayed',
     at: '{value} at {time}', chartLabel: 'Averages per field over time; the table has the same numbers',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  history: {
+    title: 'History', of: 'History of {name}', live: 'What missions have recorded of a device.', replay: 'What was recorded of a device in mission {mission}.',
+    device: 'Device', choose: 'Choose a device …', attribute: 'Attribute', second: 'Beside it', alone: 'nothing',
+    hour: 'last hour', days: 'last {days} d', own: 'From … to', show: 'Show',
+    threshold: 'Threshold', csv: 'CSV', png: 'PNG',
+    chart: '{label} of {device} from {from} to {to}: lowest {min}, highest {max}, newest {now}; the table has the same numbers',
+    noDevice: 'No device chosen', noDeviceHint: 'Choose one above, or the chart sign on its card.',
+    noAttribute: 'No numbers of this device', noAttributeHint: 'It reports none now. Choose another device.',
+    none: 'No value in this period', noneHint: 'No mission has recorded one. A longer period may have some.',
+    other: 'Not a number', otherHint: 'A chart shows numbers, and yes or no. The topics view shows values of other kinds.',
+    since: 'Stored since {time}, or read no further back.', notStored: 'Nothing of this period is stored.', thinned: '{values} values; of each {part} the lowest and the highest are shown.', skipped: '{count value is|values are} left out: no numbers, or in another unit.',
+    pictures: 'Pictures', allPictures: 'Pictures of all cameras', picture: 'Picture', pictureCount: '{count picture|pictures}', pictureAt: '{name}, {time} · {number} of {count}', previous: 'Previous picture', next: 'Next picture',
+    noPictures: 'No pictures in this period', noPicturesHint: 'A picture appears here when a camera has sent one and it is stored.',
+    around: 'Pictures', aroundOf: 'Pictures around {pair} at {time}',
   },
 
   // ------------------------------------------------------------------------------------------------------------------

@@ -5,6 +5,7 @@ import { language } from '../core/language.js';
 import { h, isHeld, replace, setText } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { isIn, scope } from '../core/identities.js';
+import { picturesAround } from '../core/router.js';
 import { others } from '../core/scope.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
@@ -106,13 +107,14 @@ class FurrowAlarms extends HTMLElement {
 
   make(id) {
     const text = h('button.alarm-text', { type: 'button' });
-    const line = h('p.small.muted.numbers');
+    const line = h('span');
+    const around = h('a', { hidden: true }, t('history.around'));
     const acknowledge = h('button.button.small', { type: 'button' }, t('alarms.acknowledge'));
     const menu = h('div.alarm-menu', { popover: 'auto', id: `alarm-${id}` });
     const more = h('button.button.quiet.square.small', { type: 'button', 'aria-label': t('alarms.more'), popovertarget: menu.id }, icon('more', 18));
     const failed = h('p.small.failed', { role: 'alert', hidden: true });
     const actions = h('div.alarm-actions', null, acknowledge, more, menu);
-    const element = h('li.alarm', null, h('div', null, text, line), actions, failed);
+    const element = h('li.alarm', null, h('div', null, text, h('p.small.muted.numbers', null, line, ' ', around)), actions, failed);
     const row = { element, line };
     acknowledge.addEventListener('click', () => this.act(row, 'acknowledge'));
     text.addEventListener('click', () => show(row.alarm));
@@ -124,6 +126,9 @@ class FurrowAlarms extends HTMLElement {
       acknowledge.setAttribute('aria-label', `${t('alarms.acknowledge')}: ${sentenceOf(alarm)}`);
       more.setAttribute('aria-label', `${t('alarms.more')}: ${sentenceOf(alarm)}`);
       setText(line, lineOf(alarm));
+      const device = alarm.kind === 'collision' && entitiesOf(alarm)[0];
+      around.hidden = !device;
+      device && (around.href = picturesAround(device.id, alarm.raised, alarm.raised));
       actions.hidden = !store.may('operate');
       acknowledge.hidden = alarm.state !== 'open';
       const muted = isMuted(alarm, Date.now());

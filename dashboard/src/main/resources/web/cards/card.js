@@ -4,6 +4,7 @@ import { age, bytes, temperature } from '../core/format.js';
 import { h, replace, setText } from '../core/dom.js';
 import { openDialog } from '../core/dialog.js';
 import { icon } from '../core/icons.js';
+import { linkTo } from '../core/router.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { allAttributes, lineOf, keyAttributes } from './attributes.js';
@@ -36,10 +37,11 @@ export class Card {
     this.more = h('button.button.quiet.square.small', {
       type: 'button', 'aria-expanded': 'false', 'aria-controls': this.details.id, on: { click: () => this.toggle() },
     }, icon('chevron-down', 18));
+    this.history = h('a.button.quiet.square.small', { title: t('history.title') }, icon('chart', 18));
     this.element = h('li.card.device', { data: { id: entity.identity.id }, on: {
       pointerenter: () => store.setHovered(entity.id), pointerleave: () => store.setHovered(null), focusin: () => store.setHovered(entity.id),
     } },
-      h('div.card-head', null, h('h3.cut', null, this.name), this.mark, this.age, this.more),
+      h('div.card-head', null, h('h3.cut', null, this.name), this.mark, this.age, this.history, this.more),
       this.facts, this.spark.element, this.picture.element, h('div.card-row', null, this.buttons, this.outcome, this.said), this.details);
     this.element.card = this;
   }
@@ -54,6 +56,8 @@ export class Card {
     setText(this.mark, word.text);
     this.mark.className = `card-mark small ${word.className}`;
     this.more.setAttribute('aria-label', t('cards.details', { name: entity.name }));
+    this.history.setAttribute('aria-label', t('history.of', { name: entity.name }));
+    this.history.href = linkTo('history', { select: entity.id });
     this.drawFacts(now);
     const line = lineOf(entity);
     const fact = line && keyAttributes(entity, 50).find((each) => each.name === line.name);

@@ -146,17 +146,28 @@ const SHARES = new Set(['battery', 'relativehumidity', 'humidity', 'batterylevel
  * @returns {{label: string, value: string, unit: string, numeric: boolean}}
  */
 export function quantity(name, attribute) {
-  let value = attribute.value;
+  const { value } = attribute;
   if (typeof value === 'number') {
-    const reported = unitOf(attribute);
-    const code = codeOf(reported);
-    const isShare = SHARES.has(name.toLowerCase()) && (code === SHARE_CODE || (code === '' && value >= 0 && value <= 1 && !attribute.percent));
-    const unit = isShare ? 'percent' : unitNamed(name, code);
-    value *= isShare ? 100 : 1;
-    const words = unit ? t(`units.${unit}`) : reported.slice(0, 12);
-    return { label: label(name), value: WHOLE.has(unit) ? String(Math.round(value)) : number(value), unit: words, numeric: true };
+    const { factor, unit, words } = displayOf(name, attribute);
+    const shown = value * factor;
+    return { label: label(name), value: WHOLE.has(unit) ? String(Math.round(shown)) : number(shown), unit: words, numeric: true };
   }
   return { label: label(name), value: plain(value), unit: '', numeric: false };
+}
+
+/**
+ * How a number of an attribute is shown.
+ *
+ * @param {{value: number, metadata: Object=, percent: boolean=}} attribute
+ * @returns {{factor: number, unit: string|undefined, words: string}} `words` of the unit
+ */
+export function displayOf(name, attribute) {
+  const { value } = attribute;
+  const reported = unitOf(attribute);
+  const code = codeOf(reported);
+  const isShare = SHARES.has(name.toLowerCase()) && (code === SHARE_CODE || (code === '' && value >= 0 && value <= 1 && !attribute.percent));
+  const unit = isShare ? 'percent' : unitNamed(name, code);
+  return { factor: isShare ? 100 : 1, unit, words: unit ? t(`units.${unit}`) : reported.slice(0, 12) };
 }
 
 /** Whether an attribute is a quantity, by its metadata or its name. */

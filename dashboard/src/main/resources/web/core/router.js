@@ -1,6 +1,8 @@
 /** Routes views of the page by the hash: `#/map?select=urn:…`. */
 
-const VIEWS = ['map', 'missions', 'replays', 'analyses', 'topics', 'platform'];
+const VIEWS = ['map', 'missions', 'replays', 'analyses', 'history', 'topics', 'platform'];
+/** Time before and after an encounter of which pictures are shown, ms. */
+const AROUND_MILLIS = 30_000;
 const handlers = new Set();
 
 /** @type {{view: string, query: Object<string, string>}} */
@@ -16,6 +18,11 @@ export function linkTo(view, query = {}) {
   const present = Object.entries(query).filter(([, value]) => value !== null && value !== undefined);
   const text = new URLSearchParams(present).toString();
   return `#/${view}${text ? `?${text}` : ''}`;
+}
+
+/** The hash of the pictures around an encounter. @param {number} from @param {number} to epoch ms */
+export function picturesAround(select, from, to) {
+  return linkTo('history', { select, between: `${from - AROUND_MILLIS}~${to + AROUND_MILLIS}`, pictures: 'all' });
 }
 
 export function navigate(view, query = {}) {

@@ -2,6 +2,7 @@
 import { h, replace, setText } from '../../core/dom.js';
 import { dateTime, distance, duration, moment } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
+import { picturesAround } from '../../core/router.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 
@@ -78,7 +79,8 @@ export class EncounterTable {
   row(id) {
     const cells = Object.fromEntries(Object.keys(COLUMNS).map((name) => [name, h('td', { role: 'cell', class: CLASSES[name] ?? '', data: { name: t(`analyses.${name}`) } })]));
     const act = h('button.button.small', { type: 'button', on: { click: () => this.showMoment(row.encounter) } }, icon('map', 16), h('span.words', null, t('analyses.toMoment')));
-    const row = { cells, act, element: h('tr', { role: 'row' }, Object.values(cells), h('td.right', { role: 'cell' }, act)) };
+    const around = h('a.button.small.quiet.square', { title: t('history.around') }, icon('camera', 16));
+    const row = { cells, act, around, element: h('tr', { role: 'row' }, Object.values(cells), h('td.right', { role: 'cell' }, around, act)) };
     this.rows.set(id, row);
     return row;
   }
@@ -101,5 +103,7 @@ function fill(row, encounter) {
   act.hidden = !store.may('operate');
   act.disabled = !recorded;
   act.title = !recorded ? t('analyses.noRecording') : '';
+  row.around.href = picturesAround(encounter.a, encounter.start, encounter.end);
+  row.around.setAttribute('aria-label', t('history.aroundOf', { pair: encounter.pair, time: dateTime(encounter.start) }));
   act.setAttribute('aria-label', t('analyses.toMomentOf', { pair: encounter.pair, time: dateTime(encounter.start) }));
 }

@@ -64,6 +64,19 @@ class CardsIT {
         assertThat(station.locator(".card-details")).containsText("Connected to the MQTT broker at");
     }
 
+    /** From the measure over the stored mission to the chart, and from the stored image to the picture. */
+    @Tag("full")
+    @Test
+    void leadsToWhatWasRecordedOfADevice(FarmPage farm) {
+        LocatorAssertions.IsVisibleOptions recorded = new LocatorAssertions.IsVisibleOptions().setTimeout(90_000);
+        farm.card(ROBOT).getByLabel("History of").click();
+        assertThat(farm.find(".history-panel canvas")).isVisible(recorded);
+        assertThat(farm.find(".history-panel")).containsText("m/s");
+
+        farm.find("#history-device").selectOption(CAMERA);
+        assertThat(farm.find(".history-picture img")).isVisible(recorded);
+    }
+
     /** {@code data.latest} is behind {@code data.raw}, by a checkpoint where it is written exactly once. */
     @Tag("full")
     @Test
