@@ -56,6 +56,10 @@ class DashboardRejectionsIT extends DashboardFixture {
                 .contains(TOPIC)
                 .doesNotContain("service.")
                 .doesNotContain(".dead");
+        assertThat(get("/api/topics?name=nosuch&name=data.no%20name&name=service.missions&name=" + TOPIC, VERA)
+                        .body())
+                .startsWith("[{\"name\":\"" + TOPIC + "\"")
+                .doesNotContain("nosuch", "no name", "service.");
     }
 
     @Test

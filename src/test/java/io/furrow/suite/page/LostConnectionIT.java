@@ -146,7 +146,7 @@ class LostConnectionIT {
         farm.page().route("**/api/**", EmptyFarmIT::answerEmpty);
         farm.page()
                 .route(
-                        "**/api/topics",
+                        "**/api/topics*",
                         route -> route.fulfill(
                                 new Route.FulfillOptions()
                                         .setContentType("application/json")

@@ -141,6 +141,13 @@ public final class TopicFeeds implements AutoCloseable {
 
     /** @throws Problem 404 if the topic does not exist or Kafka's ACLs hide it, 503 if Kafka does not respond */
     public void check(String topic) {
+        if (!exists(topic)) {
+            throw new Problem(404, "unknown-topic", "there is no topic '%s'".formatted(topic));
+        }
+    }
+
+    /** Whether the topic exists and Kafka's ACLs do not hide it. @throws Problem 503 if Kafka does not respond */
+    public boolean exists(String topic) {
         if (isKafkaUnavailable()) {
             throw unavailable();
         }
@@ -148,11 +155,12 @@ public final class TopicFeeds implements AutoCloseable {
             // not the list of all topics: a farm has thousands after a year, and the page opens a dozen streams
             admin.describeTopics(List.of(topic)).allTopicNames().get(TIMEOUT_SECONDS, TimeUnit.SECONDS);
             lastAnswer = System.nanoTime();
+            return true;
         } catch (ExecutionException e) {
             if (e.getCause() instanceof UnknownTopicOrPartitionException
                     || e.getCause() instanceof InvalidTopicException
                     || e.getCause() instanceof TopicAuthorizationException) {
-                throw new Problem(404, "unknown-topic", "there is no topic '%s'".formatted(topic));
+                return false;
             }
             throw unavailable();
         } catch (TimeoutException e) {
