@@ -23,8 +23,7 @@ class DrawFieldsIT extends StubbedPage {
 
     @BeforeEach
     void start() {
-        farm.answers("/api/domains", "[{\"domain\": \"farm\"}]")
-                .hasField("south", "farm", LONGITUDE, LATITUDE);
+        farm.answers("/api/domains", "[{\"domain\": \"farm\"}]").hasField("south", "farm", LONGITUDE, LATITUDE);
     }
 
     private FarmPage open() {

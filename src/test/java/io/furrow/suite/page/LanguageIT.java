@@ -71,10 +71,9 @@ class LanguageIT extends StubbedPage {
                 .answers("/api/alarms/a1/acknowledge", "409 wrong-state: alarm 'a1' is closed")
                 .open("", 1440, 900)
                 .expectingError("status of 409");
-        page.button("Reconocer").click();
+        page.find(".alarm").first().getByText("Reconocer").click();
 
-        assertThat(page.find(".alarm").first())
-                .containsText("su estado no lo permite: alarm 'a1' is closed");
+        assertThat(page.find(".alarm").first()).containsText("su estado no lo permite: alarm 'a1' is closed");
     }
 
     @Test
@@ -83,8 +82,7 @@ class LanguageIT extends StubbedPage {
 
         assertThat((List<?>) page.run("async () => Object.keys((await import('/texts.es.js')).texts.refusals)"))
                 .extracting(Object::toString)
-                .containsAll(
-                        Stream.of(ErrorCode.values()).map(ErrorCode::code).toList());
+                .containsAll(Stream.of(ErrorCode.values()).map(ErrorCode::code).toList());
     }
 
     @Test
