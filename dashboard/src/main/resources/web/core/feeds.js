@@ -23,14 +23,15 @@ const OVER = new Set(['ended', 'stopped', 'failed']);
 /** Maximum delay of the entities' initial state: an interval between checkpoints of ingest, and a margin. */
 const MAX_STATE_DELAY = 60_000;
 
-/** Time for which the page waits for the socket of the devices' states, ms. */
-const REQUEST_TIMEOUT = 300;
+/** Time for which the page waits for the socket of the devices' states: building the page first would delay it by more than a busy server takes, ms. */
+const REQUEST_TIMEOUT = 1_000;
 
 class Feeds {
-  /** @returns {Promise} resolves when the devices' states are requested */
-  start() {
+  /** @returns {Promise} resolves when the devices' states are requested, and after them all else */
+  async start() {
     store.feeds = this;
-    this.live(); // first: browsers open few connections at a time
+    this.live();
+    await Promise.race([this.shown[0].requested, new Promise((resolve) => setTimeout(resolve, REQUEST_TIMEOUT))]);
     this.shared = [
       this.feed('service.alarms', 'all', (record) => store.applyAlarm(record), { list: 'alarms', whileHidden: mayNotify }),
       this.feed('service.fields', 'all', (record) => store.applyField(record), { list: 'fields' }),
@@ -40,7 +41,6 @@ class Feeds {
     Object.entries(LISTS).forEach(([name, list]) => this.syncList(name, list));
     setInterval(() => document.hidden || store.tick(), 1000);
     setInterval(() => document.hidden || this.readImages(), IMAGES_MILLIS);
-    return Promise.race([this.shown[0].requested, new Promise((resolve) => setTimeout(resolve, REQUEST_TIMEOUT))]);
   }
 
   /**

@@ -6,6 +6,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.CopyOnWriteArrayList;
 import java.util.concurrent.TimeUnit;
 import java.util.regex.Pattern;
 
@@ -84,7 +85,7 @@ class StubbedViewsIT extends StubbedPage {
     /** What is shown first does not wait for the work of other streams, and no stream waits for one that does not answer. */
     @Test
     void opensThreeStreamsAtATime() {
-        List.of("data.raw", "service.alarms", "service.fields")
+        List.of("service.alarms", "service.fields", "service.replays")
                 .forEach(topic -> farm.answers("/api/register/" + topic, ""));
         FarmPage page = farm.open("", 1440, 900);
         Map<String, Long> registered = new ConcurrentHashMap<>();
@@ -97,8 +98,23 @@ class StubbedViewsIT extends StubbedPage {
         page.page().reload();
         page.until(() -> registered.containsKey("service.replays.status"));
 
-        assertThat(registered.get("service.replays") - registered.get("service.fields"))
+        assertThat(registered.get("service.replays.status") - registered.get("service.replays"))
                 .isGreaterThan(TimeUnit.MILLISECONDS.toNanos(500));
+    }
+
+    /** Else the lists of a large farm delay them. */
+    @Test
+    void requestsListsAfterTheStatesOfDevices() {
+        FarmPage page = farm.open("", 1440, 900);
+        List<String> events = new CopyOnWriteArrayList<>();
+        page.page().onRequest(request -> events.add(URI.create(request.url()).getPath()));
+        page.page()
+                .onRequestFinished(request ->
+                        events.add("answered " + URI.create(request.url()).getPath()));
+        page.page().reload();
+        page.until(() -> events.contains("answered /api/devices"));
+
+        assertThat(events).containsSubsequence("answered /api/register/data.raw", "/api/devices");
     }
 
     /** The pill with the distance has some 2,000 pixels in the color of the scheme. */
