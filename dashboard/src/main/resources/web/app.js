@@ -9,6 +9,7 @@ import { amendAddress, linkTo, navigate, onRoute, route } from './core/router.js
 import { store } from './core/store.js';
 import { arrange } from './alarms/order.js';
 import { stopAllButton } from './cards/stop-all.js';
+import './map/library.js';
 import { settingsMenu } from './settings.js';
 import { canSignOut, signIn, signInAgain, signOut, signedIn, readTokenFromLink } from './sign-in.js';
 import { t } from './texts.js';
@@ -27,6 +28,7 @@ const MODULES = {
   'furrow-platform': './views/platform.js',
   'furrow-report': './views/report.js',
 };
+const SHOWN_FIRST = ['furrow-map', 'furrow-alarms', 'furrow-cards', 'furrow-timeline'];
 /** Time for which a restored connection is reported, ms. */
 const RESTORED_SHOWN = 10_000;
 /** Views with the timeline below, which show a replay; all others are live, and say so. */
@@ -91,12 +93,10 @@ class App extends HTMLElement {
   /** Creates an element and loads its module; a module that fails does not affect others. */
   load(name) {
     const element = document.createElement(name);
-    if (!customElements.get(name)) {
-      import(MODULES[name]).catch((error) => {
-        console.error(`${MODULES[name]} could not be loaded`, error);
-        replace(element, h('p.error-note', { role: 'alert' }, icon('warning'), t('app.viewFailed', { reason: error.message })));
-      });
-    }
+    define(name).catch((error) => {
+      console.error(`${MODULES[name]} could not be loaded`, error);
+      replace(element, h('p.error-note', { role: 'alert' }, icon('warning'), t('app.viewFailed', { reason: error.message })));
+    });
     return element;
   }
 
@@ -224,6 +224,11 @@ class App extends HTMLElement {
   }
 }
 
+/** Loads the module of an element. @returns {Promise} */
+function define(name) {
+  return customElements.get(name) ? Promise.resolve() : import(MODULES[name]);
+}
+
 /** Splits words around a name: a narrow window shows the name alone, since icon and color indicate a replay. */
 function aroundName(words, name) {
   const at = words.indexOf(name);
@@ -242,13 +247,16 @@ let retrying = null;
 
 async function start() {
   clearTimeout(retrying);
+  const user = loadUser();
+  feeds.live(); // the server reads the devices' states while the page is built
   try {
-    await loadUser();
+    await user;
   } catch (error) {
+    feeds.close();
     return error.status === 401 ? signIn(start) : unreachable(error);
   }
   signedIn();
-  await feeds.start(); // the server reads the devices' states while the page is built
+  await feeds.start();
   replace(document.body, document.createElement('furrow-app'));
   api.onSignedOut(signInAgain);
 }
@@ -270,3 +278,4 @@ function unreachable(error) {
 
 readTokenFromLink();
 start();
+SHOWN_FIRST.forEach((name) => define(name).catch(() => {})); // after the requests of the start: browsers open few connections at a time

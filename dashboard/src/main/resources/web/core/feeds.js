@@ -18,19 +18,20 @@ const IMAGES_MILLIS = 5_000;
 /** How far trails and series reach back when the page is opened, and the maximum number of reports. */
 const PAST_MILLIS = 300_000;
 const PAST_REPORTS = 3_000;
+/** Time after the initial state until they are requested, in which the devices are drawn, ms. */
+const PAST_DELAY = 500;
 const OVER = new Set(['ended', 'stopped', 'failed']);
 
 /** Maximum delay of the entities' initial state: an interval between checkpoints of ingest, and a margin. */
 const MAX_STATE_DELAY = 60_000;
 
-/** Time for which the page waits for the socket of the devices' states: building the page first would delay it by more than a busy server takes, ms. */
+/** Time for which the page waits for the socket of the devices' states, ms: building the page first delays it by more than a busy server takes. */
 const REQUEST_TIMEOUT = 1_000;
 
 class Feeds {
-  /** @returns {Promise} resolves when the devices' states are requested, and after them all else */
+  /** Subscribes to all else once the devices' states are requested. @returns {Promise} */
   async start() {
     store.feeds = this;
-    this.live();
     await Promise.race([this.shown[0].requested, new Promise((resolve) => setTimeout(resolve, REQUEST_TIMEOUT))]);
     this.shared = [
       this.feed('service.alarms', 'all', (record) => store.applyAlarm(record), { list: 'alarms', whileHidden: mayNotify }),
@@ -72,7 +73,7 @@ class Feeds {
         if (main) {
           store.primed = true;
           store.notify('entities');
-          store.isReplay || this.readPast();
+          setTimeout(() => store.isReplay || this.readPast(), PAST_DELAY);
         }
       },
       gap: (missed) => {
@@ -118,8 +119,9 @@ class Feeds {
     });
   }
 
+  /** Shows what devices report now. */
   live() {
-    this.shown?.forEach((each) => each.close());
+    this.close();
     store.setMode({ kind: 'live' });
     this.shown = [
       this.feed('data.raw', 'latest', (record) => store.applyEntity(record), {
@@ -132,6 +134,11 @@ class Feeds {
       this.feed('data.images', 'latest', (record) => store.applyImage(record), { createdLater: true }),
       followCoverage('data.coverage', Date.now() - COVERAGE_SHOWN, (record) => store.applyCoverage(record)),
     ];
+  }
+
+  /** Closes the streams of what is shown. */
+  close() {
+    this.shown?.forEach((each) => each.close());
   }
 
   /** Reads recent reports, once: after a lost connection trails and series continue where they ended. */

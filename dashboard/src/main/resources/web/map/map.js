@@ -11,6 +11,7 @@ import { FieldEditor } from './editor.js';
 import { extentOf } from './farms.js';
 import { FieldDrawing, isFound } from './fields.js';
 import { legend } from './legend.js';
+import { library } from './library.js';
 import { readPalette } from './palette.js';
 import { Pointing } from './pointing.js';
 import { canvasLayer, isOnMap, project } from './projection.js';
@@ -295,8 +296,5 @@ class FurrowMap extends Pointing(HTMLElement) {
   }
 }
 
-// OpenLayers is no module
-await new Promise((loaded, failed) => {
-  document.head.append(Object.assign(document.createElement('script'), { src: '/lib/ol/ol.js', onload: loaded, onerror: () => failed(new Error('/lib/ol/ol.js')) }));
-});
+await library;
 customElements.define('furrow-map', FurrowMap);
