@@ -11,6 +11,7 @@ import java.util.Locale;
 import java.util.Map;
 import java.util.Random;
 import java.util.TreeMap;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
@@ -40,6 +41,7 @@ public final class FarmYear implements AutoCloseable {
     private static final Duration POLL_INTERVAL = Duration.ofSeconds(1);
     private static final double MAX_GROWTH = 1.2;
     private static final double MAX_START_GROWTH = 1.5;
+    private static final int OPENINGS = 3;
     private static final long MAX_OPENING_MILLIS = 3_000;
     private static final long SEED = 7;
 
@@ -245,11 +247,17 @@ public final class FarmYear implements AutoCloseable {
             return;
         }
         List<String> devices = YearFleet.devices();
-        long millis = OpeningTime.millis(farm.up.dashboard(), devices);
+        // the compilers of a JVM that was started minutes ago delay one opening more than another
+        List<Long> millis = Stream.generate(() -> OpeningTime.millis(farm.up.dashboard(), devices))
+                .limit(OPENINGS)
+                .sorted()
+                .toList();
         checkResults.add(
                 "the page opens, week " + week,
-                "%d ms until %d devices are on map and cards".formatted(millis, devices.size()),
-                millis <= MAX_OPENING_MILLIS ? List.of() : List.of("more than " + MAX_OPENING_MILLIS + " ms"));
+                "%s ms until %d devices are on map and cards".formatted(millis, devices.size()),
+                millis.get(OPENINGS / 2) <= MAX_OPENING_MILLIS
+                        ? List.of()
+                        : List.of("the median is more than " + MAX_OPENING_MILLIS + " ms"));
     }
 
     private interface Start {
