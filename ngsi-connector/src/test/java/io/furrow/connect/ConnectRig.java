@@ -11,7 +11,6 @@ import java.net.http.HttpResponse;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Comparator;
-import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.stream.Stream;
@@ -44,10 +43,8 @@ public final class ConnectRig implements AutoCloseable {
     private ConnectRig(Path directory, Map<String, String> workerSettings) {
         this.directory = directory;
         startKafka();
-        // Refuses to start where a connector is not declared in META-INF/services.
-        Map<String, String> settings = new HashMap<>(Map.of("plugin.discovery", "hybrid_fail"));
-        settings.putAll(workerSettings);
-        worker = EmbeddedConnect.start(bootstrapServers(), unpackedPlugin(directory.resolve("plugins")), 0, settings);
+        worker = EmbeddedConnect.start(
+                bootstrapServers(), unpackedPlugin(directory.resolve("plugins")), 0, workerSettings);
     }
 
     public static ConnectRig start(Path directory) {

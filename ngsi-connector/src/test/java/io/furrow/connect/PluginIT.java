@@ -2,6 +2,7 @@ package io.furrow.connect;
 
 import java.nio.file.Path;
 import java.util.List;
+import java.util.Map;
 import java.util.Set;
 import java.util.TreeSet;
 import java.util.stream.StreamSupport;
@@ -34,7 +35,8 @@ class PluginIT {
 
     @BeforeAll
     static void startWorker() {
-        rig = ConnectRig.start(directory);
+        // Refuses to start where a connector is not declared in META-INF/services.
+        rig = ConnectRig.start(directory, Map.of("plugin.discovery", "hybrid_fail"));
     }
 
     @Test
