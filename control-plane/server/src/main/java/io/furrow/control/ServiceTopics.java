@@ -7,6 +7,7 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
+import java.util.Set;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
@@ -35,6 +36,10 @@ public final class ServiceTopics {
     private static final long POLL_INTERVAL_MILLIS = 50;
     private static final int STATUS_SEGMENT_BYTES = 16 * 1024 * 1024;
     private static final int STATUS_SEGMENT_MINUTES = 10;
+    /** Written while devices report, replays play or a fault lasts. */
+    private static final Set<String> REPEATED =
+            Set.of(Topics.DEVICES_HEALTH, Topics.DEVICES_CONNECTION, Topics.FAULTS, Topics.REPLAYS_STATUS);
+
     private static final String POLICY = "cleanup.policy";
     private static final String MAX_BYTES = "max.message.bytes";
 
@@ -162,13 +167,13 @@ public final class ServiceTopics {
                 Integer.toString(Limits.MESSAGE_BYTES));
     }
 
-    /** Segments of replay statuses, two per second and replay, are small, because the active segment is not compacted. */
+    /** Segments of repeated states are small: the active segment is not compacted, and a start reads all of it, by default a week. */
     private static Map<String, String> stateConfigs(String topic) {
         Map<String, String> configs = new LinkedHashMap<>();
         configs.put(POLICY, "compact");
         configs.put("compression.type", "uncompressed");
         configs.put(MAX_BYTES, Integer.toString(Limits.MESSAGE_BYTES));
-        if (topic.equals(Topics.REPLAYS_STATUS)) {
+        if (REPEATED.contains(topic)) {
             configs.put("segment.bytes", Integer.toString(STATUS_SEGMENT_BYTES));
             configs.put("segment.ms", Long.toString(TimeUnit.MINUTES.toMillis(STATUS_SEGMENT_MINUTES)));
         }

@@ -56,6 +56,14 @@ public final class TopicOptions {
     public record Settings(
             Integer partitions, Short replication, Long retentionMillis, Set<String> compacted, Long replayBytes)
             implements Serializable {
+        /**
+         * The active segment is not compacted, and readers of a state read all of it: by default a week of events. A
+         * segment must hold the largest record.
+         */
+        private static final int COMPACTED_SEGMENT_BYTES = 2 * KafkaConnectors.MAX_REQUEST_BYTES;
+
+        private static final Duration COMPACTED_SEGMENT = Duration.ofMinutes(5);
+
         public Settings(Integer partitions, Short replication, Long retentionMillis, Set<String> compacted) {
             this(partitions, replication, retentionMillis, compacted, null);
         }
@@ -71,6 +79,8 @@ public final class TopicOptions {
             configs.put(TopicConfig.MAX_MESSAGE_BYTES_CONFIG, Integer.toString(KafkaConnectors.MAX_REQUEST_BYTES));
             if (compacted.contains(name)) {
                 configs.put(TopicConfig.CLEANUP_POLICY_CONFIG, TopicConfig.CLEANUP_POLICY_COMPACT);
+                configs.put(TopicConfig.SEGMENT_BYTES_CONFIG, Integer.toString(COMPACTED_SEGMENT_BYTES));
+                configs.put(TopicConfig.SEGMENT_MS_CONFIG, Long.toString(COMPACTED_SEGMENT.toMillis()));
             } else if (Topics.isOfReplay(name)) {
                 configs.put(TopicConfig.RETENTION_MS_CONFIG, "-1");
                 configs.put(TopicConfig.MESSAGE_TIMESTAMP_AFTER_MAX_MS_CONFIG, Long.toString(Long.MAX_VALUE));
