@@ -13,6 +13,7 @@ import java.util.List;
 import java.util.concurrent.TimeUnit;
 
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -78,6 +79,7 @@ class ContainerScriptsTest {
         assertThat(submit("jobs/analytics.jar", "collision")).isEqualTo("collision runs already.\n");
     }
 
+    @Tag("full")
     @Test
     void reloadsReplacedAccountsOfMosquitto() throws Exception {
         int port = FreePort.orFree(0);

@@ -11,6 +11,7 @@ import java.util.TreeMap;
 import java.util.stream.Stream;
 
 import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
@@ -43,6 +44,7 @@ class DividedIngestTest {
     @TempDir
     Path folder;
 
+    @Tag("full")
     @Test
     void writesWithAllItsPartsTogetherWhatTheWholeWrites() throws Exception {
         TopicRecord[] reported = reported();

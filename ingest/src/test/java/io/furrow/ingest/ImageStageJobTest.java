@@ -12,6 +12,7 @@ import java.util.Set;
 import java.util.stream.Stream;
 
 import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
@@ -69,6 +70,7 @@ class ImageStageJobTest {
                 .allSatisfy(record -> assertThat(record.value()).isEqualTo(camera.value()));
     }
 
+    @Tag("full")
     @Test
     void storesEveryImageOfManyCameras(@TempDir Path folder) throws Exception {
         List<TopicRecord> records = new ArrayList<>();

@@ -117,6 +117,7 @@ class ReplayOnKafkaIT {
         return last.seeking(to, 3).desired(last.desired(), last.sequence());
     }
 
+    @Tag("full")
     @Test
     void stepsBackAndRepeatsARange() throws Exception {
         suite.store("m", 100, 1_000);

@@ -100,6 +100,7 @@ class CollisionDetectionTest {
         return new CollisionOracle.Result(encounters, overflows);
     }
 
+    @Tag("full")
     @Test
     void givesTheSameForAnotherCellSizeAndASecondPass() throws Exception {
         List<PositionFix> fixes = worlds(5, 31);

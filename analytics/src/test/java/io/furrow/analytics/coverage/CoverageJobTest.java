@@ -8,6 +8,7 @@ import java.util.Map;
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
 import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -246,6 +247,7 @@ class CoverageJobTest {
                         replay + ".coverage.late");
     }
 
+    @Tag("full")
     @Test
     void setsAsideWhatIsUnreadableOrLate() throws Exception {
         TopicRecord garbage = record("x", Drives.START, "{not json");
@@ -268,6 +270,7 @@ class CoverageJobTest {
         assertThat(written.get(0).headers()).containsEntry(DeadLetter.STAGE, "coverage");
     }
 
+    @Tag("full")
     @Test
     void reportsOfEachEpochOfAReplayWhatItReportsOfItAlone() throws Exception {
         Drives drives = new Drives(5); // in which robots work before and after the point

@@ -9,6 +9,7 @@ import java.util.stream.LongStream;
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
 import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -121,6 +122,7 @@ class PresenceJobTest {
                         tuple(replay + ".presence", 302_000L));
     }
 
+    @Tag("full")
     @Test
     void setsAsideWhatIsUnreadableOrLate() throws Exception {
         TopicRecord garbage = record("x", 1000, "{not json");
@@ -177,6 +179,7 @@ class PresenceJobTest {
                 });
     }
 
+    @Tag("full")
     @Test
     void tellsOfEachEpochOfAReplayWhatItTellsOfItAlone() throws Exception {
         long seed = Long.getLong("presence.seed", System.nanoTime());

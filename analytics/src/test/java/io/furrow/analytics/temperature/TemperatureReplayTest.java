@@ -6,6 +6,7 @@ import java.util.List;
 import java.util.Random;
 
 import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.extension.RegisterExtension;
@@ -28,6 +29,7 @@ class TemperatureReplayTest {
     @RegisterExtension
     static final MiniClusterExtension FLINK = InTurn.cluster(2);
 
+    @Tag("full")
     @Test
     void averagesEachEpochAsItAveragesItAlone() throws Exception {
         Replayed.assertThatEpochsAreAsAlone(

@@ -7,6 +7,7 @@ import java.time.Instant;
 import java.util.List;
 import java.util.Properties;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -119,6 +120,7 @@ class LostKafkaTest extends ProvisioningFixture {
         assertThat(agent.deviceIds()).isEmpty();
     }
 
+    @Tag("full")
     @Test
     void retainsLoginsIfTheAgentReportsNoDevices() throws Exception {
         provisionTen();

@@ -9,6 +9,7 @@ import java.util.Set;
 import org.eclipse.paho.client.mqttv3.MqttException;
 import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -130,6 +131,7 @@ class MosquittoIT {
         }
     }
 
+    @Tag("full")
     @Test
     void allowsAMissionWithTheNameOfAnotherUser() throws Exception {
         String key = "/" + SECRET.apiKey("agent");
@@ -146,6 +148,7 @@ class MosquittoIT {
         }
     }
 
+    @Tag("full")
     @Test
     void doesNotReplaceAForeignUser() throws Exception {
         Login foreign = new Login(SECRET.device("hoeing", "theirs").user(), "their password");

@@ -17,6 +17,7 @@ import com.sun.net.httpserver.HttpsServer;
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigException;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -100,6 +101,7 @@ class BrokerOptionsTest {
                 .isFalse();
     }
 
+    @Tag("full")
     @ParameterizedTest
     @ValueSource(strings = {"trust.p12", "trust.jks", "trust.pem"})
     void trustsTheCertificatesOfTheFileAndNoOthers(String file, @TempDir Path directory) throws Exception {

@@ -2,6 +2,7 @@ package io.furrow.connect.journal;
 
 import java.nio.file.Path;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -16,6 +17,7 @@ class JournalLockTest {
     private Path folder;
 
     /** To close a file drops the process's lock on it, so that a failed try here could let another process in. */
+    @Tag("full")
     @Test
     void isOpenInOneProcessOnlyAlsoAfterAnotherTryInThisOne() throws Exception {
         try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {

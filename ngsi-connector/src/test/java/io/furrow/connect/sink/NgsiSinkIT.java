@@ -13,6 +13,7 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -69,6 +70,7 @@ class NgsiSinkIT {
         });
     }
 
+    @Tag("full")
     @Test
     void triesAgainWhenTheContextBrokerIsOverloaded() {
         AtomicInteger refusals = new AtomicInteger(3);

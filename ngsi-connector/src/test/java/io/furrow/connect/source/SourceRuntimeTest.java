@@ -14,6 +14,7 @@ import java.util.concurrent.atomic.AtomicLong;
 import org.apache.kafka.connect.errors.ConnectException;
 import org.apache.kafka.connect.source.SourceRecord;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -107,6 +108,7 @@ class SourceRuntimeTest {
         assertThat(Ports.isListening(port)).isTrue();
     }
 
+    @Tag("full")
     @Test
     void isNeededWhenTheOffsetStoreHasNotAnsweredFor2500Milliseconds() {
         for (long silence : List.of(2400L, 2600L)) {

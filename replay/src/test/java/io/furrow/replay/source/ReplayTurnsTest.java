@@ -9,6 +9,7 @@ import java.util.stream.LongStream;
 import org.apache.flink.api.connector.source.ReaderOutput;
 import org.apache.flink.core.io.InputStatus;
 import org.junit.jupiter.api.AutoClose;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.flink.record.TopicRecord;
@@ -128,6 +129,7 @@ class ReplayTurnsTest {
                 .anySatisfy(late -> assertThat(late).isGreaterThanOrEqualTo(3_000));
     }
 
+    @Tag("full")
     @Test
     void spreadsStatusReportsOverTime() throws Exception {
         List<DesiredReplay> replays = new ArrayList<>();

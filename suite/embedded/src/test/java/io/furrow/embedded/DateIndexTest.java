@@ -21,6 +21,7 @@ import org.bson.Document;
 import org.bson.conversions.Bson;
 import org.h2.mvstore.MVMap;
 import org.h2.mvstore.MVStore;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -36,6 +37,7 @@ class DateIndexTest {
     @TempDir
     Path directory;
 
+    @Tag("full")
     @Test
     void findsWhatAScanFindsAlsoAfterChangesAndARestart() {
         with(farm -> {

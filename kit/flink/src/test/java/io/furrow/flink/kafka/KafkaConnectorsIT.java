@@ -148,6 +148,7 @@ class KafkaConnectorsIT {
         }
     }
 
+    @Tag("full")
     @Test
     void beginAtATime() throws Exception {
         write(

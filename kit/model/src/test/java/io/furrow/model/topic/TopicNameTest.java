@@ -6,6 +6,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Random;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -63,6 +64,7 @@ class TopicNameTest {
     }
 
     /** Kafka's rules for topics: its alphabet, 249 characters, and no two that differ only in '.' and '_'. */
+    @Tag("full")
     @Test
     void givesNoTwoNamesTopicsThatCollideInKafka() {
         Map<String, String> ownerOf = new HashMap<>();

@@ -8,6 +8,7 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import picocli.CommandLine;
 
@@ -19,6 +20,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 /** Commands on alarms, dead letters and topics, and of those who have no access. */
+@Tag("full")
 class RecordCommandsIT extends CommandsOnControlPlane {
     @Test
     void listsOpenAlarmsTheMostSevereFirstAndNoMoreThanAreRequested() throws Exception {

@@ -9,6 +9,7 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.Random;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInfo;
 import org.junit.jupiter.api.TestReporter;
@@ -32,6 +33,7 @@ class DeliveryPropertyTest {
     private static final int FARMS = 100;
     private static final int STEPS = 150;
 
+    @Tag("full")
     @Test
     void deliversTheFinalStateLast(TestInfo test, TestReporter reporter) {
         long seed = System.nanoTime();
