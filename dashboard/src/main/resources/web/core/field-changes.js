@@ -1,4 +1,4 @@
-/** Changes fields by the REST API. Each change writes a version to `service.fields`; to undo one writes the version before it again. */
+/** Changes fields by the REST API. To undo a change is another one, which writes what was there before it. */
 import { api } from './api.js';
 import { formRow, openDialog } from './dialog.js';
 import { h } from './dom.js';
@@ -44,21 +44,52 @@ async function endField(field, at) {
   at ?? remember({ words: t('draw.ended', { field: field.name }), id: field.id, version, inverse: () => write(field) });
 }
 
-/** Undoes the newest change. */
-export async function undoLast() {
+/** Renames a field in all its versions. @param {Object} field of the store @param {string} name */
+export async function renameField(field, name) {
+  const rename = async (words) => {
+    await api.patch(pathOf(field), { name: words });
+    return newest(field.id);
+  };
+  const version = await rename(name);
+  remember({ words: t('draw.renamed', { field: field.name }), id: field.id, version, inverse: () => rename(field.name) });
+}
+
+/** Deletes a field with all its versions. @param {Object} field of the store */
+export async function deleteField(field) {
+  const versions = [...store.fieldVersions.get(field.id)].sort(([one], [other]) => one - other);
+  await api.del(pathOf(field));
+  remember({ words: t('draw.deleted', { field: field.name }), id: field.id, version: -Infinity, inverse: () => writeVersions(field.id, versions) });
+}
+
+/** Undoes the newest change, or asks first if the field was changed since. @param {function(string)} done @param {function(Error)} failed if it is rejected */
+export function askUndo(done, failed) {
+  const change = lastChange();
+  const work = async () => {
+    await undoLast();
+    done(t('draw.undone', { change: change.words }));
+  };
+  if (isChangedSince(change)) {
+    openDialog({ title: t('draw.undo', { change: change.words }), submit: t('draw.undoAnyway'), danger: true, body: [h('p', null, t('draw.changedSince'))], work });
+  } else {
+    work().catch(failed);
+  }
+}
+
+async function undoLast() {
   const change = lastChange();
   const version = await change.inverse();
   changes.splice(changes.indexOf(change), 1);
   const earlier = changes.findLast(({ id }) => id === change.id);
   earlier && (earlier.version = version);
+  store.notify('fields');
 }
 
 /** Whether another version of the field was written after a change: its undoing takes back that one too. */
-export function isChangedSince({ id, version }) {
+function isChangedSince({ id, version }) {
   return version !== null && newest(id) !== version;
 }
 
-export function pathOf({ id }) {
+function pathOf({ id }) {
   return `/api/fields/${encodeURIComponent(id)}`;
 }
 
@@ -88,13 +119,26 @@ function remember(change) {
 }
 
 /** @returns {Promise<number|null>} the version's `validFrom`, null if it is not received in time */
-async function write({ id, geometry, properties: { validFrom, ...properties } }) {
-  const before = newest(id);
-  const answer = await api.post('/api/fields', { type: 'Feature', id, geometry, properties });
+async function write(draft) {
+  const before = newest(draft.id);
+  await post(draft);
+  return arrival(draft.id, before);
+}
+
+/** @param {Draft} draft @param {string} query with the time from which it is valid; empty for now */
+async function post({ id, geometry, properties: { validFrom, ...properties } }, query = '') {
+  const answer = await api.post(`/api/fields${query}`, { type: 'Feature', id, geometry, properties });
   if (answer.refused?.length) {
     throw new Error(answer.refused[0].reason);
   }
-  return arrival(id, before);
+}
+
+/** Writes versions of a field that was deleted, of which some may be ends. @returns {Promise<number>} the newest version's `validFrom` */
+async function writeVersions(id, versions) {
+  for (const [validFrom, { geometry, properties }] of versions) {
+    await (geometry ? post({ id, geometry, properties: properties ?? {} }, `?validFrom=${validFrom}`) : api.patch(pathOf({ id }), { validTo: new Date(validFrom).toISOString() }));
+  }
+  return versions.at(-1)[0];
 }
 
 async function writeEnd(id, at = null) {

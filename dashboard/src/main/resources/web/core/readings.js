@@ -16,13 +16,14 @@ const QUANTITIES = {
   HEADING: { __proto__: null, DD: (value) => value, C81: (value) => (value * 180) / Math.PI },
   TEMPERATURE: { __proto__: null, FAH: (value) => (value - 32) / 1.8, KEL: (value) => value - 273.15 },
   SHARE: { __proto__: null, C62: (value) => value, P1: (value) => value / 100 },
+  LENGTH: { __proto__: null, MTR: (value) => value, CMT: (value) => value / 100, MMT: (value) => value / 1000, FOT: (value) => value * 0.3048, INH: (value) => value * 0.0254 },
 };
 
 /** Codes of UN/CEFACT by spellings in lower case. */
 const SPELLINGS = {
   __proto__: null,
   'm/s': 'MTS', 'km/h': 'KMH', mph: 'HM', kn: 'KNT', kt: 'KNT', '°': 'DD', deg: 'DD', rad: 'C81', c: 'CEL', '°c': 'CEL', celsius: 'CEL', f: 'FAH', '°f': 'FAH', fahrenheit: 'FAH',
-  k: 'KEL', kelvin: 'KEL', '%': 'P1', percent: 'P1',
+  k: 'KEL', kelvin: 'KEL', '%': 'P1', percent: 'P1', m: 'MTR', cm: 'CMT', mm: 'MMT', ft: 'FOT', in: 'INH',
 };
 
 /** A finite number, also given as text or as a FIROS message with one number; null for everything else. */

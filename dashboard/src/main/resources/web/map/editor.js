@@ -1,6 +1,5 @@
 /** Draws and changes fields on the map: the tools are below it while it is open. */
-import { askEnd, idFor, isChangedSince, lastChange, undoLast, writeField } from '../core/field-changes.js';
-import { openDialog } from '../core/dialog.js';
+import { askEnd, askUndo, idFor, lastChange, writeField } from '../core/field-changes.js';
 import { h } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { redraw } from '../core/redraw.js';
@@ -122,16 +121,7 @@ export class FieldEditor {
   }
 
   undo() {
-    const change = lastChange();
-    const work = async () => {
-      await undoLast();
-      this.choose(t('draw.undone', { change: change.words }));
-    };
-    if (isChangedSince(change)) {
-      openDialog({ title: t('draw.undo', { change: change.words }), submit: t('draw.undoAnyway'), danger: true, body: [h('p', null, t('draw.changedSince'))], work });
-    } else {
-      work().catch((error) => { this.message = error.message; this.draw(); });
-    }
+    askUndo((words) => this.choose(words), (error) => { this.message = error.message; this.draw(); });
   }
 
   /** The focus goes to the tools of a step, unless the user works elsewhere on the page. */

@@ -11,7 +11,7 @@ import { streams } from '../core/stream.js';
 import { t } from '../texts.js';
 import { Plan } from './replays/plan.js';
 import { Preview } from './replays/preview.js';
-import { drawRunning, grouped } from './replays/running.js';
+import { COLUMNS as RUNNING, drawRunning, grouped } from './replays/running.js';
 
 /** A mission whose newest event is younger is still being recorded, ms. */
 const RECORDING_TIMEOUT = 90_000;
@@ -29,7 +29,8 @@ class Replays extends HTMLElement {
     this.entities = new Map();
     this.plan = new Plan();
     this.runningList = h('ul.running-list');
-    this.runningTitle = h('h2.section-title', null, t('replays.running'), h('span.numbers'));
+    this.runningCsv = csvButton(t('replays.running'), 'replays', RUNNING, () => grouped(store.replays.values()));
+    this.runningTitle = h('h2.section-title.spacer', null, t('replays.running'), h('span.numbers'));
     this.noRunning = h('div');
     this.recordedTitle = h('h2.section-title.spacer', null, t('replays.recorded'), h('span.numbers'));
     this.csv = csvButton(t('replays.recorded'), 'recordings', this.columns(), () => this.recordings());
@@ -42,7 +43,7 @@ class Replays extends HTMLElement {
     this.announcement = h('p.replay-said.small', { role: 'status' });
     replace(this, h('div.view', null,
       h('header', null, h('div', null, h('h1', null, t('replays.title')), h('p.muted', null, t('replays.lead'))), h('span.spacer'), this.announcement),
-      h('section.stack', null, this.runningTitle, this.runningList, this.noRunning),
+      h('section.stack', null, h('div.row', null, this.runningTitle, this.runningCsv), this.runningList, this.noRunning),
       h('div.replay-columns', null, h('section.stack', null, h('div.row', null, this.recordedTitle, this.csv), this.state, this.table), this.plan.element)));
     this.catalog = streams.subscribe('data.catalog', { mode: 'latest', prime: true, createdLater: true }, { records: (records) => this.applyCatalog(records) });
     this.onScheme = () => this.rows.forEach((row) => row.preview.draw());
@@ -94,6 +95,7 @@ class Replays extends HTMLElement {
     const entries = grouped(store.replays.values());
     drawRunning(this.runningList, this.runningDrawn, entries, (words) => this.announce(words));
     setText(this.runningTitle.lastChild, entries.length || '');
+    this.runningCsv.hidden = entries.length === 0;
     replace(this.noRunning, absence('replays', entries.length, () => h('div.empty', null, h('h3', null, t('replays.noRunning')), h('p.for-operators', null, t('replays.noRunningHint')))));
   }
 

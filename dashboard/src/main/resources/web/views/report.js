@@ -66,11 +66,11 @@ class FurrowReport extends HTMLElement {
   }
 
   parts(report) {
-    const { coverages, encounters, averages, alarms, markers, devices } = report;
+    const { runs, coverages, encounters, averages, alarms, markers, devices } = report;
     return [
       h('dl.report-facts', null, facts(report).map(([name, value, more]) => h('div', null, h('dt', null, t(`report.${name}`)), h('dd', null, h('strong.numbers', null, value), more && h('span.small.muted', null, more))))),
       report.fields.length > 0 && h('section.stack', { 'aria-label': t('report.map') }, h('h2', null, t('report.map')), mapsOf(report.fields, coverages.rows, report.layers)),
-      Object.entries({ coverages, encounters, averages, alarms, markers, devices }).map(([name, part]) => this.section(name, part, report.from)),
+      Object.entries({ ...(runs.error || runs.rows.length > 1 ? { runs } : {}), coverages, encounters, averages, alarms, markers, devices }).map(([name, part]) => this.section(name, part, report.from)),
       h('p.small.muted', null, t('report.made', { time: dateTime(Date.now()), zone: zone(Date.now()) })),
     ];
   }
@@ -88,14 +88,14 @@ class FurrowReport extends HTMLElement {
 }
 
 /** @returns {Array<[string, string|number, string|undefined]>} the name of each figure, its value, and more of it */
-function facts({ from, to, isRunning, coverages, encounters, alarms, markers, devices }) {
+function facts({ from, to, isRunning, isCut, runs, coverages, encounters, alarms, markers, devices }) {
   const sum = (of) => coverages.rows.reduce((total, { figures }) => total + of(figures), 0);
   const [worked, whole] = [sum(({ hectares }) => hectares), sum(({ fieldHectares }) => fieldHectares)];
   const closest = Math.min(...encounters.rows.map((each) => each.closest));
   const count = ({ rows, error }) => (error ? '–' : rows.length);
   return [
-    ['time', `${dateTime(from)} – ${day(from) === day(to) && to - from < DAY ? clock(to) : dateTime(to)}`, isRunning ? t('report.running') : zone(to)],
-    ['length', hours(to - from)],
+    ['time', `${dateTime(from)} – ${day(from) === day(to) && to - from < DAY ? clock(to) : dateTime(to)}`, [runs.rows.length > 1 && t('report.countRuns', { count: runs.rows.length }), isRunning ? t('report.running') : zone(to), isCut && t('replays.wrongClock')].filter(Boolean).join(' · ')],
+    ['length', hours(runs.rows.reduce((total, run) => total + run.to - run.from, 0) || to - from)],
     ['hectares', coverages.rows.length ? area(worked) : '–', coverages.rows.length ? t('report.ofFields', { share: percent(worked / whole), hectares: area(whole) }) : undefined],
     ['encounters', count(encounters), Number.isFinite(closest) ? t('map.closest', { distance: distance(closest) }) : undefined],
     ['alarms', count(alarms)], ['markers', count(markers)], ['devices', count(devices)],

@@ -6,6 +6,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.dashboard.page.PageSettings;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.fiware.FiwareSettings;
@@ -43,6 +44,7 @@ class PartsThatAlreadyRunIT {
                                 SuiteSettings.Farm.SIMULATED,
                                 SuiteSettings.Watch.DEFAULT,
                                 AllowedNames.NONE,
+                                PageSettings.DEFAULT,
                                 true))) {
             assertThat(running.suite().hasStandIn()).isFalse();
             assertThat(running.suite().mongo()).isEqualTo(mongo.uri());

@@ -53,6 +53,7 @@ class RealDevicesIT {
                                 new SuiteSettings.Missions(Duration.ofSeconds(3), true, false)),
                         SuiteSettings.Watch.DEFAULT,
                         AllowedNames.NONE,
+                        defaults.page(),
                         false));
         running.awaitReady();
         running.post("/api/domains", "{\"domain\":\"home\"}");

@@ -1,5 +1,6 @@
 /** Shows a mission: its progress, its devices, and the commands sent to it. */
 import { api } from '../../core/api.js';
+import { csvButton, dateOf } from '../../core/csv.js';
 import { age, dateTime, duration, shortId } from '../../core/format.js';
 import { h, replace } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
@@ -18,6 +19,17 @@ import { redraw } from '../../core/redraw.js';
 const MAX_SHOWN = 200;
 /** A device of a stopped mission is off once it has not reported for this time, ms. */
 const OFF_AFTER = 60_000;
+
+/** Of devices, for their CSV. */
+const COLUMNS = [
+  { name: 'missions.deviceColumns.device', value: ({ id }) => shortId(id) },
+  { name: 'report.id', value: ({ id }) => id },
+  { name: 'report.type', value: ({ type }) => type },
+  { name: 'missions.deviceColumns.state', value: ({ status }) => status?.state },
+  { name: 'missions.deviceColumns.health', value: (device) => healthOf(device, Date.now())[1] },
+  { name: 'missions.deviceColumns.battery', unit: 'percent', value: ({ health }) => (typeof health?.battery === 'number' ? Math.round(health.battery * 100) : null) },
+  { name: 'missions.deviceColumns.seen', value: (device) => dateOf(seenAt(device) || NaN) },
+];
 
 export class MissionDetail {
   /** @param {string} name of the mission */
@@ -116,7 +128,7 @@ export class MissionDetail {
       return;
     }
     const now = Date.now();
-    redraw(this.devices, h('h3.section-title', null, h('span', null, t('missions.devices')), h('span.numbers', null, devices.length)),
+    redraw(this.devices, h('div.row', null, h('h3.section-title.spacer', null, h('span', null, t('missions.devices')), h('span.numbers', null, devices.length)), csvButton(t('missions.devices'), `${this.name}-devices`, COLUMNS, () => this.list.value)),
       h('div.table-frame.device-table', { tabindex: '0', role: 'group', 'aria-label': t('missions.devices') }, h('table.table', null,
         h('thead', null, h('tr', null, ['device', 'state', 'health', 'battery', 'seen', 'audit'].map((name) => h('th', { scope: 'col', class: name === 'battery' || name === 'seen' ? 'numbers' : '' }, t(`missions.deviceColumns.${name}`))))),
         h('tbody', null, devices.slice(0, MAX_SHOWN).map((each) => this.row(each, now))))),
@@ -126,9 +138,8 @@ export class MissionDetail {
   row(device, now) {
     const health = device.health ?? {};
     const state = device.status?.state ?? t('missions.notYet');
-    const seen = Math.max(health.heard ?? health.lastSeen ?? 0, (!store.isReplay && store.entityOf(device)?.heard) || 0);
-    const isOff = health.off || (device.wanted === 'stopped' && now - seen > OFF_AFTER);
-    const sound = isOff ? ['muted', t('states.off')] : health.silent ? ['warn', t('states.stale')] : seen ? ['good', t('states.ok')] : ['muted', '–'];
+    const seen = seenAt(device);
+    const sound = healthOf(device, now);
     return h('tr', null,
       h('th', { scope: 'row' }, h('button.sort', { type: 'button', data: { act: device.id }, title: t('missions.onMap', { device: shortId(device.id) }), on: { click: () => { const key = store.entityOf(device)?.id ?? device.id; store.select(key, { reveal: true }); navigate('map', { select: key }); } } }, shortId(device.id))),
       h('td', { class: device.status?.state === 'failed' ? 'bad' : '' }, state, device.status?.reason && h('p.small.muted', null, device.status.reason)),
@@ -144,6 +155,18 @@ export class MissionDetail {
     this.list.close();
     this.audit.close();
   }
+}
+
+/** When a device was last heard, epoch ms; 0 if never. */
+function seenAt(device) {
+  return Math.max(device.health?.heard ?? device.health?.lastSeen ?? 0, (!store.isReplay && store.entityOf(device)?.heard) || 0);
+}
+
+/** The class and the words of a device's health. */
+function healthOf(device, now) {
+  const seen = seenAt(device);
+  const isOff = device.health?.off || (device.wanted === 'stopped' && now - seen > OFF_AFTER);
+  return isOff ? ['muted', t('states.off')] : device.health?.silent ? ['warn', t('states.stale')] : seen ? ['good', t('states.ok')] : ['muted', '–'];
 }
 
 /** How long a running mission still lasts, if its length is known. */

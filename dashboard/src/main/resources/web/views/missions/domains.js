@@ -1,13 +1,15 @@
 /** Lists domains, and the imported fields. */
 import { absence } from '../../core/absence.js';
 import { api } from '../../core/api.js';
-import { h } from '../../core/dom.js';
+import { csvButton } from '../../core/csv.js';
+import { h, setText } from '../../core/dom.js';
+import { askUndo, lastChange } from '../../core/field-changes.js';
 import { icon } from '../../core/icons.js';
 import { navigate } from '../../core/router.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 import { formRow, openDialog } from '../../core/dialog.js';
-import { fieldTable } from './fields.js';
+import { COLUMNS, fieldTable } from './fields.js';
 import { importFields } from './import.js';
 import { redraw } from '../../core/redraw.js';
 
@@ -15,8 +17,9 @@ export class Domains {
   constructor() {
     this.domains = h('div.stack');
     this.fields = h('div.stack');
+    this.said = h('p.small', { role: 'status' });
     this.element = h('div.domain-columns', null,
-      h('section.panel.stack', { 'aria-label': t('missions.domains') }, this.domains), h('section.panel.stack', { 'aria-label': t('missions.fields') }, this.fields));
+      h('section.panel.stack', { 'aria-label': t('missions.domains') }, this.domains), h('section.panel.stack', { 'aria-label': t('missions.fields') }, this.fields, this.said));
     this.element.addEventListener('dragover', (event) => isFile(event) && event.preventDefault());
     this.element.addEventListener('drop', (event) => {
       if (isFile(event)) {
@@ -37,9 +40,15 @@ export class Domains {
       h('ul.stack', null, domains.map((each) => this.domain(each))));
     const fields = [...store.fields.values()].sort((a, b) => (a.name < b.name ? -1 : 1));
     redraw(this.fields,
-      h('div.row', null, h('h2', null, t('missions.fields')), h('span.spacer'), allowed && h('button.button.small', { type: 'button', data: { act: 'import' }, on: { click: () => importFields() } }, icon('upload', 16), t('missions.importFields'))),
+      h('div.row', null, h('h2', null, t('missions.fields')), h('span.spacer'), fields.length > 0 && csvButton(t('missions.fields'), 'fields', COLUMNS, () => fields), allowed && h('button.button.small', { type: 'button', data: { act: 'import' }, on: { click: () => importFields() } }, icon('upload', 16), t('missions.importFields'))),
       absence('fields', fields.length, () => h('div.empty', null, h('h3', null, t('missions.noFields')), allowed && h('p', null, t('missions.noFieldsHint')))),
-      fields.length > 0 && fieldTable(fields));
+      fields.length > 0 && fieldTable(fields),
+      allowed && lastChange() && h('div', null, h('button.button.small', { type: 'button', data: { act: 'undo-field' }, on: { click: () => this.undo() } }, icon('undo', 16), h('span.cut', null, t('draw.undo', { change: lastChange().words })))));
+  }
+
+  undo() {
+    const say = (words, isBad) => { setText(this.said, words); this.said.classList.toggle('bad', isBad); };
+    askUndo((words) => say(words, false), (error) => say(error.message, true));
   }
 
   domain(domain) {

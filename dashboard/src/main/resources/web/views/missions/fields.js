@@ -1,12 +1,22 @@
 /** Shows the fields of the farm as a table; renames, ends and deletes them. */
-import { api } from '../../core/api.js';
+import { dateOf } from '../../core/csv.js';
 import { dateTime } from '../../core/format.js';
 import { h } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
-import { askEnd, pathOf } from '../../core/field-changes.js';
+import { askEnd, deleteField, renameField } from '../../core/field-changes.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 import { formRow, openDialog } from '../../core/dialog.js';
+
+/** Of fields, for their CSV. */
+export const COLUMNS = [
+  { name: 'missions.fieldColumns.field', value: ({ name }) => name },
+  { name: 'report.id', value: ({ id }) => id },
+  { name: 'missions.fieldColumns.domain', value: ({ properties }) => properties.Domain },
+  { name: 'missions.fieldColumns.kind', value: ({ exclusion }) => t(exclusion ? 'missions.zone' : 'missions.field') },
+  { name: 'draw.crop', value: ({ properties }) => properties.crop },
+  { name: 'missions.fieldColumns.from', value: ({ validFrom }) => (validFrom > 0 ? dateOf(validFrom) : null) },
+];
 
 /** @param {object[]} fields of the store, in the order of the rows */
 export function fieldTable(fields) {
@@ -40,7 +50,7 @@ function rename(field, title) {
   const name = h('input', { required: true, maxlength: 200, autocomplete: 'off', value: field.name });
   openDialog({
     title, submit: t('missions.rename'), body: [formRow(t('missions.name'), name, t('missions.renameHint'))],
-    work: () => api.patch(pathOf(field), { name: name.value }),
+    work: () => renameField(field, name.value),
   });
   name.select();
 }
@@ -48,6 +58,6 @@ function rename(field, title) {
 function remove(field, title) {
   openDialog({
     title: `${title}?`, submit: t('missions.delete'), danger: true, body: [h('p', null, t('missions.deleteFieldText'))],
-    work: () => api.del(pathOf(field)),
+    work: () => deleteField(field),
   });
 }

@@ -1,4 +1,5 @@
 /** Lists running replays with their states, links and commands. */
+import { dateOf } from '../../core/csv.js';
 import { h, replace, setText } from '../../core/dom.js';
 import { clock, readable, span } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
@@ -27,6 +28,16 @@ export function grouped(replays) {
 function stateOfReplay({ status }) {
   return !status ? 'starting' : status.state === 'running' && status.progress?.waiting ? 'waiting' : status.state;
 }
+
+/** Of the replays of a group or single ones, for their CSV. */
+export const COLUMNS = [
+  { name: 'replays.choice', value: ({ missions }) => missions.join(' + ') },
+  { name: 'missions.columns.state', value: ({ members: [first] }) => t(`replays.states.${stateOfReplay(first)}`) },
+  { name: 'analyses.from', value: ({ members }) => dateOf(spanOf(members).from) },
+  { name: 'analyses.to', value: ({ members }) => dateOf(spanOf(members).to) },
+  { name: 'replays.at', value: ({ members: [first] }) => dateOf(first.status?.progress?.position || NaN) },
+  { name: 'replays.speed', value: ({ members: [first] }) => first.speed },
+];
 
 /** A link to a moment. If the replay no longer exists, the link offers to start one there. */
 function linkToMoment({ replay, mission, group }, missions, time) {

@@ -1,6 +1,7 @@
 /** The columns of a report's tables, on the page and as CSV. */
 import { sentenceOf } from '../../alarms/sentence.js';
 import { dateOf } from '../../core/csv.js';
+import { h } from '../../core/dom.js';
 import { area, dateTime, duration, label, number, percent, shortId, temperature, word } from '../../core/format.js';
 import { numberColumn, textColumn } from '../../core/table.js';
 import { t } from '../../texts.js';
@@ -48,9 +49,16 @@ const devices = [
   textColumn('report.state', ({ state }) => (state ? label(state) : '–')),
   numberColumn('report.hectares', 'hectare', ({ hectares }) => hectares, area),
   numberColumn('report.overlap', 'hectare', ({ overlap }) => overlap, area),
+  { name: 'report.late', unit: 'second', value: ({ late }) => (late === null ? null : late / 1000), words: ({ late }) => (late === null ? '–' : h('span.warn', { title: t('report.lateHint') }, duration(late))), isNumber: true },
 ];
 
-export const COLUMNS = { coverages, encounters: RESULTS.encounters.map((each) => (each.name === 'analyses.when' ? timeColumn(each.name, ({ start }) => start) : each)), averages, alarms, markers, devices };
+const runs = [
+  timeColumn('report.from', ({ from }) => from),
+  timeColumn('report.to', ({ to }) => to),
+  { name: 'report.length', unit: 'second', value: ({ from, to }) => (to - from) / 1000, words: ({ from, to }) => duration(to - from), isNumber: true },
+];
+
+export const COLUMNS = { runs, coverages, encounters: RESULTS.encounters.map((each) => (each.name === 'analyses.when' ? timeColumn(each.name, ({ start }) => start) : each)), averages, alarms, markers, devices };
 
 function lasted({ state, raised, changed }) {
   return state === 'closed' ? (changed - raised) / 1000 : null;

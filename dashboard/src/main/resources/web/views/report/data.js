@@ -8,6 +8,12 @@ import { readAverage } from '../analyses/data.js';
 
 /** How much later than the last event what was worked by then may be reported, ms. */
 const REPORT_DELAY = 60_000;
+/** Between two runs nothing is recorded for at least this time, ms. */
+const PAUSE = 300_000;
+/** Parts of the recording of which it is known whether anything was recorded. */
+const BUCKETS = 1_000;
+/** No mission is longer, ms: a report with a time far off is part of the recording. */
+const YEAR = 366 * 86_400_000;
 const LISTS = ['missions', 'recordings', 'fields', 'domains', 'alarms'];
 
 /**
@@ -20,6 +26,7 @@ const LISTS = ['missions', 'recordings', 'fields', 'domains', 'alarms'];
  *
  * @typedef {Object} Report
  * @property {Object|null} mission of the REST API; null if it was deleted @property {number} from @property {number} to epoch ms @property {boolean} isRunning
+ * @property {boolean} isCut whether the recording has times that are years off, which are left out @property {Part} runs the times in which it was recorded
  * @property {Object[]} fields as they were at the end @property {import('../../core/coverage.js').Coverage[]} layers
  * @property {Part} coverages of fields @property {Part} encounters @property {Part} averages @property {Part} alarms @property {Part} markers @property {Part} devices
  */
@@ -29,7 +36,8 @@ export async function readReport(name) {
   const [mission] = await Promise.all([missionOf(name), listsRead()]);
   const recording = store.recordings.get(name);
   const isRunning = Boolean(mission?.running);
-  const from = recording?.first ?? mission?.start;
+  const isCut = recording?.last - recording?.first > YEAR;
+  const from = isCut ? mission?.start ?? mission?.created ?? recording.last - YEAR : recording?.first ?? mission?.start;
   if (from === undefined || from > Date.now()) {
     if (store.lists.recordings.error && !mission) {
       throw store.lists.recordings.error;
@@ -37,18 +45,20 @@ export async function readReport(name) {
     return null;
   }
   const to = Math.max(from, isRunning ? Date.now() : recording?.last ?? mission.status?.since ?? from);
-  const [work, encounters, averages, markers, devices] = await Promise.all([workOf(name, from, to), encountersOf([name], from, to), averagesIn(from, to), markersOf([name]), devicesOf(name)].map(settled));
+  const [work, encounters, averages, markers, devices, clocks, runs] = await Promise.all([
+    workOf(name, from, to), encountersOf([name], from, to), averagesIn(from, to), markersOf([name]), devicesOf(name), clocksIn(from, to), recording ? runsOf(name, from, to) : Promise.resolve([{ from, to }]),
+  ].map(settled));
   const worked = (work.value?.coverages ?? []).filter(({ device }) => !device);
   const fields = fieldsOf(mission?.domain ?? worked[0]?.domain ?? null, worked, to);
   const known = new Set([...(devices.value ?? []), ...(work.value?.coverages ?? []).map(({ device }) => ({ id: device }))].map(({ id }) => id));
   return {
-    mission, from, to, isRunning, fields, layers: work.value?.layers ?? [],
+    mission, from, to, isRunning, isCut, fields, layers: work.value?.layers ?? [], runs: part(runs, (value) => value),
     coverages: part(work, ({ coverages }) => coverages.filter(({ device }) => !device)),
     encounters: part(encounters, (value) => value.encounters),
     averages: part(averages, (value) => summaries(value.averages, fields)),
     alarms: store.lists.alarms.error && store.lists.alarms.loading ? { rows: [], error: store.lists.alarms.error } : { rows: alarmsOf(name, known, from, to) },
     markers: part(markers, (value) => value),
-    devices: part(devices, (value) => withWork(value, (work.value?.coverages ?? []).filter(({ device }) => device))),
+    devices: part(devices, (value) => withWork(value, (work.value?.coverages ?? []).filter(({ device }) => device), clocks.value ?? new Map())),
   };
 }
 
@@ -99,6 +109,25 @@ async function averagesIn(from, to) {
   return { averages: records.map((record) => readAverage(record, '')).filter(Boolean), since };
 }
 
+/** How late reports of devices were, by their ids, ms: of those that the jobs found behind. */
+async function clocksIn(from, to) {
+  const { records } = await historyIfAny('data.clocks', { from: Math.floor(from), to: Math.ceil(to) + REPORT_DELAY, newest: 'id' });
+  return new Map(records.map(({ value }) => [value?.device?.value, value?.late?.value ?? value?.offset?.value]).filter(([id, late]) => typeof id === 'string' && Number.isFinite(late)));
+}
+
+/** The times in which events were recorded, from pause to pause; the whole time while the events are being counted. */
+async function runsOf(name, from, to) {
+  const timeline = await api.get(`/api/recordings/${encodeURIComponent(name)}/timeline?${new URLSearchParams({ from: Math.floor(from), to: Math.ceil(to) + 1, buckets: BUCKETS })}`);
+  const runs = [];
+  timeline.counts.forEach((count, bucket) => {
+    const [begin, end] = [timeline.from + bucket * timeline.width, timeline.from + (bucket + 1) * timeline.width];
+    if (count !== 0) {
+      begin - runs.at(-1)?.to < PAUSE ? (runs.at(-1).to = end) : runs.push({ from: begin, to: end });
+    }
+  });
+  return runs.length > 1 ? runs.map((run) => ({ from: Math.max(run.from, from), to: Math.min(run.to, to) })) : [{ from, to }];
+}
+
 /** The fields of a domain at a time, and those that were worked. */
 function fieldsOf(domain, worked, time) {
   const listed = new Set([...(store.domains.get(domain)?.fields ?? []), ...worked.map(({ field }) => field)]);
@@ -132,14 +161,14 @@ function alarmsOf(name, devices, from, to) {
     && (alarm.group === id || alarm.subject === id || (alarm.devices ?? []).some((each) => devices.has(each.id)))).sort((one, other) => one.raised - other.raised);
 }
 
-/** The devices with what each has worked; those that worked and are not registered any more, too. */
-function withWork(devices, coverages) {
+/** The devices with what each has worked, and how late its reports were; those that worked and are not registered any more, too. */
+function withWork(devices, coverages, clocks) {
   const all = new Map(devices.map(({ id, type, status }) => [id, { id, type: type ?? '', state: status?.state ?? '' }]));
   for (const { device, deviceType, figures } of coverages) {
     const existing = all.get(device) ?? { id: device, type: deviceType, state: '' };
     all.set(device, { ...existing, hectares: (existing.hectares ?? 0) + figures.hectares, overlap: (existing.overlap ?? 0) + figures.overlap });
   }
-  return [...all.values()].sort((one, other) => one.id.localeCompare(other.id, undefined, { numeric: true }));
+  return [...all.values()].map((each) => ({ ...each, late: clocks.get(each.id) ?? null })).sort((one, other) => one.id.localeCompare(other.id, undefined, { numeric: true }));
 }
 
 function settled(promise) {

@@ -76,7 +76,7 @@ function bar(scale, south, height) {
   const width = round(SCALE_WIDTH * length / meters);
   return [
     h('svg:path', { class: 'report-scale', d: `M${MARGIN} ${height - 14}v8h${width}v-8` }),
-    h('svg:text', { class: 'report-name', x: MARGIN + width + 8, y: height - 6 }, distance(length).replace('.0', '')),
+    h('svg:text', { class: 'report-name', x: MARGIN + width + 8, y: height - 6 }, distance(length).replace(/[.,]0(?=\s)/, '')),
   ];
 }
 

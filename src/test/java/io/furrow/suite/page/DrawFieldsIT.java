@@ -1,6 +1,7 @@
 package io.furrow.suite.page;
 
 import java.time.Instant;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.regex.Pattern;
 
@@ -234,6 +235,35 @@ class DrawFieldsIT extends StubbedPage {
 
         assertThat(page.find("dialog[open]")).containsText("The field was changed again since");
         assertThat(posts()).hasSize(1);
+    }
+
+    @Test
+    void undoesWhatWasDoneInTheTable() {
+        FarmPage page = farm.open("#/missions?tab=domains", 1440, 900);
+        List<String> asked = new ArrayList<>();
+        page.page().onRequest(request -> asked.add(request.method() + " " + request.url()));
+        page.button("Rename south").click();
+        page.find("dialog[open]").getByLabel("Name").fill("North");
+        page.find("dialog[open] button[type=submit]").click();
+        page.button("Undo: south was renamed").click();
+        page.until(() -> farm.sent()
+                .equals(List.of(
+                        "PATCH /api/fields/south {\"name\":\"North\"}", "PATCH /api/fields/south {\"name\":\"south\"}")));
+
+        page.button("Delete south").click();
+        page.find("dialog[open] button[type=submit]").click();
+        page.until(() -> farm.sent().stream().anyMatch(each -> each.startsWith("DELETE /api/fields/south")));
+        farm.send("service.fields", "south@2020-01-01T00:00:00Z", "null");
+        assertThat(page.button("Delete south")).hasCount(0);
+        page.button("Undo: south was deleted").click();
+        JsonObject written = written(page, 1);
+        assertThat(written.get("id").getAsString()).isEqualTo("south");
+        assertThat(written.toString()).contains("[" + LONGITUDE + "," + LATITUDE + "]");
+        page.until(() -> asked.stream()
+                .anyMatch(each -> each.startsWith("POST ") && each.endsWith("/api/fields?validFrom="
+                        + Instant.parse("2020-01-01T00:00:00Z").toEpochMilli())));
+        assertThat(page.button("Undo: south was deleted")).hasCount(0);
+        assertThat(page.find("[role=status]").filter(FarmPage.having("Undone: south was deleted."))).isVisible();
     }
 
     @Test

@@ -171,7 +171,7 @@ class MissionsIT {
 
         suite.rest("POST", "/api/fields?domain=farm", MEADOW);
         rows.getByLabel("Delete Far meadow").click();
-        assertThat(dialog).containsText("this cannot be undone");
+        assertThat(dialog).containsText("All its versions are deleted");
         action.click();
         assertThat(dialog).hasCount(0);
         assertThat(rows.getByLabel("Delete Far meadow")).hasCount(0);

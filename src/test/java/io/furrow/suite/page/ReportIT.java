@@ -87,7 +87,7 @@ class ReportIT extends StubbedPage {
         assertThat(rows(page, "averages")).hasText(new String[] {"barn19.5 °C18.0 °C21.0 °C2none"});
         assertThat(rows(page, "alarms")).hasCount(1);
         assertThat(rows(page, "markers")).hasText(new String[] {"1 Jan 2026, 04:04:35" + FORMULA + "olga"});
-        assertThat(rows(page, "devices")).hasText(new String[] {"Robot 1ROBOTStopped0.25 ha0.06 ha"});
+        assertThat(rows(page, "devices")).hasText(new String[] {"Robot 1ROBOTStopped0.25 ha0.06 ha–"});
         assertThat(page.find(".report-map")).hasCount(1);
         assertThat(page.find(".report-map svg"))
                 .hasAttribute("aria-label", "Map of the fields with what was worked. barn: 0.31 ha, 62 %");
@@ -166,6 +166,56 @@ class ReportIT extends StubbedPage {
         assertThat(csv(page, "Presence in fields", "presence.csv")).contains("\r\nbarn,'+1,");
     }
 
+    /** With an hour between them; one of its robots has a clock that is behind. */
+    @Test
+    void tellsTheRunsOfAMissionAndWhoseReportsWereLate() throws IOException {
+        farm.answers("/api/recordings/weeding/timeline", """
+                        {"from": %d, "width": 1800000, "first": %d, "last": %d, "complete": true, "counts": [5, 5, 0, 0, 4]}""".formatted(START, START, END))
+                .answers("/api/history/data.clocks", CoverageIT.records("""
+                        {"topic": "data.clocks", "kind": "event", "key": "k", "time": %d, "headers": {}, "value": {"id": "Analytics:ClockBehind:%2$s", "type": "Analytics:ClockBehind", "device": {"value": "%2$s"},
+                         "late": {"value": 45000}, "Mission": {"value": "weeding"}}}""".formatted(START + 60_000, ROBOT)));
+        FarmPage page = farm.open("#/report?mission=weeding", 1440, 900);
+
+        assertThat(rows(page, "runs"))
+                .hasText(new String[] {
+                    "1 Jan 2026, 04:04:301 Jan 2026, 05:04:3060 min", "1 Jan 2026, 06:04:301 Jan 2026, 06:09:305 min"
+                });
+        Locator facts = page.find(".report-facts dd");
+        assertThat(facts.nth(0)).containsText("2 runs");
+        assertThat(facts.nth(1)).hasText("1 h 5 min");
+        assertThat(rows(page, "devices")).hasText(new String[] {"Robot 1ROBOTStopped0.25 ha0.06 ha45 s"});
+        assertThat(csv(page, "Runs", "weeding-runs.csv"))
+                .isEqualTo("From,To,Length (s)\r\n"
+                        + "2026-01-01T03:04:30.000Z,2026-01-01T04:04:30.000Z,3600\r\n"
+                        + "2026-01-01T05:04:30.000Z,2026-01-01T05:09:30.000Z,300\r\n");
+    }
+
+    @Test
+    void leavesOutTimesOfAClockThatIsYearsOff() {
+        farm.answers("/api/recordings", "[{\"mission\": \"weeding\", \"first\": 1000, \"last\": %d}]".formatted(END));
+        FarmPage page = farm.open("#/report?mission=weeding", 1440, 900);
+
+        assertThat(page.find(".report-facts dd").nth(0))
+                .containsText("1 Jan 2026, 04:04:30 – 06:09:30");
+        assertThat(page.find(".report-facts dd").nth(0)).containsText("the clock of a device was wrong");
+        assertThat(page.find(".report-facts dd").nth(1)).hasText("2 h 5 min");
+    }
+
+    /** No row of figures has one alone. */
+    @ParameterizedTest
+    @CsvSource({"1440, 8", "1100, 4", "740, 4", "390, 2"})
+    void fillsTheRowsOfFigures(int width, int columns) {
+        FarmPage page = farm.open("#/report?mission=weeding", width, 900);
+        assertThat(page.find(".report-facts > div")).hasCount(7);
+
+        assertThat(page.run(
+                        "getComputedStyle(document.querySelector('.report-facts')).gridTemplateColumns.split(' ').length"))
+                .isEqualTo(columns);
+        assertThat(page.number(
+                        "[...document.querySelectorAll('.report-facts > div')].filter((each, index, all) => !all.some((other) => other !== each && other.offsetTop === each.offsetTop)).length"))
+                .isLessThanOrEqualTo(columns == 2 ? 1 : 0); // the first has a row of two columns
+    }
+
     /** Three states that must not be taken for one another. */
     @Test
     void tellsWhatIsReadWhatFailedAndWhatIsEmpty() {
@@ -206,7 +256,7 @@ class ReportIT extends StubbedPage {
     }
 
     /** The text of a saved table, without the byte order mark. */
-    private static String csv(FarmPage page, String table, String file) throws IOException {
+    static String csv(FarmPage page, String table, String file) throws IOException {
         Download saved = page.page()
                 .waitForDownload(() -> page.button("Save as CSV: " + table).click());
         assertThat(saved.suggestedFilename()).isEqualTo(file);

@@ -36,8 +36,8 @@ public final class CoverageOptions extends AnalyticsOptions {
             paramLabel = "NAME",
             defaultValue = "workingWidth",
             description =
-                    "Attribute with the working width of a robot's implement in meters, above 0, at most 100. The last "
-                            + "value holds. Default: ${DEFAULT-VALUE}.")
+                    "Attribute with the working width of a robot's implement, above 0, at most 100 m: in meters, or in the "
+                            + "unit of its metadata. The last value holds. Default: ${DEFAULT-VALUE}.")
     private String widthAttribute;
 
     @Option(

@@ -54,7 +54,9 @@ final class CoveredCells {
         for (Swath earlier : recent) {
             if (!earlier.isOfSameRobot(swath)) {
                 kept.add(earlier);
-                cells(earlier, (word, bits) -> others.merge(word, bits, (a, b) -> a | b));
+                if (earlier.isNear(swath)) {
+                    cells(earlier, (word, bits) -> others.merge(word, bits, (a, b) -> a | b));
+                }
             } else if (swath.isJustAfter(earlier) && own <= MAX_RECENT) {
                 kept.add(earlier);
             } else {

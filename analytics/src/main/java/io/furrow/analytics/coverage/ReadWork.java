@@ -20,6 +20,7 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.ClockSkewLimit;
 import io.furrow.flink.time.ReplayKind;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.Quantity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.position.EntityReader;
 import io.furrow.model.position.Position;
@@ -77,7 +78,7 @@ final class ReadWork extends ReadEntities<WorkReport> {
         if (!entity.has(attributes.width())) {
             return Double.NaN;
         }
-        double width = entity.number(attributes.width());
+        double width = entity.number(attributes.width(), Quantity.LENGTH);
         if (!CoverageRules.isWidth(width)) {
             widthsFaulty.inc();
             return Double.NaN;

@@ -30,6 +30,9 @@ public record Swath(
         double width,
         boolean ofRobot)
         implements HasEventTime {
+    /** A grid projects at the middle of its field, {@link #distance} at that of both positions. */
+    private static final double TOLERANCE = 1.01;
+
     /** By time, then by robot. */
     static final Comparator<Swath> SEQUENCE =
             Comparator.comparingLong(Swath::time).thenComparing(Swath::robot);
@@ -64,6 +67,12 @@ public record Swath(
         double east = Math.toRadians(b.longitude() - a.longitude()) * StrictMath.cos(latitude);
         double north = Math.toRadians(b.latitude() - a.latitude());
         return FieldGrid.EARTH_RADIUS * Math.sqrt(east * east + north * north);
+    }
+
+    /** Whether the outlines of both may meet; false only if their ends are further apart than both are long and wide. */
+    boolean isNear(Swath other) {
+        double most = length() + other.length() + (width + other.width) / 2;
+        return distance(to, other.to) <= TOLERANCE * most;
     }
 
     boolean isContinued() {

@@ -6,11 +6,9 @@ import java.util.List;
 
 import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.runtime.state.heap.HeapKeyedStateBackend;
-import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
 import org.apache.flink.streaming.api.watermark.Watermark;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.KeyedBroadcastOperatorTestHarness;
-import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.analytics.coverage.WorkReport.Work;
@@ -23,64 +21,18 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class CoverageStateTest {
     private static final long TIME_TO_LIVE = 3_600_000;
+    private static final int ROBOTS = 200;
     private static final CoverageRules RULES = new CoverageRules(
             Double.NaN, 0.1, 10, Duration.ofSeconds(10), 0.5, Duration.ofSeconds(10), Duration.ofMillis(TIME_TO_LIVE));
 
     private final FieldRecords fields = new FieldRecords();
 
-    /** {@link CoverField} alone. */
-    private static final class Covering {
-        private KeyedProcessOperator<String, Swath, CoverageReport> operator;
-        private KeyedOneInputStreamOperatorTestHarness<String, Swath, CoverageReport> harness;
-
-        Covering() throws Exception {
-            begin();
-            harness.open();
-        }
-
-        private void begin() throws Exception {
-            operator = new KeyedProcessOperator<>(new CoverField(RULES));
-            harness = new KeyedOneInputStreamOperatorTestHarness<>(operator, Swath::key, Types.STRING);
-        }
-
-        void restart() throws Exception {
-            var state = harness.snapshot(1, 1);
-            harness.close();
-            begin();
-            harness.initializeState(state);
-            harness.open();
-        }
-
-        void receive(Swath swath) throws Exception {
-            harness.processElement(new StreamRecord<>(swath, swath.time()));
-        }
-
-        List<CoverageReport> advance(long watermark) throws Exception {
-            harness.processWatermark(new Watermark(watermark));
-            List<CoverageReport> reports = new ArrayList<>(harness.extractOutputValues());
-            harness.getOutput().clear();
-            return reports;
-        }
-
-        int entries() {
-            return ((HeapKeyedStateBackend<?>) operator.getKeyedStateBackend()).numKeyValueStateEntries();
-        }
-
-        int timers() {
-            return harness.numEventTimeTimers();
-        }
-
-        void stop() throws Exception {
-            harness.close();
-        }
-    }
-
     @Test
     void reportsTheSameHoweverOftenItRestartsAndForgetsAfterTheTimeToLive() throws Exception {
         List<Swath> swaths = CoveredCellsTest.swaths(new Drives(5));
         long end = swaths.get(swaths.size() - 1).time();
-        Covering whole = new Covering();
-        Covering parts = new Covering();
+        Covering whole = new Covering(RULES);
+        Covering parts = new Covering(RULES);
         List<String> reports = new ArrayList<>();
         for (int i = 0; i < swaths.size(); i++) {
             whole.receive(swaths.get(i));
@@ -121,7 +73,7 @@ class CoverageStateTest {
         fields.area("f", 0, "", Drives.square(40));
         List<Swath> first = swaths("weeding", 0);
         List<Swath> later = swaths("weeding", 2 * TIME_TO_LIVE);
-        Covering covering = new Covering();
+        Covering covering = new Covering(RULES);
         for (Swath swath : first) {
             covering.receive(swath);
         }
@@ -141,12 +93,8 @@ class CoverageStateTest {
     @Test
     void forgetsRobotsThatAreSilentAndDevicesWithoutAnImplement() throws Exception {
         fields.area("f", 0, "", Drives.square(40));
-        var operator = new BroadcastLatenessOperator<>(
-                new BuildSwaths(RULES, new StoredFields(fields.all())), List.of(FieldVersions.BROADCAST));
-        var harness = new KeyedBroadcastOperatorTestHarness<String, WorkReport, TopicRecord, Swath>(
-                operator, WorkReport::key, Types.STRING, 16, 1, 0);
-        harness.open();
-        harness.processBroadcastWatermark(Watermark.MAX_WATERMARK);
+        var operator = building();
+        var harness = opened(operator);
         for (int second = 0; second < 5; second++) {
             long time = Drives.START + second * 1000;
             harness.processElement(new StreamRecord<>(report("weeding", second, time), time));
@@ -167,6 +115,59 @@ class CoverageStateTest {
         harness.close();
     }
 
+    private BroadcastLatenessOperator<String, WorkReport, TopicRecord, Swath> building() {
+        return new BroadcastLatenessOperator<>(
+                new BuildSwaths(RULES, new StoredFields(fields.all())), List.of(FieldVersions.BROADCAST));
+    }
+
+    private static KeyedBroadcastOperatorTestHarness<String, WorkReport, TopicRecord, Swath> opened(
+            BroadcastLatenessOperator<String, WorkReport, TopicRecord, Swath> operator) throws Exception {
+        var harness = new KeyedBroadcastOperatorTestHarness<String, WorkReport, TopicRecord, Swath>(
+                operator, WorkReport::key, Types.STRING, 16, 1, 0);
+        harness.open();
+        harness.processBroadcastWatermark(Watermark.MAX_WATERMARK);
+        return harness;
+    }
+
+    @Test
+    void setsAsideAndNamesARobotWhoseClockIsBehind() throws Exception {
+        fields.area("f", 0, "", Drives.square(40));
+        var operator = building();
+        var harness = opened(operator);
+        harness.processWatermark(new Watermark(Drives.START + 10_000));
+        for (int second = 0; second < 5; second++) {
+            WorkReport slow = report("slow", "weeding", 10 + second, 10, Drives.START + second * 1000);
+            harness.processElement(new StreamRecord<>(slow, slow.time()));
+        }
+        harness.processWatermark(new Watermark(Drives.START + 20_000));
+
+        assertThat(harness.extractOutputValues()).isEmpty();
+        assertThat(harness.getSideOutput(BuildSwaths.LATE)).hasSize(5);
+        assertThat(harness.getSideOutput(BuildSwaths.LAGGING))
+                .hasSize(5)
+                .extracting(lagging -> lagging.getValue().id())
+                .containsOnly("slow");
+        assertThat(((HeapKeyedStateBackend<?>) operator.getKeyedStateBackend()).numKeyValueStateEntries())
+                .isZero();
+        assertThat(harness.numEventTimeTimers()).isZero();
+        harness.close();
+    }
+
+    @Test
+    void coversNothingWhereAClockJumps() throws Exception {
+        fields.area("f", 0, "", Drives.square(40));
+        List<Swath> swaths = new ArrayList<>();
+        Drive drive = Drive.NONE;
+        for (int second : new int[] {0, 1, 2, 1800, 1801, 1802}) {
+            drive = advance(drive, report("weeding", second % 10, Drives.START + second * 1000L), swaths, new int[1]);
+        }
+
+        assertThat(swaths)
+                .filteredOn(Swath::ofRobot)
+                .extracting(swath -> (swath.time() - Drives.START) / 1000)
+                .containsExactly(1L, 2L, 1801L, 1802L);
+    }
+
     /** Each with a mission that no other has. */
     @Test
     void takesNoMoreCoveragesOfARobotThanTheMaximum() throws Exception {
@@ -185,6 +186,82 @@ class CoverageStateTest {
         drive = advance(drive, report("new", 5, later), swaths, rejected);
         drive = advance(drive, report("new", 6, later + 1000), swaths, rejected);
         assertThat(drive.opened()).hasSize(1);
+    }
+
+    /** Side by side, so that none covers what another has. */
+    @Test
+    void coversAndForgetsWhatACrowdOfRobotsWorks() throws Exception {
+        fields.area("f", 0, "", Drives.square(500));
+        List<Swath> swaths = new ArrayList<>();
+        for (int robot = 0; robot < ROBOTS; robot++) {
+            Drive drive = Drive.NONE;
+            for (int second = 0; second < 5; second++) {
+                WorkReport report =
+                        report("r" + robot, "weeding", 10 + second, 10 + 2 * robot, Drives.START + second * 1000);
+                drive = advance(drive, report, swaths, new int[1]);
+            }
+        }
+        Covering covering = new Covering(RULES);
+        for (Swath swath : swaths) {
+            covering.receive(swath);
+        }
+        List<CoverageReport> reports = covering.advance(Drives.START + 10_000);
+
+        assertThat(reports).hasSize(ROBOTS + 1);
+        CoverageReport all = reports.stream()
+                .filter(report -> !report.last().ofRobot())
+                .findAny()
+                .orElseThrow();
+        assertThat(all.overlapped()).isZero();
+        assertThat(all.covered())
+                .isPositive()
+                .isEqualTo(reports.stream()
+                        .filter(report -> report.last().ofRobot())
+                        .mapToLong(CoverageReport::covered)
+                        .sum());
+        assertThat(covering.timers()).as("one per coverage").isEqualTo(ROBOTS + 1);
+        assertThat(covering.advance(Drives.START + 4000 + TIME_TO_LIVE)).isEmpty();
+        assertThat(covering.entries()).isZero();
+        assertThat(covering.timers()).isZero();
+        covering.stop();
+    }
+
+    /** What was covered before a pause does not count for the rate after it. */
+    @Test
+    void measuresTheRateFromWhereWorkGoesOn() throws Exception {
+        fields.area("f", 0, "", Drives.square(40));
+        long later = Drives.START + 2 * Reporter.RATE_WINDOW;
+        List<Swath> swaths = new ArrayList<>();
+        Drive drive = Drive.NONE;
+        for (int second = 0; second < 10; second++) {
+            long time = second < 5 ? Drives.START + second * 1000 : later + second * 1000;
+            drive = advance(drive, report("weeding", second, time), swaths, new int[1]);
+        }
+        Covering covering = new Covering(RULES);
+        for (Swath swath : swaths) {
+            covering.receive(swath);
+        }
+        List<CoverageReport> own = covering.advance(later + 10_000).stream()
+                .filter(report -> report.last().ofRobot())
+                .toList();
+
+        assertThat(own).hasSize(2);
+        long newly = own.get(1).covered() - own.get(0).covered();
+        assertThat(newly).isPositive();
+        assertThat(own.get(1).perHour()).isEqualTo(newly * 3600 / 5.0);
+        covering.stop();
+    }
+
+    @Test
+    void retainsNoMoreSamplesThanTheRateNeeds() throws Exception {
+        fields.area("f", 0, "", Drives.square(40));
+        CoverageState state = CoverageState.begun(swaths("weeding", 0).get(0), 0.5);
+        for (int report = 1; report <= 1000; report++) {
+            state = state.reported(Drives.START + report * 10_000, Reporter.RATE_WINDOW, List.of());
+        }
+
+        assertThat(state.samples()).hasSize(61);
+        assertThat(state.samples().get(0).time()).isEqualTo(Drives.START + 1000 * 10_000 - Reporter.RATE_WINDOW);
     }
 
     private List<Swath> swaths(String mission, long after) throws Exception {
@@ -213,6 +290,10 @@ class CoverageStateTest {
     }
 
     private static WorkReport report(String mission, double way, long time) {
-        return new WorkReport(Drives.fix("r", mission, 10 + way, 10, time), 2, Work.ON);
+        return report("r", mission, 10 + way, 10, time);
+    }
+
+    private static WorkReport report(String robot, String mission, double east, double north, long time) {
+        return new WorkReport(Drives.fix(robot, mission, east, north, time), 2, Work.ON);
     }
 }

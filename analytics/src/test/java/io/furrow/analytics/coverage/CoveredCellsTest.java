@@ -18,6 +18,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.analytics.coverage.CoverageOracle.Exact;
+import io.furrow.analytics.coverage.WorkReport.Work;
 import io.furrow.analytics.field.Field;
 import io.furrow.analytics.field.FieldVersions;
 
@@ -89,6 +90,28 @@ class CoveredCellsTest {
 
     private static Field field(Drives drives) throws Exception {
         return FieldVersions.read(drives.fields.atStart()).at("f", Drives.START).orElseThrow();
+    }
+
+    /** A robot that creeps, with an implement as wide as one may be: all that it has driven is within a working width. */
+    @Test
+    void retainsOnlySoManySwathsOfAWay() throws Exception {
+        Drives drives = new Drives(1);
+        drives.reports.clear();
+        for (int i = 0; i < 1000; i++) {
+            drives.reports.add(
+                    new WorkReport(Drives.fix("r", "weeding", i / 50.0 - 10, 0, Drives.START + i * 100), 100, Work.ON));
+        }
+        Run run = new Run(FieldGrid.of(field(drives).area(), 0.5));
+        for (Swath swath : swaths(drives)) {
+            if (!swath.ofRobot()) {
+                run.add(swath);
+                assertThat(run.recent).hasSizeLessThanOrEqualTo(257);
+            }
+        }
+
+        assertThat(run.recent).hasSizeGreaterThan(250);
+        assertThat(run.covered).isPositive();
+        assertThat(run.overlapped).isZero();
     }
 
     /** In the order of {@link Swath#SEQUENCE}. */

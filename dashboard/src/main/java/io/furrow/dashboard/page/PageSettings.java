@@ -26,6 +26,10 @@ public record PageSettings(Path folder, String tiles, Path tileFile, List<Path> 
         this(folder, tiles, tileFile, images, null, null);
     }
 
+    public PageSettings withImages(List<Path> folders) {
+        return new PageSettings(folder, tiles, tileFile, folders, signIn, signOut);
+    }
+
     public PageSettings withSignIn(String in, String out) {
         return new PageSettings(folder, tiles, tileFile, images, in, out);
     }

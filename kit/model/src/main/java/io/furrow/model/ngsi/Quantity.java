@@ -26,7 +26,16 @@ public enum Quantity {
     /** Temperature in °C; numbers in unknown units are unchanged, because averages also cover other quantities. */
     TEMPERATURE(Map.of("FAH", number -> (number - 32) / 1.8, "KEL", number -> number - 273.15), number -> number),
     /** A fraction, 0 to 1; unknown units are rejected. */
-    SHARE(Map.of("C62", number -> number, "P1", number -> number / 100), number -> Double.NaN);
+    SHARE(Map.of("C62", number -> number, "P1", number -> number / 100), number -> Double.NaN),
+    /** Length in meters; unknown units are rejected. */
+    LENGTH(
+            Map.of(
+                    "MTR", number -> number,
+                    "CMT", number -> number / 100,
+                    "MMT", number -> number / 1000,
+                    "FOT", number -> number * 0.3048,
+                    "INH", number -> number * 0.0254),
+            number -> Double.NaN);
 
     /** Codes by spellings in lower case. */
     private static final Map<String, String> SPELLINGS = Map.ofEntries(
@@ -47,7 +56,12 @@ public enum Quantity {
             Map.entry("k", "KEL"),
             Map.entry("kelvin", "KEL"),
             Map.entry("%", "P1"),
-            Map.entry("percent", "P1"));
+            Map.entry("percent", "P1"),
+            Map.entry("m", "MTR"),
+            Map.entry("cm", "CMT"),
+            Map.entry("mm", "MMT"),
+            Map.entry("ft", "FOT"),
+            Map.entry("in", "INH"));
 
     private final Map<String, DoubleUnaryOperator> units;
     private final DoubleUnaryOperator other;

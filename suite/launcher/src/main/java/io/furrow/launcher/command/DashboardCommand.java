@@ -24,8 +24,8 @@ import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.cli.option.KafkaClient;
 import io.furrow.dashboard.Dashboard;
 import io.furrow.dashboard.DashboardSettings;
-import io.furrow.dashboard.page.PageSettings;
 import io.furrow.launcher.option.AccessFlags;
+import io.furrow.launcher.option.TileFlags;
 import io.furrow.launcher.option.TrustedProxyFlags;
 import io.furrow.launcher.process.ClockWatch;
 import io.furrow.launcher.process.LogFile;
@@ -110,12 +110,8 @@ public final class DashboardCommand implements Callable<Integer> {
                             + "Default: none.")
     private List<Path> images;
 
-    @Option(
-            names = "--tiles",
-            paramLabel = "URL|FILE",
-            description =
-                    "Map tiles to draw below the fields: a URL with {z}, {x} and {y}, for instance https://tiles.example.org/{z}/{x}/{y}.png, or a PMTiles file with pictures, which needs no internet. Given twice, one of each: users choose on the map. Default: none.")
-    private List<String> tiles = List.of();
+    @Mixin
+    private TileFlags tiles;
 
     @Option(
             names = "--web",
@@ -175,33 +171,10 @@ public final class DashboardCommand implements Callable<Integer> {
                     .withRules(rules)
                     .withAllowed(access.allowed())
                     .withProxy(trusted.proxy(spec))
-                    .withPage(trusted.pages(page()));
+                    .withPage(trusted.pages(tiles.page(web, images == null ? List.of() : images)));
         } catch (IllegalArgumentException e) {
             throw new ParameterException(spec.commandLine(), e.getMessage() + ".", e);
         }
-    }
-
-    private PageSettings page() {
-        String url = tiles(true);
-        String file = tiles(false);
-        if (url != null && !url.contains("{z}")) {
-            throw new ParameterException(
-                    spec.commandLine(), "--tiles %s names no tile: a URL has {z}, {x} and {y}.".formatted(url));
-        }
-        return new PageSettings(web, url, file == null ? null : Path.of(file), images == null ? List.of() : images);
-    }
-
-    /** Returns the URL of {@code --tiles}, or its file; null if there is none. */
-    private String tiles(boolean url) {
-        List<String> found = tiles.stream()
-                .filter(each -> url == each.matches("https?://.*"))
-                .toList();
-        if (found.size() > 1) {
-            throw new ParameterException(
-                    spec.commandLine(),
-                    "--tiles %s: give one %s only.".formatted(String.join(", ", found), url ? "URL" : "file"));
-        }
-        return found.isEmpty() ? null : found.get(0);
     }
 
     private boolean isLoopback() {

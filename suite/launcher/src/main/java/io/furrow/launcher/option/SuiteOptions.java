@@ -2,6 +2,7 @@ package io.furrow.launcher.option;
 
 import java.net.URI;
 import java.nio.file.Path;
+import java.util.List;
 
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
@@ -109,6 +110,9 @@ public final class SuiteOptions {
     AccessFlags access;
 
     @Mixin
+    TileFlags tiles;
+
+    @Mixin
     WatchFlags watch;
 
     @Option(
@@ -155,6 +159,7 @@ public final class SuiteOptions {
                 farm,
                 watch.watch(horizon),
                 access.allowed(),
+                tiles.page(null, List.of()),
                 true);
     }
 }

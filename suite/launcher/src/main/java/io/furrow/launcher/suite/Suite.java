@@ -16,7 +16,6 @@ import java.util.stream.Stream;
 import io.furrow.cli.option.CommandException;
 import io.furrow.dashboard.Dashboard;
 import io.furrow.dashboard.DashboardSettings;
-import io.furrow.dashboard.page.PageSettings;
 import io.furrow.embedded.EmbeddedConnect;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
@@ -144,7 +143,7 @@ public final class Suite implements AutoCloseable {
         DashboardSettings page = DashboardSettings.of(
                         settings.ports().dashboard(), kafka.clientProperties(), control.api())
                 .withAllowed(settings.allowed())
-                .withPage(new PageSettings(null, null, null, List.of(directory.resolve(SuiteJobs.IMAGES))));
+                .withPage(settings.page().withImages(List.of(directory.resolve(SuiteJobs.IMAGES))));
         dashboard = start(parts, "dashboard", () -> Dashboard.start(page)).uri();
     }
 

@@ -12,6 +12,7 @@ import io.furrow.control.alarm.action.Webhook;
 import io.furrow.control.device.CommandSender;
 import io.furrow.control.health.HealthOptions;
 import io.furrow.control.mission.MissionSettings;
+import io.furrow.dashboard.page.PageSettings;
 import io.furrow.http.AllowedNames;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.file.AccessToken;
@@ -35,6 +36,7 @@ import io.furrow.provisioner.account.MqttAccounts;
  * @param farm how devices of missions are provisioned and hosted
  * @param watch settings for alarms
  * @param allowed further hosts and origins of every HTTP server
+ * @param page of the dashboard, without the images that the suite stores
  * @param sharedLogin whether the embedded MQTT broker has a login that may publish as any device
  */
 public record SuiteSettings(
@@ -49,6 +51,7 @@ public record SuiteSettings(
         Farm farm,
         Watch watch,
         AllowedNames allowed,
+        PageSettings page,
         boolean sharedLogin) {
 
     /**
@@ -209,7 +212,7 @@ public record SuiteSettings(
     /** For {@code ./furrow up}: each device has its own login. */
     public SuiteSettings withoutSharedLogin() {
         return new SuiteSettings(
-                kafkaProperties, fiware, window, fields, ports, orion, kafka, mongo, farm, watch, allowed, false);
+                kafkaProperties, fiware, window, fields, ports, orion, kafka, mongo, farm, watch, allowed, page, false);
     }
 
     /** A suite on free ports with embedded engines and the stand-in, for tests and measurements. */
@@ -226,6 +229,7 @@ public record SuiteSettings(
                 Farm.SIMULATED,
                 Watch.DEFAULT,
                 AllowedNames.NONE,
+                PageSettings.DEFAULT,
                 true);
     }
 }

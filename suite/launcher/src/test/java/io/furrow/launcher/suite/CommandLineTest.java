@@ -41,6 +41,7 @@ class CommandLineTest {
         "init --help, FILE",
         "demo --help, --kafka-port",
         "up --help, --orion",
+        "demo --help, --tiles",
         "dead-letters redrive --help, --dry-run",
         "control-plane --help, --standby-replicas",
         "scenario --help, --qos",
@@ -160,6 +161,19 @@ class CommandLineTest {
         assertThat(refusal(with(upOnFreePorts(directory), options.split(" "))))
                 .startsWith(sentence)
                 .hasLineCount(1);
+    }
+
+    @ParameterizedTest
+    @CsvSource(
+            delimiter = '|',
+            value = {
+                "--tiles https://tiles.example.org/map.png|--tiles https://tiles.example.org/map.png names no tile",
+                "--tiles /nowhere/farm.pmtiles|--tiles /nowhere/farm.pmtiles: there is no such file",
+                "--tiles a --tiles b|--tiles a, b: give one file only",
+            })
+    void rejectsBaseMapsThatAreNone(String options, String sentence) {
+        assertThat(refusal(with(upOnFreePorts(directory), options.split(" "))))
+                .startsWith(sentence);
     }
 
     @Test

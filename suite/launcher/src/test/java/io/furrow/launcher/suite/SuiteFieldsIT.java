@@ -11,6 +11,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.cli.option.CommandException;
+import io.furrow.dashboard.page.PageSettings;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.http.AllowedNames;
 import io.furrow.kafka.field.FieldChange;
@@ -152,6 +153,7 @@ class SuiteFieldsIT {
                 SuiteSettings.Farm.SIMULATED,
                 SuiteSettings.Watch.DEFAULT,
                 AllowedNames.NONE,
+                PageSettings.DEFAULT,
                 true);
     }
 
