@@ -45,7 +45,7 @@ export const texts = {
   },
 
   sentences: {
-    collision: '{first} y {second} están a {meters}', 'collision-many': '{affected} parejas más de {group} están demasiado cerca',
+    'collision-many': '{affected} parejas más de {group} están demasiado cerca',
     'predicted-encounter': '{first} y {second} se acercarán a {meters}', 'predicted-encounter-many': 'Se prevén {affected} encuentros más de {group}',
     'suspect-sensor': '{first} se desvía de los demás sensores de {group}', 'suspect-sensor-many': '{affected} sensores más de {group} se desvían de los demás',
     'clock-behind': 'Los informes de {first} llegan {late} tarde y se descartan: compruebe su reloj y su conexión', 'clock-behind-many': 'Los informes de {affected} dispositivos más de {group} llegan demasiado tarde y se descartan',
@@ -111,7 +111,7 @@ export const texts = {
     cells: { worked: 'trabajado', 'worked-again': 'trabajado de nuevo', gap: 'hueco' }, toggleCells: 'Mostrar u ocultar lo trabajado', workedShare: '{share} trabajado',
     base: { title: 'Mapa base', none: 'ninguno', server: 'del servidor', address: 'de {host}', file: 'Elegir un archivo PMTiles …', hint: 'Teselas de imagen; el archivo se guarda en este navegador y funciona sin conexión.', remove: 'Quitar {file} de este navegador', noPictures: '{file} no contiene imágenes como teselas', failed: 'El mapa base no se puede mostrar: {reason}' },
     options: { trails: 'Recorridos', labels: 'Nombres', rows: 'Líneas de las parcelas' },
-    legend: 'Leyenda', stopped: 'apagado o parado', encounter: 'encuentro', predicted: '{distance} en {time} s', ended: 'fue {distance}', closest: 'mínimo {distance}',
+    legend: 'Leyenda', stopped: 'apagado o parado', encounter: 'encuentro', predicted: '{distance} en {time} s', apart: 'ahora {now}, mínimo {closest}', ended: 'llegaron a {closest}', closest: 'mínimo {distance}',
     devices: '{count dispositivo|dispositivos}', unverified: 'sin verificar', suspects: '{count} sospechosos', noAlarms: 'sin alarmas',
     cluster: '{count} dispositivos, pulse para abrir', oneSpot: '{count} dispositivos en el mismo punto',
     columns: { name: 'Nombre', kind: 'Tipo', state: 'Estado', position: 'Posición', speed: 'Velocidad', age: 'Último informe', pair: 'Dispositivos', phase: 'Fase', distance: 'Distancia', closest: 'Mínimo', field: 'Parcela', average: 'Media', devices: 'Dispositivos', suspects: 'Sospechosos', mission: 'Misión', hectares: 'Trabajado', share: 'Parte', overlap: 'De nuevo', gaps: 'Huecos', left: 'Tiempo restante' },
@@ -167,6 +167,7 @@ export const texts = {
   // ------------------------------------------------------------------------------------------------------------------
 
   alarms: {
+    apart: '{first} y {second} están a {now}, mínimo {closest}', within: '{first} y {second} llegaron a {closest}',
     title: 'Alarmas', reading: 'Se leen las alarmas …', failed: 'Las alarmas no se pueden leer: {reason}', open: '{count} abiertas', none: 'Sin alarmas abiertas', noMatch: 'Ninguna alarma abierta coincide con la búsqueda.', noneHere: 'Aquí no hay alarmas abiertas.', quiet: '{count} reconocidas, silenciadas o explicadas por otra', liveInReplay: 'En vivo, no de la reproducción: {count alarma|alarmas}', further: 'Mostrar {count} más',
     acknowledge: 'Reconocer', more: 'Silenciar o cerrar', mute10: 'Silenciar 10 minutos', mute60: 'Silenciar una hora', mute480: 'Silenciar 8 horas', unmute: 'Dejar de silenciar', close: 'Cerrar',
     seen: '{count} veces', affected: '{count} de {total}', by: 'reconocida por {user}', mutedUntil: 'silenciada hasta {time}', inhibited: 'explicada por otra alarma',

@@ -74,7 +74,7 @@ const english = {
     cells: { worked: 'worked', 'worked-again': 'worked again', gap: 'gap' }, toggleCells: 'Show or hide what was worked', workedShare: '{share} worked',
     base: { title: 'Base map', none: 'none', server: 'of the server', address: 'of {host}', file: 'Choose a PMTiles file …', hint: 'Pictures of tiles; the file is stored in this browser and works offline.', remove: 'Remove {file} from this browser', noPictures: '{file} has no pictures as tiles', failed: 'The base map cannot be shown: {reason}' },
     options: { trails: 'Trails', labels: 'Names', rows: 'Rows of fields' },
-    legend: 'Legend', stopped: 'off or stopped', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}', closest: 'closest {distance}',
+    legend: 'Legend', stopped: 'off or stopped', encounter: 'encounter', predicted: '{distance} in {time} s', apart: 'now {now}, closest {closest}', ended: 'came within {closest}', closest: 'closest {distance}',
     devices: '{count device|devices}', unverified: 'unverified', suspects: '{count} suspect', noAlarms: 'no alarms',
     cluster: '{count} devices, click to open', oneSpot: '{count} devices in one spot',
     columns: { name: 'Name', kind: 'Kind', state: 'State', position: 'Position', speed: 'Speed', age: 'Heard', pair: 'Devices', phase: 'Phase', distance: 'Distance', closest: 'Closest', field: 'Field', average: 'Average', devices: 'Devices', suspects: 'Suspects', mission: 'Mission', hectares: 'Worked', share: 'Share', overlap: 'Again', gaps: 'Gaps', left: 'Time left' },
@@ -129,6 +129,7 @@ const english = {
   // ------------------------------------------------------------------------------------------------------------------
 
   alarms: {
+    apart: '{first} and {second} are {now} apart, closest {closest}', within: '{first} and {second} came within {closest}',
     title: 'Alarms', reading: 'Alarms are being read …', failed: 'The alarms cannot be read: {reason}', open: '{count} open', none: 'No open alarms', noMatch: 'No open alarm matches the search.', noneHere: 'No open alarm here.', quiet: '{count} acknowledged, muted or explained by another', liveInReplay: 'Live, not from the replay: {count alarm|alarms}', further: 'Show {count} more',
     acknowledge: 'Acknowledge', more: 'Mute or close', mute10: 'Mute for 10 minutes', mute60: 'Mute for an hour', mute480: 'Mute for 8 hours', unmute: 'Unmute', close: 'Close',
     seen: '{count} times', affected: '{count} of {total}', by: 'acknowledged by {user}', mutedUntil: 'muted until {time}', inhibited: 'explained by another alarm',

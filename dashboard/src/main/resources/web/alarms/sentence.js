@@ -1,7 +1,9 @@
 /** The sentence of an alarm in the language of the page. */
+import { distancesOf, encounterOf, isOver } from '../core/encounter.js';
 import { distance, duration, readable, shortId } from '../core/format.js';
 import { store } from '../core/store.js';
-import { fill, texts } from '../texts.js';
+import { fill, t, texts } from '../texts.js';
+import { entitiesOf } from './entities.js';
 
 const GROUPS = [['mission', 'urn:ngsi-ld:Mission:'], ['domain', 'urn:ngsi-ld:Domain:'], ['field', 'Analytics:FieldTemperature:']];
 const MAX_NAMED = 4;
@@ -17,7 +19,22 @@ export function isOfServer(alarm) {
   return own(alarm) === null;
 }
 
-function own({ kind, affected, total, group, devices = [], values = {} }) {
+/** The sentence of a collision has the distances that the map shows; without the encounter, the smallest that the server knew. */
+function ofCollision(alarm) {
+  const [first, second] = entitiesOf(alarm);
+  const encounter = second && encounterOf(first.id, second.id);
+  const { now, closest } = encounter && encounter.phase !== 'predicted' ? distancesOf(encounter) : { closest: alarm.values?.meters };
+  const names = alarm.devices.map(({ id }) => shortId(id));
+  return Number.isFinite(closest) && names.length === 2
+    ? t(Number.isFinite(now) && !isOver(encounter) ? 'alarms.apart' : 'alarms.within', { first: names[0], second: names[1], now: distance(now), closest: distance(closest) })
+    : null;
+}
+
+function own(alarm) {
+  const { kind, affected, total, group, devices = [], values = {} } = alarm;
+  if (kind === 'collision' && affected === undefined && devices.length === 2) {
+    return ofCollision(alarm);
+  }
   const key = affected === undefined ? kind : `${kind}-many`;
   if (!texts.sentences || !Object.hasOwn(texts.sentences, key)) {
     return null;

@@ -4,6 +4,7 @@ import java.util.List;
 import java.util.stream.Stream;
 
 import com.deque.html.axecore.playwright.AxeBuilder;
+import com.microsoft.playwright.Locator;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -60,9 +61,31 @@ class LanguageIT extends StubbedPage {
                         {"alarm": "f", "kind": "fault", "severity": "major", "text": "the task 0 failed", "subject": "f", "raised": 1, "count": 1, "state": "open"}""")
                 .open("", 1440, 900);
 
-        assertThat(page.find(".alarm.critical .alarm-text")).hasText("Robot 1 y Robot 2 están a 2,1\u00a0m");
+        assertThat(page.find(".alarm.critical .alarm-text")).hasText("Robot 1 y Robot 2 llegaron a 2,1\u00a0m");
         assertThat(page.find(".alarm.major .alarm-text")).hasText("the task 0 failed");
         assertThat(page.find(".alarm.major .alarm-text")).hasAttribute("lang", "en");
+    }
+
+    /** The map writes the same distances beside the pair. */
+    @Test
+    void saysTheDistancesOfACollision() {
+        String encounter = """
+                {"type": "Analytics:Collision", "encounter": {"value": "e"}, "phase": {"value": "%s"}, "distance": {"value": 4}, "minDistance": {"value": 3},
+                 "Device1_ID": {"value": "urn:ngsi-ld:Robot:1"}, "Device2_ID": {"value": "urn:ngsi-ld:Robot:2"}}""";
+        FarmPage page = farm.hasRobot(2)
+                .has("data.collision", "e", encounter.formatted("ongoing"))
+                .has("service.alarms", "c", """
+                        {"alarm": "c", "kind": "collision", "severity": "critical", "text": "…", "values": {"meters": 4.7}, "subject": "c", "raised": 1, "count": 1, "state": "open",
+                         "devices": [{"id": "urn:ngsi-ld:Robot:1", "type": "ROBOT"}, {"id": "urn:ngsi-ld:Robot:2", "type": "ROBOT"}]}""")
+                .open("", 1440, 900);
+        Locator text = page.find(".alarm.critical .alarm-text");
+        assertThat(text).hasText("Robot 1 and Robot 2 are 11.1\u00a0m apart, closest 3.0\u00a0m");
+        assertThat(text).hasAttribute("lang", "en");
+
+        farm.send("data.raw", "urn:ngsi-ld:Robot:2", StubFarm.robot(2, "Running", "farm", "weeding", 40.31262, -3.4822));
+        assertThat(text).hasText("Robot 1 and Robot 2 are 2.2\u00a0m apart, closest 2.2\u00a0m");
+        farm.send("data.collision", "e", encounter.formatted("ended"));
+        assertThat(text).hasText("Robot 1 and Robot 2 came within 3.0\u00a0m");
     }
 
     @Test
