@@ -1,4 +1,4 @@
-/** The texts of `texts.js` in Spanish: the same names, the same values in braces. `words`, `sentences` and `refusals` translate what devices and the server say in English. */
+/** The texts of `texts.js` in Spanish: the same names, the same values in braces. `words`, `sentences`, `details` and `refusals` translate what devices and the server say in English. */
 
 export const texts = {
   app: {
@@ -53,6 +53,15 @@ export const texts = {
     'silent-device-many': '{affected} de {total} dispositivos de {group} sin señal: {devices}',
     'silent-mission-many': '{affected} de {total} dispositivos de {group} sin señal: probablemente el lugar o su conexión, no los dispositivos',
     'silent-farm-many': '{affected} de {total} dispositivos de la finca sin señal: no llega nada o acaba de volver',
+  },
+  details: {
+    'not-provisioned': 'no está registrado: {failure}', 'no-report': 'todavía no ha informado', 'not-registered': 'el IoT Agent no lo conoce',
+    'unreadable-payload': '{count de sus mensajes no se pudo|de sus mensajes no se pudieron} leer, el último: {time}: {reason}', 'foreign-topic': 'publicó {count vez|veces} en {topic}, donde no puede; la última: {time}',
+    'unknown-user': 'su usuario {user} no existe, o ya no, y fue rechazado {count vez|veces}; la última: {time}', 'wrong-password': 'su contraseña fue rechazada {count vez|veces}; la última: {time}',
+    'no-login': 'no se ha conectado al broker MQTT desde {time}', 'no-measure': 'se conectó ({time}) y no ha enviado nada desde entonces', 'not-simulated': 'nada lo simula: inicie ./furrow up con --simulate-devices, o ./furrow device-host',
+    'connector-failed': 'El conector {connector} falló: {failure}. Corríjalo y después: {command}',
+    'devices-retained': '{accounts cuenta|cuentas} MQTT, {devices dispositivo|dispositivos} y {groups grupo|grupos} del IoT Agent permanecen aunque este Kafka no los contiene: está vacío, o se crearon para otro Kafka ({names}). Compruebe --kafka; si Kafka perdió sus datos, inicie de nuevo sus misiones; --forget-devices elimina los que no se desean',
+    'devices-undecided': 'El estado deseado de {count dispositivo|dispositivos} no se puede leer ({devices}): sus registros en service.devices, o las listas de sus misiones, son de otra versión. Conservan credenciales y registro, pero no reciben cambios; actualice Furrow aquí, o inicie de nuevo sus misiones',
   },
   groups: { mission: 'la misión {name}', domain: 'el dominio {name}', field: '{name}', none: 'ninguna misión' },
 

@@ -92,7 +92,9 @@ class MissionLifeTest {
                         new MissionStatus.Missing("urn:ngsi-ld:Camera:m-2", "why"),
                         new MissionStatus.Missing(
                                 "urn:ngsi-ld:Camera:m-3",
-                                "nothing simulates it: start ./furrow up with --simulate-devices, or ./furrow device-host"));
+                                "nothing simulates it: start ./furrow up with --simulate-devices, or ./furrow device-host",
+                                "not-simulated",
+                                null));
 
         farm.report(farm.device("urn:ngsi-ld:Camera:m-3"), State.RUNNING);
         assertThat(farm.status("m").missing()).hasSize(1);
