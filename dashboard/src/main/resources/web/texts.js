@@ -11,7 +11,7 @@ const english = {
     toLive: 'Back to live',
     liveView: 'This view is live. The map shows a replay of {mission}.', toReplay: 'To the replay',
     scope: 'What is shown', others: '{count} outside of {scope}: show all', only: 'Only {scope}.',
-    alarms: '{count} open alarms',
+    alarms: '{count open alarm|open alarms}',
     places: 'Places',
     settings: 'Settings',
     signOut: 'Sign out',
@@ -106,7 +106,7 @@ const english = {
     state: 'State', fieldMean: 'Field mean', suspect: 'suspect', noPosition: 'no position', details: 'All attributes of {name}',
     line: '{label}: now {now} {unit}, between {min} and {max} {unit}',
     lineConstant: '{label}: {now} {unit} all the time',
-    tooLarge: 'Too large to show', omitted: '{count} more attributes are not shown.',
+    tooLarge: 'Too large to show', omitted: '{count more attribute is|more attributes are} not shown.',
     noPicture: 'No picture stored yet', pictureOf: 'Picture of {age}', pictureAlt: 'Newest picture of {name}', pictureFailed: 'No picture: {reason}',
     recorded: 'recorded, not sent', confirm: 'Send “{command}” to {name}?', refused: '{command} was not sent: {reason}',
     outcomes: { pending: '{command} sent {ago}, no answer yet', ok: '✓ {command}, {ago}', failed: '✗ {command} failed {ago}. {info}', unanswered: '{command}: no answer since {ago}' },
@@ -169,7 +169,7 @@ const english = {
     devices: 'Devices', deviceColumns: { device: 'Device', state: 'State', health: 'Health', battery: 'Battery', seen: 'Heard', audit: 'Commands' }, onMap: 'Show {device} on the map', auditOfDevice: 'Who commanded {device}',
     viewer: 'You can view everything. Commands require the role of an operator', noDevicesYet: 'Its devices are being created.', planned: '{count device|devices} planned, created when it starts.', moreDevices: 'and {count} more',
     check: 'Check of each device', unnamed: 'Device', levels: { ok: 'in order', unknown: 'not known', warning: 'needs a look', problem: 'in the way' },
-    checkGood: 'All {count} in order', checkBad: '{bad} of {count} need a look', checkProblem: '{problems} of {count} are in the way', checkProblemMore: '{problems} of {count} are in the way, {bad} more need a look',
+    checkGood: '{count} of {count} in order', checkBad: '{bad} of {count} {bad: needs|need} a look', checkProblem: '{problems} of {count} {problems: is|are} in the way', checkProblemMore: '{problems} of {count} {problems: is|are} in the way, {bad} more {bad: needs|need} a look',
     findings: {
       made: '{count} registered when the mission starts, with a login each', simulated: '{count} simulated when the mission starts', neverSeen: 'has never reported, it may be unreachable', seen: 'heard {ago} ago', silent: 'silent for {ago}', off: 'switched off; the mission switches it on',
       noBattery: 'reports no battery', battery: 'battery {percent} %', batteryLow: 'battery low, {percent} %', used: 'runs in mission {mission}',
@@ -309,7 +309,7 @@ const english = {
   // ------------------------------------------------------------------------------------------------------------------
 
   platform: {
-    well: 'Everything is working', wrong: 'Needs a look', partDown: '{part} is {state}. {detail}', behind: '{group} is {lag record|records} behind', hasLetters: 'Dead letters: {count}. They could not be processed and were set aside',
+    well: 'Everything is working', wrong: 'Needs a look', partDown: '{part} is {state}. {detail}', behind: '{group} is {lag record|records} behind', hasLetters: '{count record|records} could not be processed: set aside as dead letters',
     parts: 'Parts', partNames: { api: 'REST API', iotAgent: 'IoT Agent', kafka: 'Kafka' }, states: { up: 'up', down: 'down', dead: 'dead' },
     lag: 'Lag', lagHint: 'Records that a consumer group has not committed yet; jobs commit with each checkpoint.', noGroups: 'No consumer group has committed anything yet.', ofReplays: '{count group|groups} of replays without a lag',
     letters: 'Dead letters', noLetters: 'None in {count topic|topics}', lettersHint: 'Their headers describe the error and its place. When it is fixed, redrive them:', lettersCommand: 'Commands that redrive dead letters', notKnown: 'Not known while it does not answer.',
@@ -341,8 +341,8 @@ export function refusal(code, reason) {
   return texts.refusals && Object.hasOwn(texts.refusals, code) ? `${texts.refusals[code]}: ${reason}` : reason;
 }
 
-/** Replaces `{name}` and `{count one|more}` in a text. */
+/** Replaces `{name}`, `{count one|more}` by the number and a word, and `{count: one|more}` by the word alone. */
 export function fill(text, values) {
-  const counted = text.replace(/\{(\w+) ([^|}]+)\|([^}]+)\}/g, (whole, name, one, more) => `{${name}} ${String(values[name]) === '1' ? one : more}`);
+  const counted = text.replace(/\{(\w+)(:?) ([^|}]+)\|([^}]+)\}/g, (whole, name, alone, one, more) => `${alone ? '' : `{${name}} `}${String(values[name]) === '1' ? one : more}`);
   return counted.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? String(values[name]) : whole));
 }
