@@ -116,6 +116,20 @@ class HistoryIT extends StubbedPage {
     }
 
     @Test
+    void beginsWhereSomethingIsStored() {
+        farm.answers(PATH, history("number", 3).replaceAll("\"since\": \\d+", "\"since\": " + (now - 4 * MINUTE)));
+        FarmPage page = farm.open("#/history?select=" + ROBOT, 1440, 900);
+        Locator chart = page.find(".history-panel [role=img]");
+        assertThat(chart).isVisible();
+        page.until(() -> page.is("document.querySelector('furrow-history').panels[0].chart.range[0] === "
+                + (now - 4 * MINUTE)));
+
+        page.run("location.hash = '#/history?select=" + ROBOT + "&between=" + (now - 60 * MINUTE) + "~" + now + "'");
+        page.until(() -> page.is("document.querySelector('furrow-history').panels[0].chart.range[0] === "
+                + (now - 60 * MINUTE)));
+    }
+
+    @Test
     void distinguishesLoadingEmptyAndFailed() {
         farm.answers(PATH, "");
         FarmPage page = farm.open("#/history?select=" + ROBOT, 1440, 900);
@@ -232,6 +246,9 @@ class HistoryIT extends StubbedPage {
                                     "document.querySelector('.view-place').scrollWidth - document.querySelector('.view-place').clientWidth"))
                     .as("width %d", size[0])
                     .isZero();
+            assertThat(page.button("PNG").first().boundingBox().y)
+                    .as("width %d", size[0])
+                    .isEqualTo(page.button("Table").first().boundingBox().y);
             assertThat(new AxeBuilder(page.page()).analyze().getViolations())
                     .as("width %d", size[0])
                     .extracting(rule -> rule.getId())
