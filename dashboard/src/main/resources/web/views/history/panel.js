@@ -53,14 +53,17 @@ export class AttributePanel extends PeriodPanel {
 
   show() {
     const { value } = this.history;
-    const found = Boolean(value?.points.length);
+    const found = Boolean(value?.points.length || value?.changes?.length);
     this.tools.hidden = !found;
     this.showNotes(found, value ? notesOf(value) : []);
     if (found) {
       this.series = seriesOf(value);
-      this.limit.hidden = this.series.isFlag || this.isTable;
-      this.isTable ? this.showTable() : this.showChart();
-      this.files[1].hidden = this.isTable;
+      const { isFlag, isText } = this.series;
+      const isTable = this.isTable || isText;
+      this.limit.hidden = isFlag || isTable;
+      this.asTable.hidden = isText;
+      this.files[1].hidden = isTable;
+      isTable ? this.showTable() : this.showChart();
       this.showNow(null);
     } else {
       setText(this.now, '');

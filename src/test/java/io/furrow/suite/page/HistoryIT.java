@@ -144,7 +144,22 @@ class HistoryIT extends StubbedPage {
         assertThat(page.find(".history-panel")).containsText("No value in this period");
         farm.answers(PATH, history("other", 0));
         page.page().reload();
-        assertThat(page.find(".history-panel")).containsText("Not a number");
+        assertThat(page.find(".history-panel")).containsText("No number and no text");
+    }
+
+    @Test
+    void listsTheChangesOfAText() throws Exception {
+        String changes = "\"changes\": [{\"time\": %d, \"value\": \"Running\"}, {\"time\": %d, \"value\": \"idle\"}],"
+                .formatted(now - 2 * MINUTE, now - MINUTE);
+        farm.isReadIn("es").answers(PATH, history("text", 0).replace("\"missions\"", changes + " \"missions\""));
+        FarmPage page = farm.open("#/history?attribute=state&select=" + ROBOT, 1440, 900);
+        Locator panel = page.find(".history-panel");
+        assertThat(panel.locator("tbody tr")).hasCount(2);
+        assertThat(panel.locator("tbody tr").first()).containsText("inactivo");
+        assertThat(panel.getByText("PNG")).isHidden();
+        assertThat(page.find("#history-attribute-0 option")).containsText(new String[] {"Velocidad", "Estado"});
+        Download csv = page.page().waitForDownload(() -> page.button("CSV").click());
+        assertThat(Files.readAllLines(csv.path()).get(2)).endsWith("Z,Robot 1,state,idle,");
     }
 
     @Test

@@ -98,13 +98,13 @@ class LostConnectionIT {
                 })()""");
         List.copyOf(open).forEach(WebSocketRoute::close);
         // until the intervals between attempts have grown
-        farm.untilStore("Date.now() - lostAt > 9_000");
+        farm.untilStore("Date.now() - lostAt > 12_000");
         farm.page().unroute("**/api/register/**", refusal);
 
         farm.untilStore("lost.every((each) => each.openedAt)");
         Assertions.assertThat(
                         (List<?>) farm.store(
-                                "lost.filter((each) => each.openedAt - Math.min(...lost.map(({ openedAt }) => openedAt)) > 1_500).map(({ name }) => name)"))
+                                "lost.filter((each) => each.openedAt - Math.min(...lost.map(({ openedAt }) => openedAt)) > 2_500).map(({ name }) => name)"))
                 .isEmpty();
     }
 

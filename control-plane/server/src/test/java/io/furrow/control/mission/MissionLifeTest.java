@@ -2,6 +2,7 @@ package io.furrow.control.mission;
 
 import java.time.Duration;
 import java.time.Instant;
+import java.util.Map;
 
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
@@ -147,7 +148,8 @@ class MissionLifeTest {
 
         farm.report(farm.device("urn:ngsi-ld:Thermometer:m-1"), State.FAILED);
         assertThat(farm.status("m").missing())
-                .contains(new MissionStatus.Missing("urn:ngsi-ld:Thermometer:m-1", "why"));
+                .contains(new MissionStatus.Missing(
+                        "urn:ngsi-ld:Thermometer:m-1", "why", "not-provisioned", Map.of("failure", "why")));
         farm.report(farm.device("urn:ngsi-ld:Thermometer:m-1"), farm.now);
         assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
         assertThat(farm.status("m").missing()).hasSize(3);

@@ -28,7 +28,7 @@ public record Fault(
         JsonNode text = fault.path("text");
         Reason.NOT_AN_EVENT.refuseIf(!text.isTextual(), "the fault has no member 'text' with a text");
         Map<String, String> values = new TreeMap<>();
-        fault.path("values").fields().forEachRemaining(each -> values.put(each.getKey(), each.getValue().asText()));
+        fault.path("values").properties().forEach(each -> values.put(each.getKey(), each.getValue().asText()));
         return new Fault(text.textValue(), fault.path("code").textValue(), values);
     }
 }
