@@ -127,10 +127,10 @@ final class DesiredDeviceTable {
         Set<String> keys = undecidedKeys();
         String named = keys.stream().limit(MAX_NAMED).collect(Collectors.joining(", "))
                 + (keys.size() > MAX_NAMED ? ", …" : "");
-        String text = "the desired state of %d devices cannot be read (%s): their records on %s, or the device lists of their missions, are of another version; they keep their logins and registrations, but no changes; update Furrow here, or start their missions again"
-                .formatted(keys.size(), named, Topics.DEVICES);
-        return new Fault(
-                text, "devices-undecided", Map.of("count", String.valueOf(keys.size()), "devices", named));
+        String text =
+                "the desired state of %d devices cannot be read (%s): their records on %s, or the device lists of their missions, are of another version; they keep their logins and registrations, but no changes; update Furrow here, or start their missions again"
+                        .formatted(keys.size(), named, Topics.DEVICES);
+        return new Fault(text, "devices-undecided", Map.of("count", String.valueOf(keys.size()), "devices", named));
     }
 
     Map<String, DesiredDevice> all() {

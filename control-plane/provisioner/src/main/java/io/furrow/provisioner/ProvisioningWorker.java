@@ -216,7 +216,8 @@ final class ProvisioningWorker implements AutoCloseable {
     private void reportRetained() {
         if (retained != null && System.nanoTime() - retainedReported >= FailureReporter.REPORT_INTERVAL.toNanos()) {
             retainedReported = System.nanoTime();
-            producer.send(new ProducerRecord<>(Topics.FAULTS, "provisioner", retained.fault().toBytes()));
+            producer.send(new ProducerRecord<>(
+                    Topics.FAULTS, "provisioner", retained.fault().toBytes()));
         }
     }
 

@@ -63,7 +63,9 @@ public record Cause(
      * @param values names, numbers and times in it, by name; times are epoch ms
      */
     public record Detail(
-            String device, String code, @JsonInclude(JsonInclude.Include.NON_EMPTY) Map<String, String> values) {}
+            String device,
+            String code,
+            @JsonInclude(JsonInclude.Include.NON_EMPTY) Map<String, String> values) {}
 
     /**
      * Number of affected devices or pairs.

@@ -130,9 +130,7 @@ final class SilenceAlarmReconciler {
                     .limit(NAMED)
                     .filter(device -> device.cause() != null)
                     .map(device -> new Cause.Detail(
-                            device.id(),
-                            device.cause().code(),
-                            device.cause().values()))
+                            device.id(), device.cause().code(), device.cause().values()))
                     .toList();
         }
 

@@ -148,8 +148,8 @@ public final class ConnectorWatch implements AutoCloseable {
         if (before == null || !before.plus(REPORT_INTERVAL).isAfter(clock.instant())) {
             reported.put(name, clock.instant());
             String failure = String.join("; ", failures);
-            String command =
-                    "curl -X POST \"%s/connectors/%s/restart?includeTasks=true&onlyFailed=true\"".formatted(connect, name);
+            String command = "curl -X POST \"%s/connectors/%s/restart?includeTasks=true&onlyFailed=true\""
+                    .formatted(connect, name);
             Fault fault = new Fault(
                     "connector %s: %s. Correct that, then: %s".formatted(name, failure, command),
                     "connector-failed",

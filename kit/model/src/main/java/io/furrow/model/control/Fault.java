@@ -20,15 +20,18 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param values names and numbers in the text, by name, from which a client can write it in another language
  */
 public record Fault(
-        String text, String code, @JsonInclude(JsonInclude.Include.NON_EMPTY) Map<String, String> values)
-        implements StateRecord {
+        String text,
+        String code,
+        @JsonInclude(JsonInclude.Include.NON_EMPTY) Map<String, String> values) implements StateRecord {
     /** @throws UnreadableException if the value is not an object with a {@code text} */
     public static Fault read(byte[] value) throws UnreadableException {
         JsonNode fault = NgsiJson.read(value);
         JsonNode text = fault.path("text");
         Reason.NOT_AN_EVENT.refuseIf(!text.isTextual(), "the fault has no member 'text' with a text");
         Map<String, String> values = new TreeMap<>();
-        fault.path("values").properties().forEach(each -> values.put(each.getKey(), each.getValue().asText()));
+        fault.path("values")
+                .properties()
+                .forEach(each -> values.put(each.getKey(), each.getValue().asText()));
         return new Fault(text.textValue(), fault.path("code").textValue(), values);
     }
 }

@@ -64,8 +64,8 @@ public final class AnalyticsAlarms {
 
     /** @param faults the records of {@code service.faults}, in a single partition */
     public static void addFaults(KStream<String, byte[]> faults, Types types) {
-        add(faults, "faults", types, (alarms, unit) -> (Observer.OfStatuses)
-                (key, value, now) -> alarms.raiseReworded(cause(key, Fault.read(value)), now));
+        add(faults, "faults", types, (alarms, unit) ->
+                (Observer.OfStatuses) (key, value, now) -> alarms.raiseReworded(cause(key, Fault.read(value)), now));
     }
 
     private static Cause cause(String part, Fault fault) {

@@ -66,7 +66,8 @@ public record EncounterAlarmProcessor(
     }
 
     private Cause cause(AlarmKind kind, EncounterReport encounter, Duration validity) {
-        String text = kind == AlarmKind.COLLISION ? "%s and %s came within %.1f m" : "%s and %s will come within %.1f m";
+        String text =
+                kind == AlarmKind.COLLISION ? "%s and %s came within %.1f m" : "%s and %s will come within %.1f m";
         List<Cause.AffectedDevice> devices = encounter.members().stream()
                 .map(member -> Cause.AffectedDevice.of(member.id(), member.type(types), member.scope()))
                 .toList();

@@ -98,7 +98,8 @@ class DeviceHistoryTest {
         assertThat(history.path("skipped").asInt()).isEqualTo(1);
         assertThat(history.path("points")).isEmpty();
         assertThat(history.path("changes"))
-                .extracting(each -> each.path("time").asLong() - TIME + " " + each.path("value").asText())
+                .extracting(each -> each.path("time").asLong() - TIME + " "
+                        + each.path("value").asText())
                 .containsExactly("0 idle", "1000 Running", "4000 idle");
     }
 
