@@ -31,15 +31,6 @@ export function settingsMenu() {
 }
 
 function chooseScheme(name) {
-  if (name === 'system') {
-    localStorage.removeItem('furrow-scheme');
-    delete document.documentElement.dataset.scheme;
-  } else {
-    localStorage.setItem('furrow-scheme', name);
-    document.documentElement.dataset.scheme = name;
-  }
-  window.dispatchEvent(new Event('schemechange'));
+  name === 'system' ? localStorage.removeItem('furrow-scheme') : localStorage.setItem('furrow-scheme', name);
+  window.dispatchEvent(new Event('schemechosen'));
 }
-// chosen in another tab
-window.addEventListener('storage', ({ key, newValue }) => key === 'furrow-scheme' && chooseScheme(newValue ?? 'system'));
-matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => window.dispatchEvent(new Event('schemechange')));

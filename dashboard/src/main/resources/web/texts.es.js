@@ -1,4 +1,4 @@
-/** The texts of `texts.js` in Spanish: the same names, the same values in braces. `words`, `sentences` and `refusals` translate what devices and the server say in English. */
+/** The texts of `texts.js` in Spanish: the same names, the same values in braces. `words`, `sentences`, `details` and `refusals` translate what devices and the server say in English. */
 
 export const texts = {
   app: {
@@ -10,7 +10,7 @@ export const texts = {
     toLive: 'Volver al vivo',
     liveView: 'Esta vista es en vivo. El mapa muestra una reproducción de {mission}.', toReplay: 'A la reproducción',
     scope: 'Qué se muestra', others: '{count} fuera de {scope}: mostrar todo', only: 'Solo {scope}.',
-    alarms: '{count} alarmas abiertas',
+    alarms: '{count alarma abierta|alarmas abiertas}',
     places: 'Lugares',
     settings: 'Ajustes',
     signOut: 'Cerrar sesión',
@@ -22,7 +22,7 @@ export const texts = {
     lost: 'Sin conexión desde hace {duration}, reintentando. Los datos mostrados son de las {time}.',
     lostNever: 'Sin conexión desde hace {duration}, reintentando. {reason}',
     away: 'La conexión se perdió de {from} a {to}.',
-    gap: 'Faltan {count registro|registros}.',
+    gap: '{count registro perdido|registros perdidos}.',
     panel: 'Alarmas y dispositivos',
     timeline: 'Línea de tiempo',
     csv: 'Guardar como CSV', csvOf: 'Guardar como CSV: {table}',
@@ -45,14 +45,23 @@ export const texts = {
   },
 
   sentences: {
-    collision: '{first} y {second} están a {meters}', 'collision-many': '{affected} parejas más de {group} están demasiado cerca',
-    'predicted-encounter': '{first} y {second} se acercarán a {meters}', 'predicted-encounter-many': 'Se prevén {affected} encuentros más de {group}',
-    'suspect-sensor': '{first} se desvía de los demás sensores de {group}', 'suspect-sensor-many': '{affected} sensores más de {group} se desvían de los demás',
-    'clock-behind': 'Los informes de {first} llegan {late} tarde y se descartan: compruebe su reloj y su conexión', 'clock-behind-many': 'Los informes de {affected} dispositivos más de {group} llegan demasiado tarde y se descartan',
-    'missing-devices-many': 'Faltan {affected} de {total} dispositivos de {group}: {devices}',
+    'collision-many': '{affected pareja más|parejas más} de {group} {affected: está|están} demasiado cerca',
+    'predicted-encounter': '{first} y {second} se acercarán a {meters}', 'predicted-encounter-many': 'Se {affected: prevé|prevén} {affected encuentro más|encuentros más} de {group}',
+    'suspect-sensor': '{first} se desvía de los demás sensores de {group}', 'suspect-sensor-many': '{affected sensor más|sensores más} de {group} se {affected: desvía|desvían} de los demás',
+    'clock-behind': 'Los informes de {first} llegan {late} tarde y se descartan: compruebe su reloj y su conexión', 'clock-behind-many': 'Los informes de {affected dispositivo más|dispositivos más} de {group} llegan demasiado tarde y se descartan',
+    'missing-devices-many': '{affected: Falta|Faltan} {affected} de {total} dispositivos de {group}: {devices}',
     'silent-device-many': '{affected} de {total} dispositivos de {group} sin señal: {devices}',
     'silent-mission-many': '{affected} de {total} dispositivos de {group} sin señal: probablemente el lugar o su conexión, no los dispositivos',
     'silent-farm-many': '{affected} de {total} dispositivos de la finca sin señal: no llega nada o acaba de volver',
+  },
+  details: {
+    'not-provisioned': 'no está registrado: {failure}', 'no-report': 'todavía no ha informado', 'not-registered': 'el IoT Agent no lo conoce',
+    'unreadable-payload': '{count de sus mensajes no se pudo|de sus mensajes no se pudieron} leer, el último: {time}: {reason}', 'foreign-topic': 'publicó {count vez|veces} en {topic}, donde no puede; la última: {time}',
+    'unknown-user': 'su usuario {user} no existe, o ya no, y fue rechazado {count vez|veces}; la última: {time}', 'wrong-password': 'su contraseña fue rechazada {count vez|veces}; la última: {time}',
+    'no-login': 'no se ha conectado al broker MQTT desde {time}', 'no-measure': 'se conectó ({time}) y no ha enviado nada desde entonces', 'not-simulated': 'nada lo simula: inicie ./furrow up con --simulate-devices, o ./furrow device-host',
+    'connector-failed': 'El conector {connector} falló: {failure}. Corríjalo y después: {command}',
+    'devices-retained': '{accounts cuenta|cuentas} MQTT, {devices dispositivo|dispositivos} y {groups grupo|grupos} del IoT Agent permanecen aunque este Kafka no los contiene: está vacío, o se crearon para otro Kafka ({names}). Compruebe --kafka; si Kafka perdió sus datos, inicie de nuevo sus misiones; --forget-devices elimina los que no se desean',
+    'devices-undecided': 'El estado deseado de {count dispositivo|dispositivos} no se puede leer ({devices}): sus registros en service.devices, o las listas de sus misiones, son de otra versión. Conservan credenciales y registro, pero no reciben cambios; actualice Furrow aquí, o inicie de nuevo sus misiones',
   },
   groups: { mission: 'la misión {name}', domain: 'el dominio {name}', field: '{name}', none: 'ninguna misión' },
 
@@ -111,8 +120,8 @@ export const texts = {
     cells: { worked: 'trabajado', 'worked-again': 'trabajado de nuevo', gap: 'hueco' }, toggleCells: 'Mostrar u ocultar lo trabajado', workedShare: '{share} trabajado',
     base: { title: 'Mapa base', none: 'ninguno', server: 'del servidor', address: 'de {host}', file: 'Elegir un archivo PMTiles …', hint: 'Teselas de imagen; el archivo se guarda en este navegador y funciona sin conexión. Las teselas de un servidor se muestran si --tiles de ./furrow dashboard, up o demo lo nombra: esta página no puede cargar imágenes de ningún otro.', remove: 'Quitar {file} de este navegador', noPictures: '{file} no contiene imágenes como teselas', failed: 'El mapa base no se puede mostrar: {reason}' },
     options: { trails: 'Recorridos', labels: 'Nombres', rows: 'Líneas de las parcelas' },
-    legend: 'Leyenda', stopped: 'apagado o parado', encounter: 'encuentro', predicted: '{distance} en {time} s', ended: 'fue {distance}', closest: 'mínimo {distance}',
-    devices: '{count dispositivo|dispositivos}', unverified: 'sin verificar', suspects: '{count} sospechosos', noAlarms: 'sin alarmas',
+    legend: 'Leyenda', stopped: 'apagado o parado', encounter: 'encuentro', predicted: '{distance} en {time} s', apart: 'ahora {now}, mínimo {closest}', ended: 'llegaron a {closest}', closest: 'mínimo {distance}',
+    devices: '{count dispositivo|dispositivos}', unverified: 'sin verificar', suspects: '{count sospechoso|sospechosos}', noAlarms: 'sin alarmas',
     cluster: '{count} dispositivos, pulse para abrir', oneSpot: '{count} dispositivos en el mismo punto',
     columns: { name: 'Nombre', kind: 'Tipo', state: 'Estado', latitude: 'Latitud', longitude: 'Longitud', position: 'Posición', speed: 'Velocidad', age: 'Último informe', pair: 'Dispositivos', phase: 'Fase', distance: 'Distancia', closest: 'Mínimo', field: 'Parcela', average: 'Media', devices: 'Dispositivos', suspects: 'Sospechosos', mission: 'Misión', hectares: 'Trabajado', share: 'Parte', overlap: 'De nuevo', gaps: 'Huecos', left: 'Tiempo restante' },
     speed: '{speed} m/s',
@@ -140,11 +149,11 @@ export const texts = {
   // ------------------------------------------------------------------------------------------------------------------
 
   cards: {
-    title: 'Dispositivos', silent: '{count dispositivo|dispositivos} sin señal o apagados', count: '{count} · {reporting} informan', found: '{found} de {count}', unknown: '{device} nunca ha informado o fue eliminado.', filter: 'Mostrar solo', loading: 'Se leen los dispositivos',
+    title: 'Dispositivos', silent: '{count dispositivo sin señal o apagado|dispositivos sin señal o apagados}', count: '{count} · {reporting informa|informan}', found: '{found} de {count}', unknown: '{device} nunca ha informado o fue eliminado.', filter: 'Mostrar solo', loading: 'Se leen los dispositivos',
     state: 'Estado', fieldMean: 'Media de la parcela', suspect: 'sospechoso', noPosition: 'sin posición', details: 'Todos los atributos de {name}',
     line: '{label}: ahora {now} {unit}, entre {min} y {max} {unit}',
     lineConstant: '{label}: {now} {unit} todo el tiempo',
-    tooLarge: 'Demasiado grande para mostrarlo', omitted: 'No se muestran {count} atributos más.',
+    tooLarge: 'Demasiado grande para mostrarlo', omitted: 'Sin mostrar: {count atributo|atributos} más.',
     noPicture: 'Todavía no hay ninguna imagen guardada', pictureOf: 'Imagen de {age}', pictureAlt: 'Imagen más reciente de {name}', pictureFailed: 'Sin imagen: {reason}',
     recorded: 'grabado, no enviado', confirm: '¿Enviar «{command}» a {name}?', refused: '{command} no se envió: {reason}',
     outcomes: { pending: '{command} enviado {ago}, todavía sin respuesta', ok: '✓ {command}, {ago}', failed: '✗ {command} falló {ago}. {info}', unanswered: '{command}: sin respuesta desde {ago}' },
@@ -152,7 +161,7 @@ export const texts = {
       report: 'Último informe de {time}, recibido {offset} después.', ahead: 'Último informe de {time}: su reloj va {offset} adelantado.',
       unregistered: 'El IoT Agent no lo conoce.', login: 'Conectado al bróker MQTT a las {time}.', noLogin: 'No se ha conectado al bróker MQTT desde {time}.',
       password: 'Su contraseña fue rechazada {times} {time}.', user: 'Su usuario {user} no existe o ya no existe, y fue rechazado {times} {time}.',
-      foreign: 'Publicó {times} {time} en {topic}, donde no puede.', once: 'una vez, a las', times: '{count} veces, la última a las', unreadable: '{count} de sus mensajes no se pudieron leer, el último a las {time}: {reason}. Empezaba con {payload}',
+      foreign: 'Publicó {times} {time} en {topic}, donde no puede.', once: 'una vez, a las', times: '{count} veces, la última a las', unreadable: '{count de sus mensajes no se pudo|de sus mensajes no se pudieron} leer, el último a las {time}: {reason}. Empezaba con {payload}',
     },
     none: 'Todavía no hay dispositivos', noneHint: 'La ficha de un dispositivo aparece aquí cuando informa.',
     noneYet: 'Todavía nada en este momento', noneYetHint: 'La reproducción todavía no tiene informes, o no tiene ninguno.',
@@ -167,7 +176,8 @@ export const texts = {
   // ------------------------------------------------------------------------------------------------------------------
 
   alarms: {
-    title: 'Alarmas', reading: 'Se leen las alarmas …', failed: 'Las alarmas no se pueden leer: {reason}', open: '{count} abiertas', none: 'Sin alarmas abiertas', noMatch: 'Ninguna alarma abierta coincide con la búsqueda.', noneHere: 'Aquí no hay alarmas abiertas.', quiet: '{count} reconocidas, silenciadas o explicadas por otra', liveInReplay: 'En vivo, no de la reproducción: {count alarma|alarmas}', further: 'Mostrar {count} más',
+    apart: '{first} y {second} están a {now}, mínimo {closest}', within: '{first} y {second} llegaron a {closest}',
+    title: 'Alarmas', reading: 'Se leen las alarmas …', failed: 'Las alarmas no se pueden leer: {reason}', open: '{count abierta|abiertas}', none: 'Sin alarmas abiertas', noMatch: 'Ninguna alarma abierta coincide con la búsqueda.', noneHere: 'Aquí no hay alarmas abiertas.', quiet: '{count reconocida, silenciada o explicada|reconocidas, silenciadas o explicadas} por otra', liveInReplay: 'En vivo, no de la reproducción: {count alarma|alarmas}', further: 'Mostrar {count} más',
     acknowledge: 'Reconocer', more: 'Silenciar o cerrar', mute10: 'Silenciar 10 minutos', mute60: 'Silenciar una hora', mute480: 'Silenciar 8 horas', unmute: 'Dejar de silenciar', close: 'Cerrar',
     seen: '{count} veces', affected: '{count} de {total}', by: 'reconocida por {user}', mutedUntil: 'silenciada hasta {time}', inhibited: 'explicada por otra alarma',
     announced: 'Alarma nueva, {severity}: {text}', notify: 'Avisarme cuando esta página esté en segundo plano', notification: 'Furrow: alarma {severity}',
@@ -182,7 +192,7 @@ export const texts = {
     showOnly: 'Mostrar solo {name} en el mapa', showAll: 'Volver a mostrar todo en el mapa',
     records: 'Registros', noneChosen: 'Ningún tema elegido', noneChosenHint: 'Elija uno o varios; sus registros aparecen aquí, primero los más recientes.',
     columns: { time: 'Hora', topic: 'Tema', key: 'Clave', value: 'Valor' },
-    pause: 'Pausa', goOn: 'Continuar', paused: 'en pausa', findKey: 'Solo claves con …', count: '{count} más recientes', quiet: 'sin registros desde que se eligió el tema', noMatch: 'ninguna clave coincide', gaps: 'faltan {count}', waiting: 'se intenta conectar',
+    pause: 'Pausa', goOn: 'Continuar', paused: 'en pausa', findKey: 'Solo claves con …', count: '{count más reciente|más recientes}', quiet: 'sin registros desde que se eligió el tema', noMatch: 'ninguna clave coincide', gaps: '{count perdido|perdidos}', waiting: 'se intenta conectar',
     open: 'Registro de {time}', cut: 'demasiado grande para mostrarlo: {size}', deleted: 'eliminado', shortened: 'acortado, {size} en total', where: 'Partición {partition}, offset {offset}, clave {key}', headers: 'Cabeceras',
   },
 
@@ -200,15 +210,15 @@ export const texts = {
     columns: { mission: 'Misión', domain: 'Dominio', template: 'Plantilla', state: 'Estado', since: 'Desde', start: 'Iniciada', devices: 'Dispositivos', confirmed: 'En el estado deseado' },
     none: 'Todavía no hay misiones', noneHint: 'Una misión dice qué dispositivos trabajan dónde. Cree una a partir de una plantilla.',
     states: { created: 'sin iniciar', starting: 'iniciándose', running: 'en marcha', stopping: 'parándose', stopped: 'parada', failed: 'fallida' },
-    confirmed: '{confirmed} de {devices dispositivo|dispositivos}', missing: 'faltan {count}', since: 'desde hace {age}', notYet: 'todavía no', progress: 'Dispositivos en el estado deseado',
+    confirmed: '{confirmed} de {devices dispositivo|dispositivos}', missing: '{count ausente|ausentes}', since: 'desde hace {age}', notYet: 'todavía no', progress: 'Dispositivos en el estado deseado',
     startedAt: 'iniciada {time}', lasts: 'durante {duration}', left: 'quedan {duration}', start: 'Iniciar', stop: 'Parar', delete: 'Eliminar', replay: 'Reproducir', report: 'Informe',
     credentials: 'Credenciales', startTitle: '¿Iniciar {mission}?', stopTitle: '¿Parar {mission}?', stopText: 'Los dispositivos simulados se apagan; las credenciales de los reales dejan de valer hasta que se inicie de nuevo. Lo grabado se conserva.', deleteTitle: '¿Eliminar {mission}?', deleteText: 'Se eliminan su plan y sus dispositivos. Lo grabado se conserva en MongoDB.',
     devices: 'Dispositivos', deviceColumns: { device: 'Dispositivo', state: 'Estado', health: 'Salud', battery: 'Batería', seen: 'Último informe', audit: 'Órdenes' }, onMap: 'Mostrar {device} en el mapa', auditOfDevice: 'Quién dio órdenes a {device}',
     viewer: 'Puede verlo todo. Las órdenes requieren el papel de operador', noDevicesYet: 'Se crean sus dispositivos.', planned: '{count dispositivo previsto|dispositivos previstos}, se crean al iniciarse.', moreDevices: 'y {count} más',
     check: 'Comprobación de cada dispositivo', unnamed: 'Dispositivo', levels: { ok: 'en orden', unknown: 'desconocido', warning: 'requiere atención', problem: 'impide el inicio' },
-    checkGood: 'Los {count} en orden', checkBad: '{bad} de {count} requieren atención', checkProblem: '{problems} de {count} impiden el inicio', checkProblemMore: '{problems} de {count} impiden el inicio, otros {bad} requieren atención',
+    checkGood: '{count} de {count} en orden', checkBad: '{bad} de {count} {bad: requiere|requieren} atención', checkProblem: '{problems} de {count} {problems: impide|impiden} el inicio', checkProblemMore: '{problems} de {count} {problems: impide|impiden} el inicio, {bad} más {bad: requiere|requieren} atención',
     findings: {
-      made: '{count} registrados al iniciarse la misión, cada uno con credenciales', simulated: '{count} simulados al iniciarse la misión', neverSeen: 'nunca ha informado, quizá no esté al alcance', seen: 'informó {ago}', silent: 'sin señal {ago}', off: 'apagado; la misión lo enciende',
+      made: '{count registrado|registrados} al iniciarse la misión, cada uno con credenciales', simulated: '{count simulado|simulados} al iniciarse la misión', neverSeen: 'nunca ha informado, quizá no esté al alcance', seen: 'informó {ago}', silent: 'sin señal {ago}', off: 'apagado; la misión lo enciende',
       noBattery: 'no informa de la batería', battery: 'batería {percent} %', batteryLow: 'batería baja, {percent} %', used: 'trabaja en la misión {mission}',
       noPosition: 'no se conoce su posición', noFields: 'el dominio no tiene parcelas', noSuchField: 'no existe la parcela {field}', inside: 'en {field}', outside: 'fuera de las parcelas del dominio',
     },
@@ -221,7 +231,7 @@ export const texts = {
     endText: 'Desde entonces no tiene medias ni estancias. Los resultados anteriores se conservan, y una reproducción de un tiempo anterior usa la parcela como era.',
     deleteFieldText: 'Se eliminan todas sus versiones. Al deshacer se escriben de nuevo, hasta que se cierre esta página. Los resultados guardados se conservan. Para conservar su historia, termínela.',
     lostDomain: '{domain} no existe', field: 'parcela', zone: 'zona sin alarmas', always: 'siempre', importFields: 'Importar parcelas', import: 'Importar', file: 'Archivo', fileHint: 'GeoJSON con polígonos, o un GeoPackage con una capa; como máximo 16 MiB. Shapefiles: ./furrow fields import.', asFeaturesSay: 'como indique cada elemento', close: 'Cerrar',
-    previewFields: 'Superficies en el archivo: {count}', previewSome: 'Superficies en el archivo: {areas}. Otros elementos, que se rechazarán: {others}', previewGeoPackage: 'Un GeoPackage lo lee el servidor.', tooLarge: 'El archivo tiene {size} MiB; se aceptan como máximo 16.', imported: 'Importadas: {imported}. Sin cambios: {unchanged}', feature: 'Elemento {number} {id}', noGeoJson: 'El archivo no es un GeoJSON.', refusedFields: '{count} rechazadas', mendedFields: '{count} reparadas',
+    previewFields: 'Superficies en el archivo: {count}', previewSome: 'Superficies en el archivo: {areas}. Otros elementos, que se rechazarán: {others}', previewGeoPackage: 'Un GeoPackage lo lee el servidor.', tooLarge: 'El archivo tiene {size} MiB; se aceptan como máximo 16.', imported: 'Importadas: {imported}. Sin cambios: {unchanged}', feature: 'Elemento {number} {id}', noGeoJson: 'El archivo no es un GeoJSON.', refusedFields: '{count rechazada|rechazadas}', mendedFields: '{count reparada|reparadas}',
   },
 
   // ------------------------------------------------------------------------------------------------------------------
@@ -322,9 +332,9 @@ export const texts = {
     threshold: 'Umbral', csv: 'CSV', png: 'PNG',
     chart: '{label} de {device} del {from} al {to}: mínimo {min}, máximo {max}, último {now}; la tabla tiene los mismos números',
     noDevice: 'Ningún dispositivo elegido', noDeviceHint: 'Elija uno arriba, o el signo de gráfico de su tarjeta.',
-    noAttribute: 'Ningún número de este dispositivo', noAttributeHint: 'Ahora no envía ninguno. Elija otro dispositivo.',
+    noAttribute: 'Ningún número ni texto de este dispositivo', noAttributeHint: 'Ahora no envía ninguno. Elija otro dispositivo.',
     none: 'Ningún valor en este período', noneHint: 'Ninguna misión lo ha grabado. Un período más largo puede tener alguno.',
-    other: 'No es un número', otherHint: 'Un gráfico muestra números, y sí o no. La vista de temas muestra valores de otras clases.',
+    other: 'Ni número ni texto', otherHint: 'Aquí se muestran números, sí o no, y textos. La vista de temas muestra valores de otras clases.',
     since: 'Guardado desde {time}, o no leído más atrás.', notStored: 'Nada de este período está guardado.', thinned: '{values} valores; de cada {part} se muestran el mínimo y el máximo.', skipped: '{count valor omitido|valores omitidos}: no son números, o tienen otra unidad.',
     pictures: 'Imágenes', allPictures: 'Imágenes de todas las cámaras', picture: 'Imagen', pictureCount: '{count imagen|imágenes}', pictureAt: '{name}, {time} · {number} de {count}', previous: 'Imagen anterior', next: 'Imagen siguiente',
     noPictures: 'Ninguna imagen en este período', noPicturesHint: 'Una imagen aparece aquí cuando una cámara la ha enviado y está guardada.',
@@ -347,7 +357,7 @@ export const texts = {
   // ------------------------------------------------------------------------------------------------------------------
 
   platform: {
-    well: 'Todo funciona', wrong: 'Requiere atención', partDown: '{part}: {state}. {detail}', behind: '{group} va {lag registro|registros} por detrás', hasLetters: 'Mensajes fallidos: {count}. No se pudieron procesar y se apartaron',
+    well: 'Todo funciona', wrong: 'Requiere atención', partDown: '{part}: {state}. {detail}', behind: '{group} va {lag registro|registros} por detrás', hasLetters: '{count registro no se pudo procesar y se apartó|registros no se pudieron procesar y se apartaron} como mensajes fallidos',
     parts: 'Partes', partNames: { api: 'API REST', iotAgent: 'IoT Agent', kafka: 'Kafka' }, states: { up: 'en marcha', down: 'caída', dead: 'muerta' },
     lag: 'Retraso', lagHint: 'Registros que un grupo de consumidores todavía no ha confirmado; los trabajos confirman con cada checkpoint.', noGroups: 'Ningún grupo de consumidores ha confirmado nada todavía.', ofReplays: '{count grupo|grupos} de reproducciones sin retraso',
     letters: 'Mensajes fallidos', noLetters: 'Ninguno en {count tema|temas}', lettersHint: 'Sus cabeceras describen el error y su lugar. Cuando esté corregido, vuelva a enviarlos:', lettersCommand: 'Órdenes que reenvían los mensajes fallidos', notKnown: 'Desconocido mientras no responda.',

@@ -11,7 +11,7 @@ const english = {
     toLive: 'Back to live',
     liveView: 'This view is live. The map shows a replay of {mission}.', toReplay: 'To the replay',
     scope: 'What is shown', others: '{count} outside of {scope}: show all', only: 'Only {scope}.',
-    alarms: '{count} open alarms',
+    alarms: '{count open alarm|open alarms}',
     places: 'Places',
     settings: 'Settings',
     signOut: 'Sign out',
@@ -74,7 +74,7 @@ const english = {
     cells: { worked: 'worked', 'worked-again': 'worked again', gap: 'gap' }, toggleCells: 'Show or hide what was worked', workedShare: '{share} worked',
     base: { title: 'Base map', none: 'none', server: 'of the server', address: 'of {host}', file: 'Choose a PMTiles file …', hint: 'Pictures of tiles; the file is stored in this browser and works offline. Tiles of a server are shown if --tiles of ./furrow dashboard, up or demo names it: this page may load pictures of no other.', remove: 'Remove {file} from this browser', noPictures: '{file} has no pictures as tiles', failed: 'The base map cannot be shown: {reason}' },
     options: { trails: 'Trails', labels: 'Names', rows: 'Rows of fields' },
-    legend: 'Legend', stopped: 'off or stopped', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}', closest: 'closest {distance}',
+    legend: 'Legend', stopped: 'off or stopped', encounter: 'encounter', predicted: '{distance} in {time} s', apart: 'now {now}, closest {closest}', ended: 'came within {closest}', closest: 'closest {distance}',
     devices: '{count device|devices}', unverified: 'unverified', suspects: '{count} suspect', noAlarms: 'no alarms',
     cluster: '{count} devices, click to open', oneSpot: '{count} devices in one spot',
     columns: { name: 'Name', kind: 'Kind', state: 'State', latitude: 'Latitude', longitude: 'Longitude', position: 'Position', speed: 'Speed', age: 'Heard', pair: 'Devices', phase: 'Phase', distance: 'Distance', closest: 'Closest', field: 'Field', average: 'Average', devices: 'Devices', suspects: 'Suspects', mission: 'Mission', hectares: 'Worked', share: 'Share', overlap: 'Again', gaps: 'Gaps', left: 'Time left' },
@@ -106,7 +106,7 @@ const english = {
     state: 'State', fieldMean: 'Field mean', suspect: 'suspect', noPosition: 'no position', details: 'All attributes of {name}',
     line: '{label}: now {now} {unit}, between {min} and {max} {unit}',
     lineConstant: '{label}: {now} {unit} all the time',
-    tooLarge: 'Too large to show', omitted: '{count} more attributes are not shown.',
+    tooLarge: 'Too large to show', omitted: '{count more attribute is|more attributes are} not shown.',
     noPicture: 'No picture stored yet', pictureOf: 'Picture of {age}', pictureAlt: 'Newest picture of {name}', pictureFailed: 'No picture: {reason}',
     recorded: 'recorded, not sent', confirm: 'Send “{command}” to {name}?', refused: '{command} was not sent: {reason}',
     outcomes: { pending: '{command} sent {ago}, no answer yet', ok: '✓ {command}, {ago}', failed: '✗ {command} failed {ago}. {info}', unanswered: '{command}: no answer since {ago}' },
@@ -129,6 +129,7 @@ const english = {
   // ------------------------------------------------------------------------------------------------------------------
 
   alarms: {
+    apart: '{first} and {second} are {now} apart, closest {closest}', within: '{first} and {second} came within {closest}',
     title: 'Alarms', reading: 'Alarms are being read …', failed: 'The alarms cannot be read: {reason}', open: '{count} open', none: 'No open alarms', noMatch: 'No open alarm matches the search.', noneHere: 'No open alarm here.', quiet: '{count} acknowledged, muted or explained by another', liveInReplay: 'Live, not from the replay: {count alarm|alarms}', further: 'Show {count} more',
     acknowledge: 'Acknowledge', more: 'Mute or close', mute10: 'Mute for 10 minutes', mute60: 'Mute for an hour', mute480: 'Mute for 8 hours', unmute: 'Unmute', close: 'Close',
     seen: '{count} times', affected: '{count} of {total}', by: 'acknowledged by {user}', mutedUntil: 'muted until {time}', inhibited: 'explained by another alarm',
@@ -168,7 +169,7 @@ const english = {
     devices: 'Devices', deviceColumns: { device: 'Device', state: 'State', health: 'Health', battery: 'Battery', seen: 'Heard', audit: 'Commands' }, onMap: 'Show {device} on the map', auditOfDevice: 'Who commanded {device}',
     viewer: 'You can view everything. Commands require the role of an operator', noDevicesYet: 'Its devices are being created.', planned: '{count device|devices} planned, created when it starts.', moreDevices: 'and {count} more',
     check: 'Check of each device', unnamed: 'Device', levels: { ok: 'in order', unknown: 'not known', warning: 'needs a look', problem: 'in the way' },
-    checkGood: 'All {count} in order', checkBad: '{bad} of {count} need a look', checkProblem: '{problems} of {count} are in the way', checkProblemMore: '{problems} of {count} are in the way, {bad} more need a look',
+    checkGood: '{count} of {count} in order', checkBad: '{bad} of {count} {bad: needs|need} a look', checkProblem: '{problems} of {count} {problems: is|are} in the way', checkProblemMore: '{problems} of {count} {problems: is|are} in the way, {bad} more {bad: needs|need} a look',
     findings: {
       made: '{count} registered when the mission starts, with a login each', simulated: '{count} simulated when the mission starts', neverSeen: 'has never reported, it may be unreachable', seen: 'heard {ago} ago', silent: 'silent for {ago}', off: 'switched off; the mission switches it on',
       noBattery: 'reports no battery', battery: 'battery {percent} %', batteryLow: 'battery low, {percent} %', used: 'runs in mission {mission}',
@@ -284,9 +285,9 @@ const english = {
     threshold: 'Threshold', csv: 'CSV', png: 'PNG',
     chart: '{label} of {device} from {from} to {to}: lowest {min}, highest {max}, newest {now}; the table has the same numbers',
     noDevice: 'No device chosen', noDeviceHint: 'Choose one above, or the chart sign on its card.',
-    noAttribute: 'No numbers of this device', noAttributeHint: 'It reports none now. Choose another device.',
+    noAttribute: 'No numbers or texts of this device', noAttributeHint: 'It reports none now. Choose another device.',
     none: 'No value in this period', noneHint: 'No mission has recorded one. A longer period may have some.',
-    other: 'Not a number', otherHint: 'A chart shows numbers, and yes or no. The topics view shows values of other kinds.',
+    other: 'No number and no text', otherHint: 'Numbers, yes or no, and texts are shown here. The topics view shows values of other kinds.',
     since: 'Stored since {time}, or read no further back.', notStored: 'Nothing of this period is stored.', thinned: '{values} values; of each {part} the lowest and the highest are shown.', skipped: '{count value is|values are} left out: no numbers, or in another unit.',
     pictures: 'Pictures', allPictures: 'Pictures of all cameras', picture: 'Picture', pictureCount: '{count picture|pictures}', pictureAt: '{name}, {time} · {number} of {count}', previous: 'Previous picture', next: 'Next picture',
     noPictures: 'No pictures in this period', noPicturesHint: 'A picture appears here when a camera has sent one and it is stored.',
@@ -309,7 +310,7 @@ const english = {
   // ------------------------------------------------------------------------------------------------------------------
 
   platform: {
-    well: 'Everything is working', wrong: 'Needs a look', partDown: '{part} is {state}. {detail}', behind: '{group} is {lag record|records} behind', hasLetters: 'Dead letters: {count}. They could not be processed and were set aside',
+    well: 'Everything is working', wrong: 'Needs a look', partDown: '{part} is {state}. {detail}', behind: '{group} is {lag record|records} behind', hasLetters: '{count record|records} could not be processed: set aside as dead letters',
     parts: 'Parts', partNames: { api: 'REST API', iotAgent: 'IoT Agent', kafka: 'Kafka' }, states: { up: 'up', down: 'down', dead: 'dead' },
     lag: 'Lag', lagHint: 'Records that a consumer group has not committed yet; jobs commit with each checkpoint.', noGroups: 'No consumer group has committed anything yet.', ofReplays: '{count group|groups} of replays without a lag',
     letters: 'Dead letters', noLetters: 'None in {count topic|topics}', lettersHint: 'Their headers describe the error and its place. When it is fixed, redrive them:', lettersCommand: 'Commands that redrive dead letters', notKnown: 'Not known while it does not answer.',
@@ -341,8 +342,8 @@ export function refusal(code, reason) {
   return texts.refusals && Object.hasOwn(texts.refusals, code) ? `${texts.refusals[code]}: ${reason}` : reason;
 }
 
-/** Replaces `{name}` and `{count one|more}` in a text. */
+/** Replaces `{name}`, `{count one|more}` by the number and a word, and `{count: one|more}` by the word alone. */
 export function fill(text, values) {
-  const counted = text.replace(/\{(\w+) ([^|}]+)\|([^}]+)\}/g, (whole, name, one, more) => `{${name}} ${String(values[name]) === '1' ? one : more}`);
+  const counted = text.replace(/\{(\w+)(:?) ([^|}]+)\|([^}]+)\}/g, (whole, name, alone, one, more) => `${alone ? '' : `{${name}} `}${String(values[name]) === '1' ? one : more}`);
   return counted.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? String(values[name]) : whole));
 }

@@ -4,11 +4,11 @@ import { age, clock, label, word } from '../core/format.js';
 import { language } from '../core/language.js';
 import { h, isHeld, replace, setText } from '../core/dom.js';
 import { icon } from '../core/icons.js';
-import { isIn, scope } from '../core/identities.js';
 import { picturesAround } from '../core/router.js';
 import { others } from '../core/scope.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
+import { entitiesOf } from './entities.js';
 import { arrange, isMuted } from './order.js';
 import { isOfServer, sentenceOf } from './sentence.js';
 
@@ -36,7 +36,7 @@ class FurrowAlarms extends HTMLElement {
     this.list.addEventListener('pointerleave', () => this.draw());
     this.list.addEventListener('focusout', () => setTimeout(() => this.draw()));
     this.fold.addEventListener('toggle', () => { this.draw(); this.giveRoom(true); });
-    this.subscriptions = [...['alarms', 'filter', 'fields', 'scope'].map((name) => store.on(name, () => this.draw())), store.on('clock', () => (store.scope.domain === null ? this.drawAges() : this.draw())), store.on('mode', () => this.draw()), store.on('me', () => this.draw())];
+    this.subscriptions = [...['alarms', 'filter', 'fields', 'scope'].map((name) => store.on(name, () => this.draw())), store.on('clock', () => (store.scope.domain === null ? this.drawAges() : this.draw())), store.on('encounters', () => this.drawAges()), store.on('mode', () => this.draw()), store.on('me', () => this.draw())];
     this.draw();
   }
 
@@ -115,7 +115,7 @@ class FurrowAlarms extends HTMLElement {
     const failed = h('p.small.failed', { role: 'alert', hidden: true });
     const actions = h('div.alarm-actions', null, acknowledge, more, menu);
     const element = h('li.alarm', null, h('div', null, text, h('p.small.muted.numbers', null, line, ' ', around)), actions, failed);
-    const row = { element, line };
+    const row = { element, line, text };
     acknowledge.addEventListener('click', () => this.act(row, 'acknowledge'));
     text.addEventListener('click', () => show(row.alarm));
     row.draw = (alarm) => {
@@ -155,8 +155,10 @@ class FurrowAlarms extends HTMLElement {
     row.draw(row.alarm);
   }
 
+  /** Updates what changes without a record of the alarm: its age, and the distance of its encounter. */
   drawAges() {
     for (const row of this.rows.values()) {
+      setText(row.text, sentenceOf(row.alarm));
       setText(row.line, lineOf(row.alarm));
     }
     this.giveRoom();
@@ -213,15 +215,6 @@ function lineOf(alarm) {
   isMuted(alarm, now) && parts.push(t('alarms.mutedUntil', { time: clock(alarm.mutedUntil) }));
   alarm.inhibitedBy && parts.push(t('alarms.inhibited'));
   return parts.join(' · ');
-}
-
-/** The entities of an alarm's devices. Alarms of an older control plane name neither tenant nor path. */
-function entitiesOf(alarm) {
-  return (alarm.devices ?? []).map(({ id, type, service, servicePath }) => {
-    const of = scope(service, servicePath);
-    const entity = store.entities.get(store.identities.keyOf(id, of, type ?? ''));
-    return alarm.identity ? entity && isIn(entity.identity, of) && entity : entity ?? store.entities.get(store.identities.keyOfType(id, type));
-  }).filter(Boolean);
 }
 
 /** Shows the first device of an alarm on the map. */

@@ -223,6 +223,6 @@ export function shortId(id) {
 }
 
 /** Replaces the ids and the times in a sentence by readable ones. */
-export function readable(sentence) {
-  return String(sentence).slice(0, 500).replace(/urn:ngsi-ld:[A-Za-z]+:[\w-]+/g, (id) => shortId(id)).replace(/\b\d{4}-\d\d-\d\dT[\d:.]+Z/g, (time) => moment(Date.parse(time)));
+export function readable(sentence, limit = 500) {
+  return String(sentence).slice(0, limit).replace(/urn:ngsi-ld:[A-Za-z]+:[\w-]+/g, (id) => shortId(id)).replace(/\b\d{4}-\d\d-\d\dT[\d:.]+Z/g, (time) => moment(Date.parse(time)));
 }

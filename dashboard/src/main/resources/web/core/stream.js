@@ -16,6 +16,8 @@ const OPENING_TIMEOUT = 1_000;
 
 let opening = 0;
 const waiting = [];
+/** Streams that wait for another attempt. When one stream is open again, all try at once: what each has missed is then known at the same time. */
+const retrying = new Set();
 
 /** Begins to open a stream. @returns {function()} to be called when it is open, or has failed */
 function startOpening() {
@@ -93,6 +95,7 @@ class Stream {
       return;
     }
     clearTimeout(this.retry);
+    retrying.delete(this);
     const attempt = (this.attempt = Symbol('attempt'));
     this.report('connecting');
     if (opening >= OPENED_AT_A_TIME) {
@@ -130,6 +133,7 @@ class Stream {
       this.isFirst = true;
       this.isPrimed || this.opened();
       this.report('open');
+      [...retrying].forEach((each) => each.connect());
     };
     socket.onmessage = (message) => this.receive(parse(message.data));
     socket.onclose = (event) => {
@@ -174,6 +178,7 @@ class Stream {
     this.report(rejected ? 'refused' : 'waiting', error?.message);
     const backoff = interval ?? (rejected ? MAX_BACKOFF : this.backoff);
     this.backoff = Math.min(MAX_BACKOFF, this.backoff * 2);
+    rejected || retrying.add(this);
     this.retry = setTimeout(() => this.connect(), backoff * (0.75 + Math.random() / 2));
   }
 
@@ -184,6 +189,7 @@ class Stream {
 
   disconnect() {
     clearTimeout(this.retry);
+    retrying.delete(this);
     this.attempt = null;
     this.opened();
     const socket = this.socket;

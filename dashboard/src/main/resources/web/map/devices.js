@@ -1,8 +1,9 @@
 /** Draws devices with trails and names in each frame in which something changed. */
+import { isOver } from '../core/encounter.js';
 import { age } from '../core/format.js';
 import { store } from '../core/store.js';
 import { cluster, drawCluster } from './clusters.js';
-import { drawEncounters, isOver, placeEncounters } from './encounters.js';
+import { drawEncounters, placeEncounters } from './encounters.js';
 import { FieldLabels } from './field-labels.js';
 import { LabelPlaces, drawText, widthOf } from './labels.js';
 import { colorOf } from './palette.js';

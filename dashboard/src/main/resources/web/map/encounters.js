@@ -1,4 +1,5 @@
 /** Draws encounters: which devices are too close, and their distance. */
+import { distancesOf, isOver } from '../core/encounter.js';
 import { distance } from '../core/format.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
@@ -9,7 +10,7 @@ const FADE_MILLIS = 10_000;
 const FADE = 5;
 /** Height of the text above a ring with its gap, and half of its width, px. */
 const PILL = 26;
-const HALF_PILL = 64;
+const HALF_PILL = 104;
 /** Time for which a prediction that did not come true is shown after its time, ms: no record ends it. */
 const PREDICTION_SHOWN = 3_000;
 
@@ -37,11 +38,6 @@ export function placeEncounters(frame, palette, spotOf) {
 export function covers({ x, y, radius }, left, top, right, bottom) {
   const half = top < y - radius ? Math.max(radius, HALF_PILL) : radius;
   return left < x + half && right > x - half && top < y + radius && bottom > y - radius - PILL;
-}
-
-/** Whether an encounter has ended; it fades, and labels of fields may cover it. */
-export function isOver({ phase }) {
-  return phase === 'ended' || phase === 'crossed';
 }
 
 function reported(frame, [lon, lat]) {
@@ -100,23 +96,8 @@ function textOf(encounter) {
   if (encounter.phase === 'predicted') {
     return t('map.predicted', { distance: distance(encounter.minDistance), time: Math.max(0, Math.round(encounter.tcpa ?? 0)) });
   }
-  if (isOver(encounter)) {
-    return t('map.ended', { distance: distance(encounter.minDistance) });
-  }
-  // once the devices move apart, the smallest distance matters more than the current one
-  const current = currentDistance(encounter);
-  return current > encounter.distance ? t('map.closest', { distance: distance(encounter.minDistance) }) : distance(current);
-}
-
-/** The distance between the newest positions, which are newer than the encounter's record. */
-function currentDistance(encounter) {
-  const [a, b] = [store.entities.get(encounter.a), store.entities.get(encounter.b)];
-  if (!a?.position || !b?.position) {
-    return encounter.distance;
-  }
-  const radians = Math.PI / 180;
-  const x = (b.position[0] - a.position[0]) * Math.cos((a.position[1] + b.position[1]) / 2 * radians);
-  return Math.hypot(x, b.position[1] - a.position[1]) * radians * 6_371_008.8;
+  const { now, closest } = distancesOf(encounter);
+  return t(isOver(encounter) ? 'map.ended' : 'map.apart', { now: distance(now), closest: distance(closest) });
 }
 
 /** Draws a text, moved into view at the edge of the map, at the first of several positions that is free; without one, only if it must be shown. */

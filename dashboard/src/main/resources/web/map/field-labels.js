@@ -1,9 +1,10 @@
 /** Draws names of fields with their averages inside or beside the outline, without covering symbols, and where they were before if possible. */
+import { isOver } from '../core/encounter.js';
 import { age, percent, temperature } from '../core/format.js';
 import { withDifference } from '../core/identities.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
-import { covers, isOver } from './encounters.js';
+import { covers } from './encounters.js';
 import { boxOf, isFound } from './fields.js';
 import { LabelPlaces, drawText, widthOf } from './labels.js';
 

@@ -86,24 +86,31 @@ class History extends HTMLElement {
     return this.known;
   }
 
+  get hasPictures() {
+    const { entity } = this;
+    return entity?.kind === 'camera' || Boolean(entity && store.imageOf(entity));
+  }
+
   /** Devices and attributes appear as they report. */
   schedule() {
     this.timer ??= setTimeout(() => { this.timer = null; this.load(); }, this.key ? 1_000 : 50);
   }
 
-  /** Names of the attributes of the device with numbers or flags, the most important first. */
+  /** Names of the attributes of the device with numbers, flags or texts, the texts last, the most important of each first. */
   get names() {
     const { entity } = this;
-    const important = entity ? keyAttributes(entity, MAX_ATTRIBUTES).filter(({ name }) => ['number', 'boolean'].includes(typeof entity.attributes[name].value)).map(({ name }) => name) : [];
-    const others = entity ? Object.keys(entity.attributes).filter((name) => ['number', 'boolean'].includes(typeof entity.attributes[name].value) && !important.includes(name)).sort() : [];
-    return [...important, ...others].slice(0, MAX_ATTRIBUTES);
+    const important = entity ? keyAttributes(entity, MAX_ATTRIBUTES).map(({ name }) => name) : [];
+    const all = [...new Set([...important, ...Object.keys(entity?.attributes ?? {}).sort()])];
+    return [['number', 'boolean'], ['string']].flatMap((types) => all.filter((name) => types.includes(typeof entity.attributes[name].value))).slice(0, MAX_ATTRIBUTES);
   }
 
-  /** The most important attribute when the device was chosen: a later one does not replace it under the eyes of the user. */
+  /** The most important attribute when the device was chosen: a later one does not replace it under the eyes of the user. A camera has its pictures instead of a text. */
   get defaultName() {
     const { selection } = store;
-    if (this.default?.of !== selection && this.names.length) {
-      this.default = { of: selection, name: this.names[0] };
+    const { names } = this;
+    if (this.default?.of !== selection && names.length) {
+      const isText = typeof this.entity.attributes[names[0]].value === 'string';
+      this.default = { of: selection, name: isText && this.hasPictures ? undefined : names[0] };
     }
     return this.default?.of === selection ? this.default.name : undefined;
   }
@@ -195,7 +202,7 @@ class History extends HTMLElement {
       this.key = key;
       this.loadAttributes(entity ?? { name: shortId(selection ?? ''), identity: { id: selection } }, attributes, { mission, interval });
     }
-    const hasPictures = this.ofAll || entity?.kind === 'camera' || Boolean(entity && store.imageOf(entity));
+    const hasPictures = this.ofAll || this.hasPictures;
     this.loadPictures(hasPictures && `${key} ${this.ofAll}`, { entity: this.ofAll ? null : entity, range: () => this.range(), interval: interval && Math.max(MINUTE, interval) });
     this.showNone(selection ? 'noAttribute' : 'noDevice', attributes.length > 0 || hasPictures);
   }

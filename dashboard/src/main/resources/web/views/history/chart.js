@@ -1,6 +1,6 @@
 /** Draws one attribute over time, with a threshold. */
 import { h } from '../../core/dom.js';
-import { displayOf, label, number, plain } from '../../core/format.js';
+import { displayOf, label, number, plain, word } from '../../core/format.js';
 import { TimeChart, uPlot } from '../../core/time-chart.js';
 
 /** A pause this many times longer than usual is a gap. */
@@ -14,21 +14,25 @@ const MARGIN = 0.08;
  *
  * @typedef {Object} Series
  * @property {string} label @property {string} unit in words @property {boolean} isFlag whether values are yes and no
- * @property {number[]} times epoch ms @property {number[]} values in the unit that is shown
+ * @property {boolean} isText whether values are texts, each at its change
+ * @property {number[]} times epoch ms @property {Array<number|string>} values in the unit that is shown
  */
 
 /** @param {Object} history of the control plane @returns {Series} */
-export function seriesOf({ attribute, kind, unit, points }) {
+export function seriesOf({ attribute, kind, unit, points, changes }) {
+  if (kind === 'text') {
+    return { label: label(attribute), unit: '', isFlag: false, isText: true, times: changes.map(({ time }) => time), values: changes.map(({ value }) => value) };
+  }
   const values = points.map(({ value }) => value);
   const max = values.reduce((one, other) => Math.max(one, other), -Infinity);
   const { factor, words } = displayOf(attribute, { value: max, metadata: { unitCode: { value: unit } }, percent: max > 1 });
   const isFlag = kind === 'boolean';
-  return { label: label(attribute), unit: isFlag ? '' : words, isFlag, times: points.map(({ time }) => time), values: isFlag ? values : values.map((value) => value * factor) };
+  return { label: label(attribute), unit: isFlag ? '' : words, isFlag, isText: false, times: points.map(({ time }) => time), values: isFlag ? values : values.map((value) => value * factor) };
 }
 
 /** "21.5 °C", "yes". */
-export function wordsOf({ unit, isFlag }, value) {
-  return isFlag ? plain(value === 1) : `${number(value)} ${unit}`.trim();
+export function wordsOf({ unit, isFlag, isText }, value) {
+  return isText ? word(value) : isFlag ? plain(value === 1) : `${number(value)} ${unit}`.trim();
 }
 
 export class AttributeChart extends TimeChart {

@@ -1,20 +1,21 @@
 /** One attribute of a device over time: its chart or table, a threshold, and its files. */
 import { api } from '../../core/api.js';
-import { h, replace, setText } from '../../core/dom.js';
+import { h, setText } from '../../core/dom.js';
 import { csvOf } from '../../core/csv.js';
 import { download } from '../../core/download.js';
 import { dateTime, duration, label, number } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
-import { resource } from '../../core/resource.js';
 import { t } from '../../texts.js';
 import { AttributeChart, seriesOf, wordsOf } from './chart.js';
+import { PeriodPanel } from './period-panel.js';
 
 const MINUTE = 60_000;
 const MAX_ROWS = 500;
 
-export class AttributePanel {
+export class AttributePanel extends PeriodPanel {
   /** @param {number} place 1 or 2 @param {function()} changed is called when the user changes the threshold */
   constructor(place, changed) {
+    super();
     this.changed = changed;
     this.isTable = false;
     this.heading = h('h2.cut');
@@ -24,9 +25,7 @@ export class AttributePanel {
     this.asTable = h('button.button.small.quiet', { type: 'button', 'aria-pressed': 'false', on: { click: () => this.toggleTable() } }, icon('table', 16), t('analyses.table'));
     this.files = ['csv', 'png'].map((kind) => h('button.button.small.quiet', { type: 'button', on: { click: () => this.save(kind) } }, icon('download', 16), t(`history.${kind}`)));
     this.limit = h('div.row', null, h('label', { for: this.threshold.id }, t('history.threshold')), this.threshold);
-    this.tools = h('div.row.wrap.history-tools', null, this.limit, h('span.spacer'), this.asTable, this.files);
-    this.content = h('div');
-    this.notes = h('p.small.muted', { role: 'status' });
+    this.tools = h('div.row.wrap.history-tools', null, this.limit, h('span.spacer'), h('div.row', null, this.asTable, this.files));
     this.element = h('section.panel.stack.analysis.history-panel', null, h('div.row', null, this.heading, h('span.spacer'), this.now), this.tools, this.content, this.notes);
   }
 
@@ -37,18 +36,13 @@ export class AttributePanel {
    *     time of the request
    */
   load(request) {
-    this.close();
-    this.request = request;
     setText(this.heading, label(request.attribute));
     this.element.setAttribute('aria-label', label(request.attribute));
-    this.history = resource('', { interval: request.interval, read: () => api.get(request.path()) });
-    this.history.on(() => this.show());
-    this.show();
+    super.load(request);
   }
 
-  close() {
-    this.history?.close();
-    this.history = null;
+  read({ path }) {
+    return api.get(path());
   }
 
   /** Frees the chart too. */
@@ -58,31 +52,22 @@ export class AttributePanel {
   }
 
   show() {
-    const { value, error, loading } = this.history;
-    const found = Boolean(value?.points.length);
+    const { value } = this.history;
+    const found = Boolean(value?.points.length || value?.changes?.length);
     this.tools.hidden = !found;
-    setText(this.notes, notesOf(value, found && error));
-    this.notes.hidden = this.notes.textContent === '';
+    this.showNotes(found, value ? notesOf(value) : []);
     if (found) {
       this.series = seriesOf(value);
-      this.limit.hidden = this.series.isFlag || this.isTable;
-      this.isTable ? this.showTable() : this.showChart();
-      this.files[1].hidden = this.isTable;
+      const { isFlag, isText } = this.series;
+      const isTable = this.isTable || isText;
+      this.limit.hidden = isFlag || isTable;
+      this.asTable.hidden = isText;
+      this.files[1].hidden = isTable;
+      isTable ? this.showTable() : this.showChart();
       this.showNow(null);
-      return;
-    }
-    setText(this.now, '');
-    const state = loading ? 'loading' : error ? 'error' : value.kind;
-    this.put(`${state} ${error?.message}`, loading ? h('div.skeleton.analysis-skeleton', { 'aria-busy': 'true' })
-      : error ? h('p.error-note', { role: 'alert' }, icon('warning', 18), h('span', null, t('analyses.failed', { reason: error.message })), h('span.spacer'),
-        h('button.button.small', { type: 'button', on: { click: () => this.load(this.request) } }, t('analyses.retry')))
-        : h('div.empty', null, h('h3', null, t(`history.${value.kind}`)), h('p', null, t(`history.${value.kind}Hint`))));
-  }
-
-  put(kind, element) {
-    if (this.shown !== kind) {
-      this.shown = kind;
-      replace(this.content, element);
+    } else {
+      setText(this.now, '');
+      this.showNothing(value?.kind);
     }
   }
 
@@ -91,8 +76,10 @@ export class AttributePanel {
     const { values } = this.series;
     this.put('chart', this.chart.element);
     const [min, max] = [values.reduce((one, other) => Math.min(one, other)), values.reduce((one, other) => Math.max(one, other))];
-    this.chart.show(this.series, [value.from, value.to], t('history.chart', {
-      label: this.series.label, device: this.request.device, from: dateTime(value.from), to: dateTime(value.to), min: this.words(min), max: this.words(max), now: this.words(values.at(-1)),
+    // a period that ends now begins where something is stored: an hour of a young farm would be a dash at its end
+    const from = this.request.interval && value.since < value.to ? Math.max(value.from, Math.min(value.since, value.to - MINUTE)) : value.from;
+    this.chart.show(this.series, [from, value.to], t('history.chart', {
+      label: this.series.label, device: this.request.device, from: dateTime(from), to: dateTime(value.to), min: this.words(min), max: this.words(max), now: this.words(values.at(-1)),
     }));
     this.showThreshold();
   }
@@ -136,16 +123,10 @@ export class AttributePanel {
   }
 }
 
-/** What a reader must know of the numbers. @param {Error|null|false} error of the newest attempt, if older numbers are shown */
-function notesOf(value, error) {
-  if (!value) {
-    return '';
-  }
-  const { from, to, since, width, values, skipped } = value;
+/** What a reader must know of the numbers. */
+function notesOf({ kind, width, values, skipped }) {
   return [
-    since >= to ? t('history.notStored') : since > from + MINUTE && t('history.since', { time: dateTime(since) }),
     width > 0 && t('history.thinned', { values: number(values), part: duration(width) }),
-    skipped > 0 && value.kind !== 'other' && t('history.skipped', { count: skipped }),
-    error && t('analyses.failed', { reason: error.message }),
-  ].filter(Boolean).join(' ');
+    skipped > 0 && kind !== 'other' && t('history.skipped', { count: skipped }),
+  ];
 }

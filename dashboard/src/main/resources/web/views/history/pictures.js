@@ -4,17 +4,17 @@ import { h, replace, setText } from '../../core/dom.js';
 import { dateTime, shortId } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
 import { isIn, scopeOf } from '../../core/identities.js';
-import { resource } from '../../core/resource.js';
 import { store } from '../../core/store.js';
 import { historyIfAny } from '../../timeline/moments.js';
 import { t } from '../../texts.js';
+import { PeriodPanel } from './period-panel.js';
 
-const MINUTE = 60_000;
 const TOPIC = 'data.images';
 
-export class Pictures {
+export class Pictures extends PeriodPanel {
   /** @param {function()} changed is called when another picture is shown */
   constructor(changed) {
+    super();
     this.changed = changed;
     /** Time of the picture that is shown, or of the one to be shown, epoch ms; null for the newest. */
     this.at = null;
@@ -27,8 +27,6 @@ export class Pictures {
     this.next = this.button('chevron-right', 'next', 1);
     this.position = h('input', { type: 'range', min: 0, step: 1, 'aria-label': t('history.picture'), on: { input: () => this.go(Number(this.position.value)) } });
     this.viewer = h('div.stack', null, h('div.row', null, this.previous, this.position, this.next), h('figure.history-picture', null, this.caption, this.failed, this.image));
-    this.content = h('div');
-    this.notes = h('p.small.muted', { role: 'status' });
     this.element = h('section.panel.stack.analysis.history-pictures', { 'aria-label': t('history.pictures'), on: { keydown: (event) => this.key(event) } },
       h('div.row', null, h('h2', null, t('history.pictures')), h('span.spacer'), this.count), this.content, this.notes);
   }
@@ -38,20 +36,9 @@ export class Pictures {
   }
 
   /** @param {{entity: import('../../core/entity.js').Entity|null, range: function(): [number, number], interval: number}} request `entity`: null for all cameras */
-  load(request) {
-    this.close();
-    this.request = request;
-    this.history = resource('', { interval: request.interval, read: () => {
-      const [from, to] = request.range();
-      return historyIfAny(TOPIC, { from: Math.floor(from), to: Math.ceil(to) }).then((answer) => ({ from, ...answer }));
-    } });
-    this.history.on(() => this.show());
-    this.show();
-  }
-
-  close() {
-    this.history?.close();
-    this.history = null;
+  read({ range }) {
+    const [from, to] = range();
+    return historyIfAny(TOPIC, { from: Math.floor(from), to: Math.ceil(to) }).then((answer) => ({ from, to, ...answer }));
   }
 
   release() {
@@ -61,29 +48,18 @@ export class Pictures {
   }
 
   show() {
-    const { value, error, loading } = this.history;
+    const { value } = this.history;
     this.found = (value?.records ?? []).filter((record) => typeof record.value?.sha256 === 'string' && this.isShown(record)).sort((one, other) => one.time - other.time);
     const { found } = this;
     setText(this.count, found.length ? t('history.pictureCount', { count: found.length }) : '');
-    setText(this.notes, [value && value.since > value.from + MINUTE && t('history.since', { time: dateTime(value.since) }), found.length > 0 && error && t('analyses.failed', { reason: error.message })].filter(Boolean).join(' '));
-    this.notes.hidden = this.notes.textContent === '';
+    this.showNotes(found.length > 0);
     if (found.length) {
       this.put('viewer', this.viewer);
       this.position.max = found.length - 1;
       const at = this.at === null ? found.length - 1 : nearest(found, this.at);
       this.go(at, false);
     } else {
-      this.put(loading ? 'loading' : `${error?.message}`, loading ? h('div.skeleton.analysis-skeleton', { 'aria-busy': 'true' })
-        : error ? h('p.error-note', { role: 'alert' }, icon('warning', 18), h('span', null, t('analyses.failed', { reason: error.message })), h('span.spacer'),
-          h('button.button.small', { type: 'button', on: { click: () => this.load(this.request) } }, t('analyses.retry')))
-          : h('div.empty', null, h('h3', null, t('history.noPictures')), h('p', null, t('history.noPicturesHint'))));
-    }
-  }
-
-  put(kind, element) {
-    if (this.shown !== kind) {
-      this.shown = kind;
-      replace(this.content, element);
+      this.showNothing('noPictures');
     }
   }
 

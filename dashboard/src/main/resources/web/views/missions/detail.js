@@ -1,7 +1,8 @@
 /** Shows a mission: its progress, its devices, and the commands sent to it. */
+import { detailOf } from '../../alarms/sentence.js';
 import { api } from '../../core/api.js';
 import { csvButton, dateOf } from '../../core/csv.js';
-import { age, dateTime, duration, shortId } from '../../core/format.js';
+import { age, dateTime, duration, readable, shortId } from '../../core/format.js';
 import { h, replace } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
 import { linkTo, navigate } from '../../core/router.js';
@@ -72,7 +73,7 @@ export class MissionDetail {
 
   missing(status) {
     return status?.missing.length > 0 && h('ul.findings', null, status.missing.map((each) => h('li.finding.is-warning', null, icon('warning', 18),
-      h('div', null, h('strong', null, shortId(each.id)), h('p.small', null, each.reason ?? t('missions.notYet'))))));
+      h('div', null, h('strong', null, shortId(each.id)), h('p.small', null, detailOf(each) ?? readable(each.reason ?? t('missions.notYet')))))));
   }
 
   buttons(mission) {

@@ -116,6 +116,20 @@ class HistoryIT extends StubbedPage {
     }
 
     @Test
+    void beginsWhereSomethingIsStored() {
+        farm.answers(PATH, history("number", 3).replaceAll("\"since\": \\d+", "\"since\": " + (now - 4 * MINUTE)));
+        FarmPage page = farm.open("#/history?select=" + ROBOT, 1440, 900);
+        Locator chart = page.find(".history-panel [role=img]");
+        assertThat(chart).isVisible();
+        page.until(() -> page.is("document.querySelector('furrow-history').panels[0].chart.range[0] === "
+                + (now - 4 * MINUTE)));
+
+        page.run("location.hash = '#/history?select=" + ROBOT + "&between=" + (now - 60 * MINUTE) + "~" + now + "'");
+        page.until(() -> page.is("document.querySelector('furrow-history').panels[0].chart.range[0] === "
+                + (now - 60 * MINUTE)));
+    }
+
+    @Test
     void distinguishesLoadingEmptyAndFailed() {
         farm.answers(PATH, "");
         FarmPage page = farm.open("#/history?select=" + ROBOT, 1440, 900);
@@ -130,7 +144,22 @@ class HistoryIT extends StubbedPage {
         assertThat(page.find(".history-panel")).containsText("No value in this period");
         farm.answers(PATH, history("other", 0));
         page.page().reload();
-        assertThat(page.find(".history-panel")).containsText("Not a number");
+        assertThat(page.find(".history-panel")).containsText("No number and no text");
+    }
+
+    @Test
+    void listsTheChangesOfAText() throws Exception {
+        String changes = "\"changes\": [{\"time\": %d, \"value\": \"Running\"}, {\"time\": %d, \"value\": \"idle\"}],"
+                .formatted(now - 2 * MINUTE, now - MINUTE);
+        farm.isReadIn("es").answers(PATH, history("text", 0).replace("\"missions\"", changes + " \"missions\""));
+        FarmPage page = farm.open("#/history?attribute=state&select=" + ROBOT, 1440, 900);
+        Locator panel = page.find(".history-panel");
+        assertThat(panel.locator("tbody tr")).hasCount(2);
+        assertThat(panel.locator("tbody tr").first()).containsText("inactivo");
+        assertThat(panel.getByText("PNG")).isHidden();
+        assertThat(page.find("#history-attribute-0 option")).containsText(new String[] {"Velocidad", "Estado"});
+        Download csv = page.page().waitForDownload(() -> page.button("CSV").click());
+        assertThat(Files.readAllLines(csv.path()).get(2)).endsWith("Z,Robot 1,state,idle,");
     }
 
     @Test
@@ -232,6 +261,9 @@ class HistoryIT extends StubbedPage {
                                     "document.querySelector('.view-place').scrollWidth - document.querySelector('.view-place').clientWidth"))
                     .as("width %d", size[0])
                     .isZero();
+            assertThat(page.button("PNG").first().boundingBox().y)
+                    .as("width %d", size[0])
+                    .isEqualTo(page.button("Table").first().boundingBox().y);
             assertThat(new AxeBuilder(page.page()).analyze().getViolations())
                     .as("width %d", size[0])
                     .extracting(rule -> rule.getId())

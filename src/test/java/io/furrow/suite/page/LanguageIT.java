@@ -4,6 +4,7 @@ import java.util.List;
 import java.util.stream.Stream;
 
 import com.deque.html.axecore.playwright.AxeBuilder;
+import com.microsoft.playwright.Locator;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -30,7 +31,7 @@ class LanguageIT extends StubbedPage {
                   const flat = (section, path = '') => Object.entries(section).flatMap(([name, text]) =>
                     typeof text === 'object' ? flat(text, `${path}${name}.`) : `${path}${name} ${[...text.matchAll(/\\{(\\w+)/g)].map((hole) => hole[1]).sort()}`);
                   const english = flat((await import('/texts.js')).texts);
-                  const spanish = flat({ ...(await import('/texts.es.js')).texts, words: {}, sentences: {}, groups: {}, refusals: {} });
+                  const spanish = flat({ ...(await import('/texts.es.js')).texts, words: {}, sentences: {}, details: {}, groups: {}, refusals: {} });
                   const without = (ours, theirs) => ours.filter((each) => !theirs.includes(each));
                   return [...without(english, spanish), ...without(spanish, english)];
                 }""")).isEmpty();
@@ -58,11 +59,45 @@ class LanguageIT extends StubbedPage {
                          "devices": [{"id": "urn:ngsi-ld:Robot:1", "type": "ROBOT"}, {"id": "urn:ngsi-ld:Robot:2", "type": "ROBOT"}]}""")
                 .has("service.alarms", "f", """
                         {"alarm": "f", "kind": "fault", "severity": "major", "text": "the task 0 failed", "subject": "f", "raised": 1, "count": 1, "state": "open"}""")
+                .has("service.alarms", "k", """
+                        {"alarm": "k", "kind": "fault", "severity": "major", "text": "…", "subject": "k", "raised": 1, "count": 1, "state": "open",
+                         "details": [{"code": "connector-failed", "values": {"connector": "ngsi", "failure": "no disk", "command": "curl"}}]}""")
+                .has("service.alarms", "s", """
+                        {"alarm": "s", "kind": "silent-device", "severity": "minor", "text": "…", "subject": "s", "raised": 1, "count": 1, "state": "open",
+                         "group": "urn:ngsi-ld:Mission:m", "affected": 2, "total": 3, "devices": [{"id": "urn:ngsi-ld:Robot:1"}, {"id": "urn:ngsi-ld:Robot:2"}],
+                         "details": [{"device": "urn:ngsi-ld:Robot:2", "code": "wrong-password", "values": {"count": "1", "time": "0", "user": "u"}}]}""")
                 .open("", 1440, 900);
 
-        assertThat(page.find(".alarm.critical .alarm-text")).hasText("Robot 1 y Robot 2 están a 2,1\u00a0m");
-        assertThat(page.find(".alarm.major .alarm-text")).hasText("the task 0 failed");
-        assertThat(page.find(".alarm.major .alarm-text")).hasAttribute("lang", "en");
+        assertThat(page.find(".alarm.minor .alarm-text"))
+                .hasText(
+                        "2 de 3 dispositivos de la misión m sin señal: Robot 1, Robot 2 (su contraseña fue rechazada 1 vez; la última: 1 ene 1970, 01:00:00)");
+        assertThat(page.find(".alarm.major .alarm-text").last())
+                .hasText("El conector ngsi falló: no disk. Corríjalo y después: curl");
+        assertThat(page.find(".alarm.critical .alarm-text")).hasText("Robot 1 y Robot 2 llegaron a 2,1\u00a0m");
+        assertThat(page.find(".alarm.major .alarm-text").first()).hasText("the task 0 failed");
+        assertThat(page.find(".alarm.major .alarm-text").first()).hasAttribute("lang", "en");
+    }
+
+    /** The map writes the same distances beside the pair. */
+    @Test
+    void saysTheDistancesOfACollision() {
+        String encounter = """
+                {"type": "Analytics:Collision", "encounter": {"value": "e"}, "phase": {"value": "%s"}, "distance": {"value": 4}, "minDistance": {"value": 3},
+                 "Device1_ID": {"value": "urn:ngsi-ld:Robot:1"}, "Device2_ID": {"value": "urn:ngsi-ld:Robot:2"}}""";
+        FarmPage page = farm.hasRobot(2)
+                .has("data.collision", "e", encounter.formatted("ongoing"))
+                .has("service.alarms", "c", """
+                        {"alarm": "c", "kind": "collision", "severity": "critical", "text": "…", "values": {"meters": 4.7}, "subject": "c", "raised": 1, "count": 1, "state": "open",
+                         "devices": [{"id": "urn:ngsi-ld:Robot:1", "type": "ROBOT"}, {"id": "urn:ngsi-ld:Robot:2", "type": "ROBOT"}]}""")
+                .open("", 1440, 900);
+        Locator text = page.find(".alarm.critical .alarm-text");
+        assertThat(text).hasText("Robot 1 and Robot 2 are 11.1\u00a0m apart, closest 3.0\u00a0m");
+        assertThat(text).hasAttribute("lang", "en");
+
+        farm.send("data.raw", "urn:ngsi-ld:Robot:2", StubFarm.robot(2, "Running", "farm", "weeding", 40.31262, -3.4822));
+        assertThat(text).hasText("Robot 1 and Robot 2 are 2.2\u00a0m apart, closest 2.2\u00a0m");
+        farm.send("data.collision", "e", encounter.formatted("ended"));
+        assertThat(text).hasText("Robot 1 and Robot 2 came within 3.0\u00a0m");
     }
 
     @Test

@@ -5,6 +5,7 @@ import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.function.Consumer;
 import java.util.regex.Pattern;
 import java.util.stream.Stream;
 
@@ -73,6 +74,38 @@ class LostConnectionIT {
         farm.page().unroute("**/api/register/**");
 
         farm.untilStore(COLLISIONS + ".gap > 2");
+    }
+
+    /** The notice says how many records were missed; it would grow while streams return one after the other. */
+    @Test
+    void reconnectsAllStreamsAtOnce(PageSuite suite) {
+        List<WebSocketRoute> open = new ArrayList<>();
+        FarmPage farm = withMockedServer(suite, Map.of(), open).expectingError("ERR_FAILED|Failed to load resource");
+        farm.page().route("**/api/history/**", EmptyFarmIT::answerEmpty);
+        farm.open("");
+        farm.untilStore("[...store.topics.values()].filter((each) => each.state === 'open').length > 6");
+
+        Consumer<Route> refusal = Route::abort;
+        farm.page().route("**/api/register/**", refusal);
+        farm.store("""
+                (() => {
+                  const lost = [...store.topics.values()].filter((each) => each.state === 'open');
+                  Object.assign(window, { lost, lostAt: Date.now() });
+                  store.on('topics', () => lost.forEach((each) => {
+                    each.wasLost ||= each.state !== 'open';
+                    each.state === 'open' && each.wasLost && (each.openedAt ??= Date.now());
+                  }));
+                })()""");
+        List.copyOf(open).forEach(WebSocketRoute::close);
+        // until the intervals between attempts have grown
+        farm.untilStore("Date.now() - lostAt > 12_000");
+        farm.page().unroute("**/api/register/**", refusal);
+
+        farm.untilStore("lost.every((each) => each.openedAt)");
+        Assertions.assertThat(
+                        (List<?>) farm.store(
+                                "lost.filter((each) => each.openedAt - Math.min(...lost.map(({ openedAt }) => openedAt)) > 2_500).map(({ name }) => name)"))
+                .isEmpty();
     }
 
     /** The initial state contains no deletions, and lags behind the reports of entities. */

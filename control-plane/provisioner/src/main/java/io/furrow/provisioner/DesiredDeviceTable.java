@@ -12,6 +12,7 @@ import java.util.stream.Collectors;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.control.Fault;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.MissionDeviceLists;
 import io.furrow.model.event.FiwareScope;
@@ -122,14 +123,14 @@ final class DesiredDeviceTable {
     }
 
     /** Returns which devices are undecided or cannot be read, and what to do. */
-    String undecidedText() {
+    Fault undecidedFault() {
         Set<String> keys = undecidedKeys();
-        return "the desired state of %d devices cannot be read (%s%s): their records on %s, or the device lists of their missions, are of another version; they keep their logins and registrations, but no changes; update Furrow here, or start their missions again"
-                .formatted(
-                        keys.size(),
-                        keys.stream().limit(MAX_NAMED).collect(Collectors.joining(", ")),
-                        keys.size() > MAX_NAMED ? ", …" : "",
-                        Topics.DEVICES);
+        String named = keys.stream().limit(MAX_NAMED).collect(Collectors.joining(", "))
+                + (keys.size() > MAX_NAMED ? ", …" : "");
+        String text =
+                "the desired state of %d devices cannot be read (%s): their records on %s, or the device lists of their missions, are of another version; they keep their logins and registrations, but no changes; update Furrow here, or start their missions again"
+                        .formatted(keys.size(), named, Topics.DEVICES);
+        return new Fault(text, "devices-undecided", Map.of("count", String.valueOf(keys.size()), "devices", named));
     }
 
     Map<String, DesiredDevice> all() {

@@ -72,9 +72,9 @@ final class FailureReporter {
             undecidedReported = now;
         } else if (now - undecidedReported >= REPORT_INTERVAL.toNanos()) {
             undecidedReported = now;
-            String text = desired.undecidedText();
-            LOG.warn(text);
-            producer.send(new ProducerRecord<>(Topics.FAULTS, "provisioner devices", new Fault(text).toBytes()));
+            Fault fault = desired.undecidedFault();
+            LOG.warn(fault.text());
+            producer.send(new ProducerRecord<>(Topics.FAULTS, "provisioner devices", fault.toBytes()));
         }
     }
 

@@ -29,7 +29,6 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
 import io.furrow.kafka.KafkaClients;
-import io.furrow.model.control.Fault;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.ngsi.UnreadableException;
@@ -217,7 +216,8 @@ final class ProvisioningWorker implements AutoCloseable {
     private void reportRetained() {
         if (retained != null && System.nanoTime() - retainedReported >= FailureReporter.REPORT_INTERVAL.toNanos()) {
             retainedReported = System.nanoTime();
-            producer.send(new ProducerRecord<>(Topics.FAULTS, "provisioner", new Fault(retained.text()).toBytes()));
+            producer.send(new ProducerRecord<>(
+                    Topics.FAULTS, "provisioner", retained.fault().toBytes()));
         }
     }
 

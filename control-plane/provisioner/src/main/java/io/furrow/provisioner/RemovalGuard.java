@@ -4,8 +4,10 @@ import java.util.ArrayList;
 import java.util.Collection;
 import java.util.HashSet;
 import java.util.List;
+import java.util.Map;
 import java.util.Set;
 
+import io.furrow.model.control.Fault;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.provisioner.AgentClient.Group;
 
@@ -57,11 +59,26 @@ final class RemovalGuard {
 
         /** Returns what was retained, why, and what to do. */
         String text() {
+            return "%s: it is empty, or they were created for another Kafka (%s). Check --kafka; after a loss of Kafka's data, start their missions again; --forget-devices removes those that are not desired"
+                    .formatted(summary(), named());
+        }
+
+        Fault fault() {
+            return new Fault(
+                    text(),
+                    "devices-retained",
+                    Map.of(
+                            "accounts", String.valueOf(accounts.size()),
+                            "devices", String.valueOf(devices.size()),
+                            "groups", String.valueOf(groups.size()),
+                            "names", named()));
+        }
+
+        private String named() {
             List<String> names = new ArrayList<>(devices.isEmpty() ? accounts : devices);
             names.addAll(names.isEmpty() ? groups : List.of());
-            String named = String.join(", ", names.subList(0, Math.min(names.size(), MAX_NAMED)));
-            return "%s: it is empty, or they were created for another Kafka (%s%s). Check --kafka; after a loss of Kafka's data, start their missions again; --forget-devices removes those that are not desired"
-                    .formatted(summary(), named, names.size() > MAX_NAMED ? ", …" : "");
+            String some = String.join(", ", names.subList(0, Math.min(names.size(), MAX_NAMED)));
+            return names.size() > MAX_NAMED ? some + ", …" : some;
         }
 
         private static List<String> sorted(Collection<String> names) {

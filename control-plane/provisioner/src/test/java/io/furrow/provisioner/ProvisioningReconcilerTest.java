@@ -291,7 +291,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         assertThat(agent.deviceIds()).containsExactly(device.device());
         assertThat(agent.apiKeys()).containsExactly(KEY);
         assertThat(authenticates(SECRET.device("hoeing", device.device()))).isTrue();
-        assertThat(desired.undecidedText()).contains("1 devices", device.device());
+        assertThat(desired.undecidedFault().text()).contains("1 devices", device.device());
     }
 
     @Test
@@ -307,7 +307,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
 
         assertThat(agent.deviceIds()).containsExactly(device.device());
         assertThat(authenticates(SECRET.device("hoeing", device.device()))).isTrue();
-        assertThat(desired.undecidedText()).contains("1 devices", device.device());
+        assertThat(desired.undecidedFault().text()).contains("1 devices", device.device());
 
         desired.take("farm|/|" + device.device(), null);
         provisioning.step();

@@ -128,6 +128,23 @@ class EncounterAlarmsTest {
     }
 
     @Test
+    void saysTheSmallestDistanceOfAllItsEncounters() throws Exception {
+        farm.encounter("started", 4.7);
+        farm.encounter("ongoing", 3.2);
+        farm.encounter("ended", 3.0);
+        List<JsonNode> all = farm.all(Topics.ALARMS);
+        assertThat(all)
+                .extracting(alarm -> alarm.path("text").asText().replaceAll(".* came", "came"))
+                .containsExactly("came within 4.7 m", "came within 3.0 m");
+        assertThat(all.get(1).at("/values/meters").asDouble()).isEqualTo(3.0);
+        assertThat(all.get(1).path("sequence")).isEqualTo(all.get(0).path("sequence"));
+
+        farm.encounter("started", 4.8);
+        farm.encounter("ended", 4.5);
+        assertThat(farm.newest(Topics.ALARMS).at("/values/meters").asDouble()).isEqualTo(3.0);
+    }
+
+    @Test
     void endsACollisionWhoseEndWasLost() throws Exception {
         farm.encounter("started", 3.2);
         farm.pass(Duration.ofMinutes(50));

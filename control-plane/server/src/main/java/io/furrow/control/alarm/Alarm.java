@@ -46,14 +46,16 @@ public record Alarm(
      *
      * @param text human-readable sentence
      * @param values numbers in the sentence, by name
+     * @param details what the sentence says of single devices, or of a fault
      * @param devices devices concerned, at most {@value Cause#MAX_DEVICES}
      */
     public record Description(
             String text,
             @JsonInclude(JsonInclude.Include.NON_EMPTY) Map<String, Double> values,
+            @JsonInclude(JsonInclude.Include.NON_EMPTY) List<Cause.Detail> details,
             List<Cause.AffectedDevice> devices) {
         private static Description of(Cause cause) {
-            return new Description(cause.text(), cause.values(), cause.devices());
+            return new Description(cause.text(), cause.values(), cause.details(), cause.devices());
         }
     }
 
@@ -253,7 +255,7 @@ public record Alarm(
 
     /** Copies only the text from the cause; this is not a change, so it is not delivered. */
     Alarm reworded(Cause cause) {
-        return described(new Description(cause.text(), cause.values(), description.devices), extent);
+        return described(new Description(cause.text(), cause.values(), cause.details(), description.devices), extent);
     }
 
     private Alarm described(Description newDescription, Extent newExtent) {

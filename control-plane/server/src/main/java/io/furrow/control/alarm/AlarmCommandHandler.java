@@ -4,6 +4,7 @@ import java.time.Duration;
 import java.util.Comparator;
 import java.util.HashSet;
 import java.util.List;
+import java.util.Map;
 import java.util.OptionalLong;
 import java.util.Set;
 import java.util.function.Predicate;
@@ -78,6 +79,18 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
             reworded(existing, cause);
         }
         raise(cause, now);
+    }
+
+    /** Rewords the alarm of a cause, if there is one and a value of the cause is less than that of the alarm. */
+    public void lower(Cause cause, String name) {
+        Alarm existing = current(cause.kind(), cause.identity());
+        Double value = cause.values().get(name);
+        if (existing != null && value != null) {
+            Map<String, Double> before = existing.description().values(); // null in alarms of older versions
+            if (before == null || value < before.getOrDefault(name, Double.POSITIVE_INFINITY)) {
+                reworded(existing, cause);
+            }
+        }
     }
 
     /** Closes the alarm of a kind and identity, if there is one. */

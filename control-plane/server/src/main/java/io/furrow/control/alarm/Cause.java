@@ -4,6 +4,8 @@ import java.time.Duration;
 import java.util.List;
 import java.util.Map;
 
+import com.fasterxml.jackson.annotation.JsonInclude;
+
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.event.FiwareScope;
 
@@ -15,6 +17,7 @@ import io.furrow.model.event.FiwareScope;
  *     that is unambiguous. There is at most one open alarm per kind and identity
  * @param text human-readable sentence
  * @param values numbers in the sentence, by name, from which a client can write it in another language
+ * @param details what the sentence says of single devices, or of a fault
  * @param devices devices concerned, at most {@value #MAX_DEVICES}
  * @param validity period until the alarm expires unless the cause is repeated; null if it lasts until ended explicitly
  * @param group entity of the mission, domain or field, which limits the number of individual alarms; null if none
@@ -26,6 +29,7 @@ public record Cause(
         String identity,
         String text,
         Map<String, Double> values,
+        List<Detail> details,
         List<AffectedDevice> devices,
         Duration validity,
         String group,
@@ -52,6 +56,18 @@ public record Cause(
     }
 
     /**
+     * A part of the sentence, from which a client can write it in another language.
+     *
+     * @param device id of the entity; null if it is about none
+     * @param code kind of what is said
+     * @param values names, numbers and times in it, by name; times are epoch ms
+     */
+    public record Detail(
+            String device,
+            String code,
+            @JsonInclude(JsonInclude.Include.NON_EMPTY) Map<String, String> values) {}
+
+    /**
      * Number of affected devices or pairs.
      *
      * @param total out of how many; null if unknown
@@ -64,27 +80,31 @@ public record Cause(
 
     /** Creates an individual cause without a group. */
     public Cause(AlarmKind kind, String subject, String text, List<AffectedDevice> devices, Duration validity) {
-        this(kind, subject, subject, text, Map.of(), devices, validity, null, null);
+        this(kind, subject, subject, text, Map.of(), List.of(), devices, validity, null, null);
     }
 
     /** @param value left out if it is not finite */
     public Cause withValue(String name, double value) {
         Map<String, Double> newValues = Double.isFinite(value) ? Map.of(name, value) : Map.of();
-        return new Cause(kind, subject, identity, text, newValues, devices, validity, group, extent);
+        return new Cause(kind, subject, identity, text, newValues, details, devices, validity, group, extent);
+    }
+
+    public Cause withDetails(List<Detail> newDetails) {
+        return new Cause(kind, subject, identity, text, values, newDetails, devices, validity, group, extent);
     }
 
     public Cause inGroup(String newGroup) {
-        return new Cause(kind, subject, identity, text, values, devices, validity, newGroup, extent);
+        return new Cause(kind, subject, identity, text, values, details, devices, validity, newGroup, extent);
     }
 
     /** @param newIdentity of {@link FiwareScope#identity(String, String)}, of the types and the subject */
     public Cause identifiedBy(String newIdentity) {
-        return new Cause(kind, subject, newIdentity, text, values, devices, validity, group, extent);
+        return new Cause(kind, subject, newIdentity, text, values, details, devices, validity, group, extent);
     }
 
     /** Creates a group cause that lasts until it is ended explicitly. */
     public static Cause ofMany(AlarmKind kind, String group, String text, List<AffectedDevice> devices, Extent extent) {
-        return new Cause(kind, group, group, text, Map.of(), devices, null, group, extent);
+        return new Cause(kind, group, group, text, Map.of(), List.of(), devices, null, group, extent);
     }
 
     static String key(AlarmKind kind, String identity) {

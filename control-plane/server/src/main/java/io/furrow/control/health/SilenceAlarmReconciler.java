@@ -123,6 +123,17 @@ final class SilenceAlarmReconciler {
                     .toList();
         }
 
+        /** The causes in the list of {@link #named()}. */
+        List<Cause.Detail> details() {
+            return silent.stream()
+                    .sorted(OLDEST)
+                    .limit(NAMED)
+                    .filter(device -> device.cause() != null)
+                    .map(device -> new Cause.Detail(
+                            device.id(), device.cause().code(), device.cause().values()))
+                    .toList();
+        }
+
         /** Human-readable list: some by their ids, the rest by number. */
         String named() {
             String ids = silent.stream()
@@ -224,7 +235,8 @@ final class SilenceAlarmReconciler {
             causes.add(inhibitor);
         }
         String named = text + ": " + members.named();
-        Cause some = Cause.ofMany(AlarmKind.SILENT_DEVICE, group, named, members.some(), members.extent());
+        Cause some = Cause.ofMany(AlarmKind.SILENT_DEVICE, group, named, members.some(), members.extent())
+                .withDetails(members.details());
         alarms.report(some, inhibitor, now);
         causes.add(some);
     }

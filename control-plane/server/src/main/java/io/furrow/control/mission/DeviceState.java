@@ -54,13 +54,16 @@ record DeviceState(
 
     MissionStatus.Missing missing() {
         DesiredDevice device = device();
-        String why = reason;
+        String id = device.version().id();
         if (device.running() && !device.simulated()) {
-            why = silence().text();
-        } else if (device.running() && why == null) {
-            why = "nothing simulates it: start ./furrow up with --simulate-devices, or ./furrow device-host";
+            SilenceCause cause = silence();
+            return new MissionStatus.Missing(id, cause.text(), cause.code(), cause.values());
         }
-        return new MissionStatus.Missing(device.version().id(), why);
+        if (device.running() && reason == null) {
+            String why = "nothing simulates it: start ./furrow up with --simulate-devices, or ./furrow device-host";
+            return new MissionStatus.Missing(id, why, "not-simulated", null);
+        }
+        return new MissionStatus.Missing(id, reason);
     }
 
     DeviceState asForgotten() {

@@ -2,7 +2,10 @@ package io.furrow.control.mission;
 
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
 import java.util.stream.Collectors;
+
+import com.fasterxml.jackson.annotation.JsonInclude;
 
 import io.furrow.model.ngsi.StateRecord;
 import io.furrow.model.text.Counts;
@@ -35,15 +38,26 @@ public record MissionStatus(
         implements StateRecord {
     static final int MAX_NAMED = 100;
 
-    private static final int MAX_EXPLAINED = 3;
+    /** Number of missing devices that {@link #reason} names. */
+    public static final int MAX_EXPLAINED = 3;
 
     /**
      * A device that is not in the desired state.
      *
      * @param id of its entity
      * @param reason a sentence; null if unknown
+     * @param code kind of reason; null if it has none
+     * @param values names, numbers and times in the sentence, by name; times are epoch ms
      */
-    public record Missing(String id, String reason) {}
+    public record Missing(
+            String id,
+            String reason,
+            String code,
+            @JsonInclude(JsonInclude.Include.NON_EMPTY) Map<String, String> values) {
+        Missing(String id, String reason) {
+            this(id, reason, null, null);
+        }
+    }
 
     static MissionStatus created(Mission mission, long now) {
         return new MissionStatus(

@@ -147,10 +147,14 @@ public final class ConnectorWatch implements AutoCloseable {
         Instant before = reported.get(name);
         if (before == null || !before.plus(REPORT_INTERVAL).isAfter(clock.instant())) {
             reported.put(name, clock.instant());
-            String text =
-                    "connector %s: %s. Correct that, then: curl -X POST \"%s/connectors/%s/restart?includeTasks=true&onlyFailed=true\""
-                            .formatted(name, String.join("; ", failures), connect, name);
-            producer.send(new ProducerRecord<>(Topics.FAULTS, "connector " + name, new Fault(text).toBytes()));
+            String failure = String.join("; ", failures);
+            String command = "curl -X POST \"%s/connectors/%s/restart?includeTasks=true&onlyFailed=true\""
+                    .formatted(connect, name);
+            Fault fault = new Fault(
+                    "connector %s: %s. Correct that, then: %s".formatted(name, failure, command),
+                    "connector-failed",
+                    Map.of("connector", name, "failure", failure, "command", command));
+            producer.send(new ProducerRecord<>(Topics.FAULTS, "connector " + name, fault.toBytes()));
         }
     }
 

@@ -1,5 +1,7 @@
 package io.furrow.control.health;
 
+import java.util.Map;
+
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.device.DeviceConnection;
@@ -51,7 +53,7 @@ class SilenceCauseTest {
     @Test
     void reportsAMissingRegistration() {
         assertThat(SilenceCause.of(new DeviceConnection(START, START, REFUSED, null, null, false), null))
-                .contains(new SilenceCause("not-registered", "the IoT Agent does not know it", 0));
+                .contains(new SilenceCause("not-registered", "the IoT Agent does not know it", 0, Map.of()));
     }
 
     @Test

@@ -2,6 +2,7 @@ package io.furrow.control.mission;
 
 import java.time.Duration;
 import java.time.Instant;
+import java.util.Map;
 
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
@@ -92,7 +93,9 @@ class MissionLifeTest {
                         new MissionStatus.Missing("urn:ngsi-ld:Camera:m-2", "why"),
                         new MissionStatus.Missing(
                                 "urn:ngsi-ld:Camera:m-3",
-                                "nothing simulates it: start ./furrow up with --simulate-devices, or ./furrow device-host"));
+                                "nothing simulates it: start ./furrow up with --simulate-devices, or ./furrow device-host",
+                                "not-simulated",
+                                null));
 
         farm.report(farm.device("urn:ngsi-ld:Camera:m-3"), State.RUNNING);
         assertThat(farm.status("m").missing()).hasSize(1);
@@ -145,7 +148,8 @@ class MissionLifeTest {
 
         farm.report(farm.device("urn:ngsi-ld:Thermometer:m-1"), State.FAILED);
         assertThat(farm.status("m").missing())
-                .contains(new MissionStatus.Missing("urn:ngsi-ld:Thermometer:m-1", "why"));
+                .contains(new MissionStatus.Missing(
+                        "urn:ngsi-ld:Thermometer:m-1", "why", "not-provisioned", Map.of("failure", "why")));
         farm.report(farm.device("urn:ngsi-ld:Thermometer:m-1"), farm.now);
         assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
         assertThat(farm.status("m").missing()).hasSize(3);

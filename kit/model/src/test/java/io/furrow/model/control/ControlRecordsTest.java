@@ -38,6 +38,7 @@ class ControlRecordsTest {
             version; {'id':'a','service':'farm','servicePath':'/','domain':'d','mission':'m','from':1,'until':2,'sequence':3,'carriedBy':'b','stationary':true}
             list; {'mission':'m','part':0,'sequence':7,'devices':['a',{'type':'T','speed':1.50}]}
             fault; {'text':'t'}
+            fault; {'text':'t','code':'c','values':{'a':'1'}}
             secret; {'newest':10,'apiKeys':1,'fingerprints':{'1':'a','2':'b','10':'c'}}
             """)
     void writesRecordsAsTheyWereRead(String kind, String record) throws Exception {

@@ -32,6 +32,7 @@ import io.furrow.model.ngsi.Numbers;
 public final class AttributeHistory extends StoredDatabase {
     private static final int PAGE = 2_000;
     private static final String VALUE = "value";
+    private static final int MAX_TEXT = 100;
 
     private final int page;
 
@@ -67,9 +68,11 @@ public final class AttributeHistory extends StoredDatabase {
      * @param type of the entity
      * @param number a number or the number in a text as {@link Numbers} reads it, 1 for true, 0 for false; NaN for
      *     anything else
+     * @param text the text, if it is no number, truncated to {@value #MAX_TEXT} characters; empty if it is none
      * @param unit metadata {@code unitCode}, else {@code unit}; empty if there is none
      */
-    public record Value(long time, FiwareScope scope, String type, double number, boolean isBoolean, String unit) {}
+    public record Value(
+            long time, FiwareScope scope, String type, double number, boolean isBoolean, String text, String unit) {}
 
     /**
      * Reads the values, the newest first, until all were read or the time is over.
@@ -139,12 +142,15 @@ public final class AttributeHistory extends StoredDatabase {
         }
         BsonValue value = attribute.get(VALUE);
         BsonValue headers = document.get(EventDocumentCodec.HEADERS);
+        double number = number(value);
+        String text = Double.isNaN(number) ? text(attribute, VALUE) : "";
         return Optional.of(new Value(
                 OrderedDocumentReader.time(document),
                 FiwareScope.of(text(headers, HeaderNames.SERVICE), text(headers, HeaderNames.SERVICE_PATH)),
                 text(document, "type"),
-                number(value),
+                number,
                 value instanceof BsonBoolean,
+                text.length() <= MAX_TEXT ? text : text.substring(0, MAX_TEXT) + "…",
                 unit(attribute)));
     }
 

@@ -169,6 +169,7 @@ class AttributeHistoryTest {
                         "Thermometer",
                         Double.parseDouble(parts[1]),
                         parts[0].equals("true"),
+                        parts[0].equals("\"Running\"") ? "Running" : "",
                         "km"));
     }
 

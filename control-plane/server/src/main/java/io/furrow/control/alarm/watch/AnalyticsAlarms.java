@@ -64,8 +64,14 @@ public final class AnalyticsAlarms {
 
     /** @param faults the records of {@code service.faults}, in a single partition */
     public static void addFaults(KStream<String, byte[]> faults, Types types) {
-        add(faults, "faults", types, (alarms, unit) -> (Observer.OfStatuses) (key, value, now) -> alarms.raiseReworded(
-                new Cause(AlarmKind.FAULT, key, Fault.read(value).text(), List.of(), FAULT_VALIDITY), now));
+        add(faults, "faults", types, (alarms, unit) ->
+                (Observer.OfStatuses) (key, value, now) -> alarms.raiseReworded(cause(key, Fault.read(value)), now));
+    }
+
+    private static Cause cause(String part, Fault fault) {
+        List<Cause.Detail> details =
+                fault.code() == null ? List.of() : List.of(new Cause.Detail(null, fault.code(), fault.values()));
+        return new Cause(AlarmKind.FAULT, part, fault.text(), List.of(), FAULT_VALIDITY).withDetails(details);
     }
 
     /**

@@ -26,6 +26,8 @@ import io.furrow.model.ngsi.UnreadableException;
  */
 public record EncounterAlarmProcessor(
         AlarmCommandHandler alarms, Function<String, String> types, AlarmDurations durations) implements Observer {
+    private static final String METERS = "meters";
+
     /**
      * How long alarms last without a record of their encounter.
      *
@@ -49,9 +51,11 @@ public record EncounterAlarmProcessor(
             case "ongoing" ->
                 alarms.raiseOrExtend(
                         cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_VALIDITY), now);
-            case "ended" ->
+            case "ended" -> {
+                alarms.lower(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_VALIDITY), METERS);
                 alarms.endAt(
                         AlarmKind.COLLISION, pair, now + durations.collision().toMillis());
+            }
             case "predicted" -> {
                 if (!alarms.isRaised(AlarmKind.COLLISION, pair)) {
                     alarms.raise(cause(AlarmKind.PREDICTED_ENCOUNTER, encounter, durations.prediction()), now);
@@ -62,7 +66,8 @@ public record EncounterAlarmProcessor(
     }
 
     private Cause cause(AlarmKind kind, EncounterReport encounter, Duration validity) {
-        String text = kind == AlarmKind.COLLISION ? "%s and %s are %.1f m apart" : "%s and %s will come within %.1f m";
+        String text =
+                kind == AlarmKind.COLLISION ? "%s and %s came within %.1f m" : "%s and %s will come within %.1f m";
         List<Cause.AffectedDevice> devices = encounter.members().stream()
                 .map(member -> Cause.AffectedDevice.of(member.id(), member.type(types), member.scope()))
                 .toList();
@@ -77,7 +82,7 @@ public record EncounterAlarmProcessor(
                                 encounter.meters()),
                         devices,
                         validity)
-                .withValue("meters", encounter.meters())
+                .withValue(METERS, encounter.meters())
                 .identifiedBy(encounter.identity())
                 .inGroup(AlarmGroup.of(encounter.mission(), ""));
     }

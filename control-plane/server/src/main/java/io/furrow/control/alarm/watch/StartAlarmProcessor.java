@@ -61,11 +61,17 @@ final class StartAlarmProcessor implements Observer {
                 .map(MissionStatus.Missing::id)
                 .map(id -> Cause.AffectedDevice.of(id, types.apply(scope.identity(id)), scope))
                 .toList();
+        List<Cause.Detail> details = status.missing().stream()
+                .filter(each -> each.code() != null)
+                .limit(MissionStatus.MAX_EXPLAINED)
+                .map(each -> new Cause.Detail(each.id(), each.code(), each.values()))
+                .toList();
         return Cause.ofMany(
-                AlarmKind.MISSING_DEVICES,
-                AlarmGroup.of(mission, ""),
-                "mission %s: %s".formatted(mission, status.reason()),
-                some,
-                new Cause.Extent(status.devices() - status.confirmed(), status.devices()));
+                        AlarmKind.MISSING_DEVICES,
+                        AlarmGroup.of(mission, ""),
+                        "mission %s: %s".formatted(mission, status.reason()),
+                        some,
+                        new Cause.Extent(status.devices() - status.confirmed(), status.devices()))
+                .withDetails(details);
     }
 }

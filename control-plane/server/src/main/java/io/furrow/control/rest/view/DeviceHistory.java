@@ -1,7 +1,9 @@
 package io.furrow.control.rest.view;
 
 import java.time.Duration;
+import java.util.ArrayDeque;
 import java.util.Comparator;
+import java.util.Deque;
 import java.util.List;
 import java.util.OptionalLong;
 import java.util.concurrent.Semaphore;
@@ -26,6 +28,9 @@ import io.furrow.model.topic.Topics;
  * reads for 15 s at most, the newest values first, so that what it omits is the oldest part of the period.
  */
 public final class DeviceHistory implements AutoCloseable {
+    /** Maximum number of changes of a text; the newest are retained. */
+    private static final int MAX_CHANGES = 500;
+
     private static final int MAX_CONCURRENT = 4;
     private static final long WAIT_SECONDS = 5;
     private static final Duration LIMIT = Duration.ofSeconds(15);
@@ -113,6 +118,9 @@ public final class DeviceHistory implements AutoCloseable {
                 .toList();
     }
 
+    /** @param time since when the attribute had the text, epoch ms */
+    private record Change(long time, String text) {}
+
     /** Processes one request. */
     private final class Reading {
         private final Request request;
@@ -123,6 +131,11 @@ public final class DeviceHistory implements AutoCloseable {
 
         private boolean isBoolean = true;
         private long skipped;
+        private long texts;
+        /** The newest first. */
+        private final Deque<Change> changes = new ArrayDeque<>();
+
+        private boolean isCut;
 
         Reading(Request request) {
             this.request = request;
@@ -148,7 +161,7 @@ public final class DeviceHistory implements AutoCloseable {
                     missions.add(each.mission());
                 }
             }
-            return json(since, missions);
+            return json(isCut ? Math.max(since, changes.getLast().time()) : since, missions);
         }
 
         private void add(AttributeHistory.Value value) {
@@ -156,7 +169,9 @@ public final class DeviceHistory implements AutoCloseable {
                 return;
             }
             unit = unit == null ? value.unit() : unit;
-            if (Double.isNaN(value.number()) || !value.unit().equals(unit)) {
+            if (!value.text().isEmpty()) {
+                addText(value);
+            } else if (Double.isNaN(value.number()) || !value.unit().equals(unit)) {
                 skipped++;
             } else {
                 isBoolean &= value.isBoolean();
@@ -164,8 +179,25 @@ public final class DeviceHistory implements AutoCloseable {
             }
         }
 
+        private void addText(AttributeHistory.Value value) {
+            texts++;
+            boolean isSame = !changes.isEmpty() && changes.getLast().text().equals(value.text());
+            if (!isCut && isSame) {
+                changes.removeLast();
+            }
+            isCut |= !isSame && changes.size() == MAX_CHANGES;
+            if (!isCut) {
+                changes.add(new Change(value.time(), value.text()));
+            }
+        }
+
+        private boolean isText() {
+            return series.count() == 0 && texts > 0;
+        }
+
         private String kind() {
-            return series.count() > 0 ? isBoolean ? "boolean" : "number" : skipped > 0 ? "other" : "none";
+            String without = isText() ? "text" : skipped > 0 ? "other" : "none";
+            return series.count() > 0 ? isBoolean ? "boolean" : "number" : without;
         }
 
         private ObjectNode json(long since, ArrayNode missions) {
@@ -177,13 +209,19 @@ public final class DeviceHistory implements AutoCloseable {
                     .put("since", since)
                     .put("kind", kind())
                     .put("unit", unit == null ? "" : unit)
-                    .put("values", series.count())
-                    .put("skipped", skipped)
+                    .put("values", isText() ? texts : series.count())
+                    .put("skipped", isText() ? skipped : skipped + texts)
                     .put("width", series.partMillis());
             json.set("missions", missions);
             ArrayNode points = json.putArray("points");
             for (ThinnedSeries.Point each : series.points()) {
                 points.addObject().put("time", each.time()).put("value", each.value());
+            }
+            if (isText()) {
+                ArrayNode found = json.putArray("changes");
+                changes.descendingIterator()
+                        .forEachRemaining(each ->
+                                found.addObject().put("time", each.time()).put("value", each.text()));
             }
             return json;
         }

@@ -86,6 +86,36 @@ class DeviceHistoryTest {
     }
 
     @Test
+    void returnsTheChangesOfAText() {
+        hasMission("weeding", 0, 5_000);
+        Object[] states = {"idle", "Running", "Running", 7, "idle"};
+        for (int i = 0; i < states.length; i++) {
+            stores("weeding", i * 1_000, i == 3 ? new Document("a", 7) : states[i], "");
+        }
+        JsonNode history = read(0, 10_000, null, 10);
+        assertThat(history.path("kind").asText()).isEqualTo("text");
+        assertThat(history.path("values").asInt()).isEqualTo(4);
+        assertThat(history.path("skipped").asInt()).isEqualTo(1);
+        assertThat(history.path("points")).isEmpty();
+        assertThat(history.path("changes"))
+                .extracting(each -> each.path("time").asLong() - TIME + " "
+                        + each.path("value").asText())
+                .containsExactly("0 idle", "1000 Running", "4000 idle");
+    }
+
+    @Test
+    void returnsTheNewestChangesOfAText() {
+        hasMission("weeding", 0, 1_000);
+        for (int i = 0; i < 502; i++) {
+            stores("weeding", i, "s" + i, "");
+        }
+        JsonNode history = read(0, 10_000, null, 10);
+        assertThat(history.path("changes")).hasSize(500);
+        assertThat(history.at("/changes/0/value").asText()).isEqualTo("s2");
+        assertThat(history.path("since").asLong()).isEqualTo(TIME + 2);
+    }
+
+    @Test
     void readsAllMissionsOfThePeriod() {
         hasMission("hoeing", 0, 1_000);
         hasMission("sowing", 500_000, 900_000);
@@ -111,7 +141,7 @@ class DeviceHistoryTest {
     void answersWithoutPointsIfThereAreNoNumbers() {
         hasMission("hoeing", 0, 1_000);
         assertThat(read(0, 1_000, null, 10).path("kind").asText()).isEqualTo("none");
-        stores("hoeing", 10, "Running", "");
+        stores("hoeing", 10, new Document("a", 1), "");
         stores("hoeing", 11, 5, "", "Camera", "farm");
         stores("hoeing", 12, 5, "", "Robot", "other");
 
