@@ -8,10 +8,12 @@ import java.util.function.LongConsumer;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
+import org.apache.flink.core.fs.Path;
 
 import io.furrow.cli.option.CommandException;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingDeletedException;
+import io.furrow.mission.archive.MissionArchive;
 import io.furrow.mission.archive.StoredMissions;
 import io.furrow.mission.marker.Marker;
 import io.furrow.mission.marker.Markers;
@@ -30,10 +32,6 @@ public final class DirectStore implements MissionStore {
         this.missions = StoredMissions.open(mongo);
     }
 
-    public StoredMissions missions() {
-        return missions;
-    }
-
     @Override
     public JsonNode list() {
         ArrayNode stored = NgsiJson.array();
@@ -47,7 +45,7 @@ public final class DirectStore implements MissionStore {
     }
 
     /** @throws CommandException if nothing is stored of a mission */
-    public void require(String mission) {
+    private void require(String mission) {
         if (!missions.has(mission)) {
             throw new CommandException(
                     "No mission named %s is stored; ./furrow mission stored shows those that are.".formatted(mission));
@@ -67,6 +65,17 @@ public final class DirectStore implements MissionStore {
                 .open(mission)
                 .orElseThrow(
                         () -> new RecordingDeletedException("Mission %s has just been deleted".formatted(mission)));
+    }
+
+    @Override
+    public Path folder(String mission, Path root) {
+        return new MissionArchive(missions, root).folder(mission);
+    }
+
+    @Override
+    public MissionArchive.Outcome archive(String mission, Path root) throws IOException {
+        require(mission);
+        return new MissionArchive(missions, root).archive(mission);
     }
 
     @Override

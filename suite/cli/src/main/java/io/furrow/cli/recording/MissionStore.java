@@ -6,14 +6,16 @@ import java.util.List;
 import java.util.function.LongConsumer;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.flink.core.fs.Path;
 
 import io.furrow.mission.Recording;
+import io.furrow.mission.archive.MissionArchive;
 import io.furrow.mission.archive.MissionFiles;
 import io.furrow.mission.marker.Marker;
 
 /** Stored missions, as the control plane serves them or in MongoDB itself. */
 public interface MissionStore extends MissionFiles.Importer, AutoCloseable {
-    /** Lists {@code mission}, {@code first} and {@code last} of each, and {@code events} where that is known. */
+    /** Lists {@code mission}, {@code events}, {@code first} and {@code last} of each. */
     JsonNode list();
 
     /** Writes the events of a mission as lines, in the order of their times. @return number of events */
@@ -21,6 +23,12 @@ public interface MissionStore extends MissionFiles.Importer, AutoCloseable {
 
     /** Opens a mission; the recording is to be closed before the store. */
     Recording open(String mission) throws IOException;
+
+    /** Returns the folder of a mission in an archive. */
+    Path folder(String mission, Path root);
+
+    /** Adds the missing events of a mission to an archive. */
+    MissionArchive.Outcome archive(String mission, Path root) throws IOException;
 
     /** Returns the markers of a mission in the order of their times. */
     List<Marker> markers(String mission) throws IOException;
