@@ -23,6 +23,7 @@ import io.furrow.cli.control.MarkerCommand;
 import io.furrow.cli.control.MissionControl;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.client.ListLimit;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.recording.ApiStore;
@@ -71,17 +72,19 @@ public final class MissionCommandGroup extends MissionControl {
     @Command(
             name = "stored",
             description = "Lists the stored missions: how many events each one has, from when to when.")
-    int listStored(@Mixin ControlOptions control, @Mixin StoreOptions store) {
-        return run(
-                control,
-                store,
-                missions -> control.print(
-                        missions.list(),
-                        new ControlTable("No mission is stored.")
-                                .text("MISSION", "/mission")
-                                .text("EVENTS", "/events")
-                                .time("FIRST", "/first")
-                                .time("LAST", "/last")));
+    int listStored(@Mixin ControlOptions control, @Mixin StoreOptions store, @Mixin ListLimit limit) {
+        limit.check(control);
+        return run(control, store, missions -> {
+            ControlApi.Page listed = missions.list(limit);
+            control.print(
+                    listed.elements(),
+                    new ControlTable("No mission is stored.")
+                            .text("MISSION", "/mission")
+                            .text("EVENTS", "/events")
+                            .time("FIRST", "/first")
+                            .time("LAST", "/last"));
+            limit.remark(control, listed);
+        });
     }
 
     @Command(
@@ -214,8 +217,7 @@ public final class MissionCommandGroup extends MissionControl {
         return control.run(api -> with(control, store, api, work));
     }
 
-    private static void with(ControlOptions control, StoreOptions store, ControlApi api, Work work)
-            throws IOException {
+    private static void with(ControlOptions control, StoreOptions store, ControlApi api, Work work) throws IOException {
         store.fileSystems.initialize();
         try (MissionStore missions = control.isGiven("--mongo") ? new DirectStore(store.mongo) : new ApiStore(api)) {
             work.with(missions);

@@ -15,6 +15,7 @@ import org.apache.flink.core.fs.Path;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlPlaneException;
 import io.furrow.cli.control.client.ControlTransfer;
+import io.furrow.cli.control.client.ListLimit;
 import io.furrow.cli.time.Times;
 import io.furrow.mission.Recording;
 import io.furrow.mission.archive.MissionArchive;
@@ -40,8 +41,8 @@ public final class ApiStore implements MissionStore {
     }
 
     @Override
-    public JsonNode list() {
-        return api.get(RECORDINGS);
+    public ControlApi.Page list(ListLimit limit) {
+        return limit.read(api, RECORDINGS);
     }
 
     @Override
@@ -75,9 +76,8 @@ public final class ApiStore implements MissionStore {
     /** The control plane lists missions by the names of their collections, as archives do. */
     @Override
     public Path folder(String mission, Path root) {
-        boolean isListed = list().findValuesAsText("mission").contains(mission);
-        return new Path(
-                root, MissionCollections.PREFIX + (isListed ? mission : TopicName.of(mission)));
+        boolean isListed = api.get(RECORDINGS).findValuesAsText("mission").contains(mission);
+        return new Path(root, MissionCollections.PREFIX + (isListed ? mission : TopicName.of(mission)));
     }
 
     /** Copies its lines to a file first, so that a slow archive does not hold up the control plane. */

@@ -6,10 +6,11 @@ import java.io.OutputStream;
 import java.util.List;
 import java.util.function.LongConsumer;
 
-import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import org.apache.flink.core.fs.Path;
 
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ListLimit;
 import io.furrow.cli.option.CommandException;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingDeletedException;
@@ -33,7 +34,7 @@ public final class DirectStore implements MissionStore {
     }
 
     @Override
-    public JsonNode list() {
+    public ControlApi.Page list(ListLimit limit) {
         ArrayNode stored = NgsiJson.array();
         missions.all()
                 .forEach(mission -> stored.addObject()
@@ -41,7 +42,7 @@ public final class DirectStore implements MissionStore {
                         .put("events", mission.events())
                         .put("first", mission.first().toString())
                         .put("last", mission.last().toString()));
-        return stored;
+        return limit.cut(stored);
     }
 
     /** @throws CommandException if nothing is stored of a mission */

@@ -5,9 +5,10 @@ import java.io.OutputStream;
 import java.util.List;
 import java.util.function.LongConsumer;
 
-import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.flink.core.fs.Path;
 
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ListLimit;
 import io.furrow.mission.Recording;
 import io.furrow.mission.archive.MissionArchive;
 import io.furrow.mission.archive.MissionFiles;
@@ -16,7 +17,7 @@ import io.furrow.mission.marker.Marker;
 /** Stored missions, as the control plane serves them or in MongoDB itself. */
 public interface MissionStore extends MissionFiles.Importer, AutoCloseable {
     /** Lists {@code mission}, {@code events}, {@code first} and {@code last} of each. */
-    JsonNode list();
+    ControlApi.Page list(ListLimit limit);
 
     /** Writes the events of a mission as lines, in the order of their times. @return number of events */
     long export(String mission, OutputStream out, LongConsumer progress) throws IOException;

@@ -49,6 +49,21 @@ class RecordingCommandsTest {
     }
 
     @Test
+    void listsNoMoreMissionsThanAreRequested() {
+        control.answerPage("GET /api/recordings?limit=1", "[{'mission':'hoeing','events':2}]", "?limit=1&page=2");
+
+        assertThat(control.run("mission", "stored", "--limit", "1")).isZero();
+
+        assertThat(control.output().lines())
+                .satisfiesExactly(
+                        line -> assertThat(line).startsWith("MISSION"),
+                        line -> assertThat(line).startsWith("hoeing"),
+                        line -> assertThat(line).isEqualTo("There are more than 1; --limit shows more of them."));
+        assertThat(control.run("mission", "stored", "--limit", "20001")).isEqualTo(2);
+        assertThat(control.output()).contains("--limit is 1 to 20000, not 20001");
+    }
+
+    @Test
     void exportsAMissionInEachFormat() throws Exception {
         assertThat(Files.readString(exported("hoeing.jsonl"))).isEqualTo(LINES);
         assertThat(control.output())
