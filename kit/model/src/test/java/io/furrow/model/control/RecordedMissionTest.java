@@ -20,6 +20,12 @@ class RecordedMissionTest {
         assertThat(RecordedMission.read(mission.toBytes())).isEqualTo(mission);
     }
 
+    @Test
+    void readsARecordWithoutANumberOfEvents() throws Exception {
+        assertThat(RecordedMission.read("{\"mission\":\"m\",\"first\":1,\"last\":2}".getBytes(UTF_8)))
+                .isEqualTo(new RecordedMission("m", 1, 2, 0));
+    }
+
     @ParameterizedTest
     @ValueSource(
             strings = {"7", "{", "{\"mission\":\"m\",\"first\":1}", "{\"mission\":\"m\",\"first\":1,\"last\":\"2\"}"})

@@ -58,7 +58,7 @@ public final class MissionCommandGroup extends MissionControl {
                 description =
                         "Use this MongoDB itself, not the control plane with its roles and its audit; @FILE reads "
                                 + "the URI, and so its password, from a file.")
-        private String mongo;
+        private String mongo = "";
 
         @Mixin
         private final FileSystemOptions fileSystems = new FileSystemOptions();

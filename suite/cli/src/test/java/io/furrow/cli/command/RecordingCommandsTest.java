@@ -94,6 +94,13 @@ class RecordingCommandsTest {
     }
 
     @Test
+    void rejectsAFileWithoutAName() {
+        assertThat(control.run("mission", "export", "hoeing", "")).isEqualTo(2);
+
+        assertThat(control.output()).contains("empty string. Check --mongo and the file's name.");
+    }
+
+    @Test
     void addsWhatIsMissingToAnArchive() throws Exception {
         control.answer("GET /api/recordings", "[{'mission':'hoeing'},{'mission':'_x-68'}]")
                 .answer("GET /api/recordings/_x-68/events", LINES);
