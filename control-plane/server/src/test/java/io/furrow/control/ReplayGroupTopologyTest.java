@@ -38,8 +38,8 @@ class ReplayGroupTopologyTest {
     }
 
     private String start(String members) throws Exception {
-        farm.pipe(Topics.RECORDINGS, "a", new RecordedMission("a", 10_000, 60_000).toBytes());
-        farm.pipe(Topics.RECORDINGS, "b", new RecordedMission("b", 20_000, 90_000).toBytes());
+        farm.pipe(Topics.RECORDINGS, "a", new RecordedMission("a", 10_000, 60_000, 5).toBytes());
+        farm.pipe(Topics.RECORDINGS, "b", new RecordedMission("b", 20_000, 90_000, 5).toBytes());
         CommandResult answer = request("'command':'start','missions':['a','b']" + members);
         assertThat(answer.error()).as(answer.json().toString()).isEmpty();
         return answer.json().path("group").asText();

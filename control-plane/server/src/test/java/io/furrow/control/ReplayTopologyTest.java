@@ -157,7 +157,7 @@ class ReplayTopologyTest {
         assertThat(steer(whole, "'seek','to':99000").error())
                 .as("unknown recording")
                 .isEmpty();
-        farm.pipe(Topics.RECORDINGS, "m", new RecordedMission("m", 1000, 5000).toBytes());
+        farm.pipe(Topics.RECORDINGS, "m", new RecordedMission("m", 1000, 5000, 5).toBytes());
         assertThat(steer(whole, "'seek','to':9000").error())
                 .as("running mission, later than listed")
                 .isEmpty();

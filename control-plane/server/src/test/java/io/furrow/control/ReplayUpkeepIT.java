@@ -114,7 +114,7 @@ class ReplayUpkeepIT {
         }
         await().until(() -> recordings.newest().containsKey("weeding"));
         assertThat(RecordedMission.read(recordings.newest().get("weeding")))
-                .isEqualTo(new RecordedMission("weeding", 1000, 3000));
+                .isEqualTo(new RecordedMission("weeding", 1000, 3000, 2));
 
         ControlPlane plane =
                 register(ControlPlane.start(ControlSettings.of(client).with(settings)));

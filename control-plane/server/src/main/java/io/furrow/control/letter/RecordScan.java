@@ -24,8 +24,8 @@ final class RecordScan {
     private static final int MAX_WINDOW = 1_000;
     /** Maximum size of all windows together, where values are retained. */
     private static final int MAX_VALUES = 200;
-    /** Bytes of values after which a page ends. */
-    private static final long MAX_VALUE_BYTES = 4L << 20;
+    /** Bytes of values and headers after which a page ends. */
+    private static final long MAX_CONTENT_BYTES = 4L << 20;
 
     private static final Duration POLL = Duration.ofMillis(200);
     private static final Comparator<Deque<Candidate>> BY_TIME =
@@ -39,9 +39,7 @@ final class RecordScan {
         }
 
         int retained() {
-            return record.contents() == null || record.contents().value() == null
-                    ? 0
-                    : record.contents().value().length;
+            return record.contents() == null ? 0 : record.contents().size();
         }
     }
 
@@ -82,7 +80,7 @@ final class RecordScan {
     }
 
     private boolean isFull() {
-        return found.size() >= query.limit() || foundBytes >= MAX_VALUE_BYTES;
+        return found.size() >= query.limit() || foundBytes >= MAX_CONTENT_BYTES;
     }
 
     /** Whether this part of the time for a page is over. */

@@ -61,6 +61,16 @@ public record StoredRecord(
             boolean isCut = value != null && value.length > MAX_SHOWN_BYTES;
             return new Contents(headers, isCut ? Arrays.copyOf(value, MAX_SHOWN_BYTES) : value);
         }
+
+        /** Bytes of the value and characters of the headers. */
+        int size() {
+            int size = value == null ? 0 : value.length;
+            for (Map.Entry<String, String> header : headers.entrySet()) {
+                size += header.getKey().length()
+                        + (header.getValue() == null ? 0 : header.getValue().length());
+            }
+            return size;
+        }
     }
 
     /** @param whole whether headers and value are retained */

@@ -106,9 +106,10 @@ public final class RecordingWatch implements AutoCloseable {
 
         @Override
         public Optional<RecordedMission> find(String name) throws IOException {
+            long events = catalog.events(name).orElse(0);
             return catalog.find(name)
                     .flatMap(stored -> stored.span())
-                    .map(span -> new RecordedMission(name, span.first(), span.last()));
+                    .map(span -> new RecordedMission(name, span.first(), span.last(), events));
         }
     }
 

@@ -23,7 +23,6 @@ import io.furrow.control.letter.RecordReader;
 import io.furrow.control.letter.StoredRecord;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.view.KafkaReads;
-import io.furrow.model.control.ErrorCode;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.TopicRules;
 import io.furrow.model.topic.Topics;
@@ -32,7 +31,6 @@ import io.furrow.model.topic.Topics;
 @Path("/api/topics")
 @Produces(MediaType.APPLICATION_JSON)
 public final class TopicsResource {
-    private static final int MAX_WHOLE = 100;
     /** Members that only dead letters have. */
     private static final List<String> OF_DEAD_LETTERS = List.of("reason", "stage", "message", "source");
 
@@ -76,10 +74,6 @@ public final class TopicsResource {
             @QueryParam("key") String key,
             @QueryParam("text") String text) {
         checkTopic(topic);
-        ProblemException.rejectIf(
-                whole && limit > MAX_WHOLE,
-                ErrorCode.WRONG_MEMBER,
-                "'limit' must be at most %d where values is true".formatted(MAX_WHOLE));
         RecordPositions positions = RecordPages.positions(before);
         RecordReader.Query query = RecordPages.query(uri, desired(key, text), limit, whole);
         return RecordPages.answer(uri, reads.run(() -> reader.read(topic, positions, query)), TopicsResource::json);

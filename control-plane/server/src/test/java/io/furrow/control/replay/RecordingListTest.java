@@ -48,7 +48,7 @@ class RecordingListTest {
     }
 
     private RecordedMission store(String mission, long first, long last) {
-        RecordedMission recorded = new RecordedMission(mission, first, last);
+        RecordedMission recorded = new RecordedMission(mission, first, last, 5);
         stored.put(mission, Optional.of(recorded));
         return recorded;
     }

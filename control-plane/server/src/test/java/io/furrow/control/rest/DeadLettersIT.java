@@ -8,6 +8,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
+import java.util.stream.Collectors;
 import java.util.stream.IntStream;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -148,7 +149,7 @@ class DeadLettersIT {
                 .isFalse();
         assertThat(ask("GET", "/api/topics", null).toString())
                 .containsPattern("\"topic\":\"data.read\",\"partitions\":[0-9]+,\"records\":9[^0-9]");
-        running.rejects("GET", "/api/topics/data.read/records?values=true&limit=101", null, 400, "wrong-member");
+        running.rejects("GET", "/api/topics/data.read/records?values=true&limit=1001", null, 400, "wrong-member");
         running.rejects("GET", "/api/topics/data.read/records?before=noon", null, 400, "wrong-member");
         running.rejects("GET", "/api/topics/data.read/records/0/999", null, 404, "unknown-record");
         for (String topic : List.of("shown.dead", "__consumer_offsets", "data.nosuch")) {
@@ -161,14 +162,28 @@ class DeadLettersIT {
         for (int i = 0; i < 80; i++) {
             topics.deadLetter("data.large", TIME, "k", new byte[70_000], Map.of());
         }
-        HttpResponse<byte[]> page =
-                running.client().send("GET", "/api/topics/data.large/records?values=true&limit=100", null);
+        endsAPageAfter("data.large", (4 << 20) / StoredRecord.MAX_SHOWN_BYTES, 80);
+    }
 
-        assertThat(running.client().json(page)).hasSize((4 << 20) / StoredRecord.MAX_SHOWN_BYTES);
+    @Test
+    void endsAPageOfManyHeadersAndContinues() throws Exception {
+        Map<String, String> headers = IntStream.range(100, 200)
+                .boxed()
+                .collect(Collectors.toMap(i -> "%d".formatted(i), i -> "x".repeat(497)));
+        for (int i = 0; i < 90; i++) {
+            topics.deadLetter("data.headers", TIME, "k", new byte[0], headers);
+        }
+        endsAPageAfter("data.headers", (4 << 20) / 50_000 + 1, 90);
+    }
+
+    private static void endsAPageAfter(String topic, int first, int all) throws Exception {
+        String records = "/api/topics/" + topic + "/records";
+        HttpResponse<byte[]> page = running.client().send("GET", records + "?values=true&limit=1000", null);
+
+        assertThat(running.client().json(page)).hasSize(first);
         Matcher next = NEXT.matcher(page.headers().firstValue("Link").orElse(""));
         assertThat(next.matches()).isTrue();
-        assertThat(ask("GET", "/api/topics/data.large/records" + next.group(1), null))
-                .hasSize(80 - (4 << 20) / StoredRecord.MAX_SHOWN_BYTES);
+        assertThat(ask("GET", records + next.group(1), null)).hasSize(all - first);
     }
 
     private static List<Long> read(String query) {

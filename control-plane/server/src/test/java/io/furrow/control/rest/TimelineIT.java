@@ -60,7 +60,7 @@ class TimelineIT {
         try (var producer = KafkaClients.producer(producing)) {
             for (String mission : List.of("hoeing", "deleted")) {
                 producer.send(new ProducerRecord<>(
-                        Topics.RECORDINGS, mission, new RecordedMission(mission, TIME, TIME + 9_999).toBytes()));
+                        Topics.RECORDINGS, mission, new RecordedMission(mission, TIME, TIME + 9_999, 5).toBytes()));
             }
         }
         api = RestApi.start(

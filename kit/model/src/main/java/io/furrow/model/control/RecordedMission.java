@@ -12,8 +12,9 @@ import io.furrow.model.ngsi.UnreadableException;
  *
  * @param first event time of its oldest event at the last check, epoch ms
  * @param last event time of its newest event, epoch ms, inclusive
+ * @param events how many it had at that check, as MongoDB remembers it
  */
-public record RecordedMission(String mission, long first, long last) implements StateRecord {
+public record RecordedMission(String mission, long first, long last, long events) implements StateRecord {
     /**
      * Reads the value of a record; unknown members are ignored.
      *
@@ -26,7 +27,11 @@ public record RecordedMission(String mission, long first, long last) implements 
         }
         JsonObjectReader members = new JsonObjectReader(json);
         try {
-            return new RecordedMission(members.text("mission"), members.number("first"), members.number("last"));
+            return new RecordedMission(
+                    members.text("mission"),
+                    members.number("first"),
+                    members.number("last"),
+                    members.has("events") ? members.number("events") : 0);
         } catch (RejectedException e) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage());
         }

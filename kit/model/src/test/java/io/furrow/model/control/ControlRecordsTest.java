@@ -29,7 +29,7 @@ class ControlRecordsTest {
             device-status; {'sequence':1,'state':'running'}
             connection; {'since':1,'loggedIn':2,'refusedLogin':{'count':3,'last':4,'reason':'wrong-password','user':'u'},'foreignTopic':{'count':5,'last':6,'topic':'t'},'unreadablePayload':{'count':7,'last':8,'reason':'r','payload':'p'},'registered':true}
             connection; {}
-            recording; {'mission':'weeding','first':1000,'last':2000}
+            recording; {'mission':'weeding','first':1000,'last':2000,'events':5}
             template; {'template':'t','version':2,'description':'d','devices':['a',{'type':'Robot','count':2,'speed':1.50}]}
             template; {'template':'t','devices':[]}
             device; {'id':'a','service':'farm','servicePath':'/','domain':'d','mission':'m','from':1,'until':2,'sequence':3,'carriedBy':'b','stationary':true,'type':'T','device':'x','simulated':true,'wanted':'stopped','period':'PT0.5S','settings':{'speed':1.50},'generation':4}

@@ -13,11 +13,17 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class RecordedMissionTest {
     @Test
     void readsBackARecord() throws Exception {
-        RecordedMission mission = new RecordedMission("weeding", 1000, 2000);
+        RecordedMission mission = new RecordedMission("weeding", 1000, 2000, 5);
 
         assertThat(new String(mission.toBytes(), UTF_8))
-                .isEqualTo("{\"mission\":\"weeding\",\"first\":1000,\"last\":2000}");
+                .isEqualTo("{\"mission\":\"weeding\",\"first\":1000,\"last\":2000,\"events\":5}");
         assertThat(RecordedMission.read(mission.toBytes())).isEqualTo(mission);
+    }
+
+    @Test
+    void readsARecordWithoutANumberOfEvents() throws Exception {
+        assertThat(RecordedMission.read("{\"mission\":\"m\",\"first\":1,\"last\":2}".getBytes(UTF_8)))
+                .isEqualTo(new RecordedMission("m", 1, 2, 0));
     }
 
     @ParameterizedTest

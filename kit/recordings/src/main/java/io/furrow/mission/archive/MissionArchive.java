@@ -44,11 +44,24 @@ public record MissionArchive(StoredMissions missions, Path root) {
 
     /** Adds the events of a mission in MongoDB to the archive. */
     public Outcome archive(String mission) throws IOException {
-        Outcome all = new Outcome(0, 0, 0);
         try (StoredMissions.Events events = missions.events(mission)) {
+            return archive(folder(mission), events);
+        }
+    }
+
+    /** Adds the events of a mission's export to its folder. @param lines a file as {@link StoredMissions#export} writes it */
+    public static Outcome archive(Path folder, Path lines) throws IOException {
+        try (BufferedReader reader = reader(lines)) {
+            return archive(folder, events(lines, reader));
+        }
+    }
+
+    private static Outcome archive(Path folder, Iterator<StoredEvent> events) throws IOException {
+        Outcome all = new Outcome(0, 0, 0);
+        try {
             PeekableEvents stored = new PeekableEvents(events);
             while (stored.event != null) {
-                Outcome day = archive(folder(mission), day(stored.event), stored);
+                Outcome day = archive(folder, day(stored.event), stored);
                 all = new Outcome(all.files() + day.files(), all.added() + day.added(), all.kept() + day.kept());
             }
         } catch (UncheckedIOException e) {
@@ -65,10 +78,9 @@ public record MissionArchive(StoredMissions missions, Path root) {
         try {
             List<Iterator<StoredEvent>> lines = new ArrayList<>();
             for (Path part : parts) {
-                BufferedReader reader =
-                        new BufferedReader(new InputStreamReader(MissionFiles.open(part), StandardCharsets.UTF_8));
+                BufferedReader reader = reader(part);
                 open.add(reader);
-                lines.add(reader.lines().map(line -> read(part, line)).iterator());
+                lines.add(events(part, reader));
             }
             NewEvents newEvents = new NewEvents(day, stored, new PeekableEvents(EventOrder.merged(lines)));
             if (!newEvents.skipArchived()) {
@@ -93,6 +105,14 @@ public record MissionArchive(StoredMissions missions, Path root) {
         String last = parts.get(parts.size() - 1).getName();
         int dash = last.lastIndexOf('-');
         return 1 + Integer.parseInt(last.substring(dash + 1, last.indexOf('.', dash)));
+    }
+
+    private static BufferedReader reader(Path file) throws IOException {
+        return new BufferedReader(new InputStreamReader(MissionFiles.open(file), StandardCharsets.UTF_8));
+    }
+
+    private static Iterator<StoredEvent> events(Path file, BufferedReader lines) {
+        return lines.lines().map(line -> read(file, line)).iterator();
     }
 
     private static StoredEvent read(Path file, String line) {

@@ -8,7 +8,6 @@ import java.util.Map;
 import java.util.concurrent.Callable;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.common.KafkaException;
 import picocli.CommandLine.Command;
@@ -20,6 +19,7 @@ import io.furrow.cli.catalog.StoredAssets;
 import io.furrow.cli.catalog.StoredTable;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.client.ListLimit;
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.cli.option.KafkaOptions;
@@ -65,16 +65,30 @@ public final class CatalogCommand implements Callable<Integer> {
     private String mission;
 
     @Mixin
+    private final ListLimit limit = new ListLimit();
+
+    @Mixin
     private HelpOption help;
 
     @Override
     public Integer call() {
+        limit.check(control);
         return control.run(api -> {
+            Map<String, ControlApi.Page> lists = new LinkedHashMap<>();
+            lists.put("types", control.isGiven("--kafka") ? selected(readCatalog()) : list(api));
+            if (mongo != null) {
+                lists.put("missions", selected(StoredAssets.missions(mongo)));
+            }
+            if (images != null) {
+                lists.put("images", selected(storedImages()));
+            }
             ObjectNode all = NgsiJson.object();
-            put(all, "types", control.isGiven("--kafka") ? readCatalog() : list(api));
-            put(all, "missions", mongo == null ? null : StoredAssets.missions(mongo));
-            put(all, "images", images == null ? null : storedImages());
+            lists.forEach((name, list) -> all.set(name, list.elements()));
             control.print(all, CatalogCommand::lines, any -> CatalogTable.names(any.path("types")));
+            lists.values().stream()
+                    .filter(ControlApi.Page::hasMore)
+                    .findFirst()
+                    .ifPresent(list -> limit.remark(control, list));
         });
     }
 
@@ -93,11 +107,11 @@ public final class CatalogCommand implements Callable<Integer> {
         return all.path(name).valueStream().toList();
     }
 
-    private List<JsonNode> list(ControlApi api) {
+    private ControlApi.Page list(ControlApi api) {
         Map<String, String> only = new LinkedHashMap<>();
         only.put("domain", domain);
         only.put("mission", mission);
-        return api.get("/api/catalog" + ControlApi.query(only)).valueStream().toList();
+        return limit.read(api, "/api/catalog" + ControlApi.query(only));
     }
 
     private List<JsonNode> readCatalog() throws IOException {
@@ -116,13 +130,11 @@ public final class CatalogCommand implements Callable<Integer> {
         return StoredAssets.images(images);
     }
 
-    /** Puts the entries that match the options; MongoDB has no domains. @param entries null for none to be put */
-    private void put(ObjectNode all, String name, List<JsonNode> entries) {
-        if (entries != null) {
-            ArrayNode put = all.putArray(name);
-            entries.stream()
-                    .filter(entry -> Catalog.isOf(entry, domain, mission))
-                    .forEach(put::add);
-        }
+    /** Returns the entries that match the options; MongoDB has no domains. */
+    private ControlApi.Page selected(List<JsonNode> entries) {
+        return limit.cut(NgsiJson.array()
+                .addAll(entries.stream()
+                        .filter(entry -> Catalog.isOf(entry, domain, mission))
+                        .toList()));
     }
 }

@@ -8,6 +8,7 @@ import java.util.List;
 import java.util.Map;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
@@ -15,6 +16,7 @@ import picocli.CommandLine.Parameters;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.client.ListLimit;
 import io.furrow.cli.field.FieldList;
 import io.furrow.cli.option.CommandGroup;
 import io.furrow.cli.option.Confirmation;
@@ -43,6 +45,7 @@ public final class FieldsCommandGroup extends CommandGroup {
     int list(
             @Mixin ControlOptions control,
             @Mixin KafkaOptions kafka,
+            @Mixin ListLimit limit,
             @Option(
                             names = "--at",
                             paramLabel = "TIME",
@@ -53,16 +56,20 @@ public final class FieldsCommandGroup extends CommandGroup {
         Map<String, Object> query = new LinkedHashMap<>();
         query.put("at", at);
         query.put("versions", versions ? true : null);
-        return control.run(api -> control.print(
-                control.isGiven("--kafka") ? stored(kafka, at, versions) : api.get(FIELDS + ControlApi.query(query)),
-                FieldList::lines,
-                FieldList::names));
+        limit.check(control);
+        return control.run(api -> {
+            ControlApi.Page listed = control.isGiven("--kafka")
+                    ? limit.cut(stored(kafka, at, versions))
+                    : limit.read(api, FIELDS + ControlApi.query(query));
+            control.print(FieldList.json(listed.elements()), FieldList::lines, FieldList::names);
+            limit.remark(control, listed);
+        });
     }
 
-    private static JsonNode stored(KafkaOptions kafka, Instant at, boolean versions) throws IOException {
+    private static ArrayNode stored(KafkaOptions kafka, Instant at, boolean versions) throws IOException {
         List<FieldVersion> all = new FieldsTopic(kafka.client()).read();
         Instant time = at == null ? Instant.now() : at;
-        return FieldList.json(
+        return FieldList.features(
                 versions
                         ? all
                         : List.copyOf(FieldChange.asOf(time.toEpochMilli(), all).values()));

@@ -137,7 +137,10 @@ final class FieldsImportCommand implements Callable<Integer> {
         query.put("validFrom", validFrom);
         query.put("replace", replace ? true : null);
         query.put("dryRun", writes ? null : true);
-        return api.send("POST", FieldsCommandGroup.FIELDS + ControlApi.query(query), FieldList.json(versions(read)))
+        return api.send(
+                        "POST",
+                        FieldsCommandGroup.FIELDS + ControlApi.query(query),
+                        FieldList.json(FieldList.features(versions(read))))
                 .path("fields");
     }
 

@@ -8,7 +8,6 @@ import java.io.UncheckedIOException;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.function.LongConsumer;
-import java.util.function.Supplier;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
@@ -22,7 +21,9 @@ import picocli.CommandLine.Parameters;
 
 import io.furrow.cli.control.MarkerCommand;
 import io.furrow.cli.control.MissionControl;
+import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.client.ListLimit;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.recording.ApiStore;
@@ -54,33 +55,35 @@ public final class MissionCommandGroup extends MissionControl {
         @Option(
                 names = "--mongo",
                 paramLabel = "URI",
-                defaultValue = "${env:FURROW_MONGO:-mongodb://127.0.0.1:27017}",
                 description =
                         "Use this MongoDB itself, not the control plane with its roles and its audit; @FILE reads "
-                                + "the URI, and so its password, from a file. For archive, which always does: default "
-                                + "$FURROW_MONGO, else that of a suite on this machine, mongodb://127.0.0.1:27017.")
-        private String mongo;
+                                + "the URI, and so its password, from a file.")
+        private String mongo = "";
 
         @Mixin
         private final FileSystemOptions fileSystems = new FileSystemOptions();
     }
 
     /** An operation on stored missions. */
-    private interface Work<T extends MissionStore> {
-        void with(T missions) throws IOException, InterruptedException;
+    private interface Work {
+        void with(MissionStore missions) throws IOException, InterruptedException;
     }
 
     @Command(
             name = "stored",
-            description =
-                    "Lists the stored missions: from when to when, and with --mongo how many events each one has.")
-    int listStored(@Mixin ControlOptions control, @Mixin StoreOptions store) {
+            description = "Lists the stored missions: how many events each one has, from when to when.")
+    int listStored(@Mixin ControlOptions control, @Mixin StoreOptions store, @Mixin ListLimit limit) {
+        limit.check(control);
         return run(control, store, missions -> {
-            ControlTable table = new ControlTable("No mission is stored.").text("MISSION", "/mission");
-            if (control.isGiven("--mongo")) {
-                table.text("EVENTS", "/events");
-            }
-            control.print(missions.list(), table.time("FIRST", "/first").time("LAST", "/last"));
+            ControlApi.Page listed = missions.list(limit);
+            control.print(
+                    listed.elements(),
+                    new ControlTable("No mission is stored.")
+                            .text("MISSION", "/mission")
+                            .text("EVENTS", "/events")
+                            .time("FIRST", "/first")
+                            .time("LAST", "/last"));
+            limit.remark(control, listed);
         });
     }
 
@@ -183,23 +186,21 @@ public final class MissionCommandGroup extends MissionControl {
             @Parameters(paramLabel = "ROOT", description = "Folder of the archive" + FILES) String root,
             @Parameters(paramLabel = "MISSION", arity = "1..*", description = "Names of the missions.")
                     List<String> names) {
-        return control.run(api -> with(control, store, () -> new DirectStore(store.mongo), missions -> {
-            MissionArchive archive = new MissionArchive(missions.missions(), new Path(root));
+        return run(control, store, missions -> {
             ArrayNode answer = NgsiJson.array();
             for (String mission : names) {
-                missions.require(mission);
-                MissionArchive.Outcome done = archive.archive(mission);
+                MissionArchive.Outcome done = missions.archive(mission, new Path(root));
                 answer.addObject()
                         .put("mission", mission)
                         .put("added", done.added())
                         .put("files", done.files())
                         .put("before", done.kept())
-                        .put("folder", archive.folder(mission).toString());
+                        .put("folder", missions.folder(mission, new Path(root)).toString());
             }
             control.print(
                     answer,
                     all -> all.valueStream().map(MissionCommandGroup::archived).toList());
-        }));
+        });
     }
 
     private static String archived(JsonNode mission) {
@@ -212,18 +213,13 @@ public final class MissionCommandGroup extends MissionControl {
                         mission.path("folder").asText());
     }
 
-    private static int run(ControlOptions control, StoreOptions store, Work<MissionStore> work) {
-        return control.run(api -> with(
-                control,
-                store,
-                control.isGiven("--mongo") ? () -> new DirectStore(store.mongo) : () -> new ApiStore(api),
-                work));
+    private static int run(ControlOptions control, StoreOptions store, Work work) {
+        return control.run(api -> with(control, store, api, work));
     }
 
-    private static <T extends MissionStore> void with(
-            ControlOptions control, StoreOptions store, Supplier<T> stored, Work<T> work) throws IOException {
+    private static void with(ControlOptions control, StoreOptions store, ControlApi api, Work work) throws IOException {
         store.fileSystems.initialize();
-        try (T missions = stored.get()) {
+        try (MissionStore missions = control.isGiven("--mongo") ? new DirectStore(store.mongo) : new ApiStore(api)) {
             work.with(missions);
         } catch (IllegalArgumentException e) {
             throw control.refused(

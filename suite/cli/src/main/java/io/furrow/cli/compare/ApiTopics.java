@@ -17,8 +17,10 @@ import io.furrow.model.ngsi.NgsiJson;
 /** Reads topics over the REST API, which has the newest records first. */
 record ApiTopics(ControlApi api) implements ResultTopics {
     private static final String TOPICS = "/api/v1/topics";
-    /** The most that a page with values has. */
-    private static final int PAGE = 100;
+    /** The most that a page has; one of large values has fewer. */
+    private static final int PAGE = 1_000;
+    /** Several, because the newest records may be of an earlier epoch. */
+    private static final int NEWEST = 100;
 
     @Override
     public Collection<String> names() {
@@ -28,20 +30,22 @@ record ApiTopics(ControlApi api) implements ResultTopics {
     @Override
     public void read(String topic, long from, Consumer<ResultRecord> reader) {
         List<ResultRecord> newestFirst = new ArrayList<>();
-        api.pages(path(topic, from > 0 ? from : null), page -> page.forEach(each -> newestFirst.add(record(each))));
+        api.pages(
+                path(topic, PAGE, from > 0 ? from : null),
+                page -> page.forEach(each -> newestFirst.add(record(each))));
         Collections.reverse(newestFirst);
         newestFirst.forEach(reader);
     }
 
     @Override
     public void readNewest(String topic, Consumer<ResultRecord> reader) {
-        api.list(path(topic, null), PAGE).elements().forEach(each -> reader.accept(record(each)));
+        api.list(path(topic, NEWEST, null), NEWEST).elements().forEach(each -> reader.accept(record(each)));
     }
 
-    private static String path(String topic, Long from) {
+    private static String path(String topic, int limit, Long from) {
         Map<String, Object> query = new LinkedHashMap<>();
         query.put("values", true);
-        query.put("limit", PAGE);
+        query.put("limit", limit);
         query.put("from", from);
         return TOPICS + ControlApi.part(topic) + "/records" + ControlApi.query(query);
     }

@@ -16,6 +16,7 @@ import picocli.CommandLine.Parameters;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.client.ListLimit;
 import io.furrow.cli.control.table.AlarmPage;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.option.CommandGroup;
@@ -79,7 +80,7 @@ public final class AlarmCommandGroup extends CommandGroup {
                             description = "How many at most, 1 to 9999. Default: ${DEFAULT-VALUE}.")
                     int limit,
             @Mixin ListWatch watch) {
-        ListOptions.check(control, limit, MAX_LISTED);
+        ListLimit.check(control, limit, MAX_LISTED);
         State desired = state != null ? state : range.isGiven() ? State.ALL : State.OPEN;
         Map<String, Object> query = new LinkedHashMap<>();
         query.put("limit", limit + 1);

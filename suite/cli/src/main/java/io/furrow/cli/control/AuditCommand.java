@@ -13,6 +13,7 @@ import picocli.CommandLine.Option;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.client.ListLimit;
 import io.furrow.cli.control.table.AnswerText;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.option.HelpOption;
@@ -66,7 +67,7 @@ public final class AuditCommand implements Callable<Integer> {
 
     @Override
     public Integer call() {
-        ListOptions.check(control, limit, MAX_LISTED);
+        ListLimit.check(control, limit, MAX_LISTED);
         return control.run(api -> {
             Map<String, Object> query = new LinkedHashMap<>();
             query.put("limit", limit);

@@ -12,6 +12,7 @@ import picocli.CommandLine.Parameters;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.client.ListLimit;
 import io.furrow.cli.control.table.DeadLetterTable;
 import io.furrow.cli.control.table.RecordPage;
 import io.furrow.cli.option.CommandGroup;
@@ -52,7 +53,7 @@ public final class DeadLetterCommandGroup extends CommandGroup {
                             defaultValue = "50",
                             description = "How many at most, 1 to 1000. Default: ${DEFAULT-VALUE}.")
                     int limit) {
-        ListOptions.check(control, limit, MAX_LISTED);
+        ListLimit.check(control, limit, MAX_LISTED);
         Map<String, Object> query = new LinkedHashMap<>();
         query.put("limit", limit);
         query.put("topic", topic);

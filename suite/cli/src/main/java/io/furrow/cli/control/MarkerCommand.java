@@ -22,8 +22,12 @@ public final class MarkerCommand {
     private static final String MISSION = "Name of the mission.";
 
     @Command(name = "list", description = "Lists the markers of a mission.")
-    int list(@Mixin ControlOptions control, @Parameters(paramLabel = "MISSION", description = MISSION) String mission) {
-        return control.show(
+    int list(
+            @Mixin ControlOptions control,
+            @Mixin ListOptions list,
+            @Parameters(paramLabel = "MISSION", description = MISSION) String mission) {
+        return list.show(
+                control,
                 path(mission),
                 new ControlTable("There is no marker; ./furrow mission marker add %s TIME NOTE makes one."
                                 .formatted(mission))

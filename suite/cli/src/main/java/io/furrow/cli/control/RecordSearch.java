@@ -14,6 +14,7 @@ import picocli.CommandLine.Option;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.client.ListLimit;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.RecordPage;
 import io.furrow.cli.time.TimeRangeOptions;
@@ -58,7 +59,7 @@ final class RecordSearch {
         if (device == null && text == null) {
             throw control.refused("Name a device with --device, or a text with --text.");
         }
-        ListOptions.check(control, limit, MAX_SELECTED);
+        ListLimit.check(control, limit, MAX_SELECTED);
         boolean selects = attribute != null || device != null && text != null;
         Map<String, Object> query = new LinkedHashMap<>();
         query.put("values", selects ? true : null);

@@ -13,6 +13,7 @@ import picocli.CommandLine.Option;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.client.ListLimit;
 import io.furrow.cli.control.table.RecordPage;
 import io.furrow.model.ngsi.NgsiJson;
 
@@ -54,7 +55,7 @@ final class RecordTail {
      * @param line prints one for people
      */
     int print(ControlOptions control, String topic, String key, Function<JsonNode, String> line) {
-        ListOptions.check(control, limit, MAX_LISTED);
+        ListLimit.check(control, limit, MAX_LISTED);
         return control.run(api -> {
             offsets.clear();
             if (follow) {

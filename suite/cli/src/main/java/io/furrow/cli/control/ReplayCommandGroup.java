@@ -43,13 +43,15 @@ public final class ReplayCommandGroup extends CommandGroup {
 
     @Command(
             name = "missions",
-            description = "Lists the missions that can be played back, with their first and last times.")
+            description =
+                    "Lists the missions that can be played back: how many events each one has, from when to when.")
     int missions(@Mixin ControlOptions control, @Mixin ListOptions list) {
         return list.show(
                 control,
                 "/api/recordings",
                 new ControlTable("No mission is kept yet.")
                         .text("MISSION", "/mission")
+                        .text("EVENTS", "/events")
                         .time("FIRST", "/first")
                         .time("LAST", "/last"));
     }

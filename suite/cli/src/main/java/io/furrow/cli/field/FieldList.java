@@ -23,12 +23,16 @@ public final class FieldList {
 
     private FieldList() {}
 
-    /** The versions as in {@code service.fields}: a FeatureCollection. */
-    public static ObjectNode json(List<FieldVersion> versions) {
-        ObjectNode collection = NgsiJson.object().put("type", "FeatureCollection");
-        ArrayNode features = collection.putArray("features");
+    /** The versions as in {@code service.fields}. */
+    public static ArrayNode features(List<FieldVersion> versions) {
+        ArrayNode features = NgsiJson.array();
         versions.forEach(version -> features.add(NgsiJson.own(() -> NgsiJson.read(version.toBytes()))));
-        return collection;
+        return features;
+    }
+
+    /** Returns a FeatureCollection. */
+    public static ObjectNode json(ArrayNode features) {
+        return NgsiJson.object().put("type", "FeatureCollection").set("features", features);
     }
 
     /** @param fields a FeatureCollection */

@@ -6,19 +6,23 @@ import java.io.IOException;
 import java.io.InputStream;
 import java.io.OutputStream;
 import java.nio.file.Files;
-import java.nio.file.Path;
 import java.util.List;
 import java.util.function.LongConsumer;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.flink.core.fs.Path;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlPlaneException;
 import io.furrow.cli.control.client.ControlTransfer;
+import io.furrow.cli.control.client.ListLimit;
 import io.furrow.cli.time.Times;
 import io.furrow.mission.Recording;
+import io.furrow.mission.archive.MissionArchive;
 import io.furrow.mission.file.FileRecordings;
 import io.furrow.mission.marker.Marker;
+import io.furrow.mission.mongo.MissionCollections;
+import io.furrow.model.topic.TopicName;
 
 /** The missions that a control plane has stored. */
 public final class ApiStore implements MissionStore {
@@ -29,7 +33,7 @@ public final class ApiStore implements MissionStore {
     private final ControlApi api;
     private final ControlTransfer transfer;
     /** A mission that is open; null for none. */
-    private Path copy;
+    private java.nio.file.Path copy;
 
     public ApiStore(ControlApi api) {
         this.api = api;
@@ -37,8 +41,8 @@ public final class ApiStore implements MissionStore {
     }
 
     @Override
-    public JsonNode list() {
-        return api.get(RECORDINGS);
+    public ControlApi.Page list(ListLimit limit) {
+        return limit.read(api, RECORDINGS);
     }
 
     @Override
@@ -57,11 +61,30 @@ public final class ApiStore implements MissionStore {
     /** Copies its lines to a file: not every format can be written in the order of events. */
     @Override
     public Recording open(String mission) throws IOException {
+        download(mission);
+        return new FileRecordings(copy.toString()).open(mission).orElseThrow();
+    }
+
+    private void download(String mission) throws IOException {
+        close();
         copy = Files.createTempFile("furrow-export", ".ndjson");
         try (OutputStream out = Files.newOutputStream(copy)) {
             transfer.download(events(mission), LINES, out);
         }
-        return new FileRecordings(copy.toString()).open(mission).orElseThrow();
+    }
+
+    /** The control plane lists missions by the names of their collections, as archives do. */
+    @Override
+    public Path folder(String mission, Path root) {
+        boolean isListed = api.get(RECORDINGS).findValuesAsText("mission").contains(mission);
+        return new Path(root, MissionCollections.PREFIX + (isListed ? mission : TopicName.of(mission)));
+    }
+
+    /** Copies its lines to a file first, so that a slow archive does not hold up the control plane. */
+    @Override
+    public MissionArchive.Outcome archive(String mission, Path root) throws IOException {
+        download(mission);
+        return MissionArchive.archive(folder(mission, root), new Path(copy.toUri()));
     }
 
     @Override

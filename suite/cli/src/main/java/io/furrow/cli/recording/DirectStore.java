@@ -6,12 +6,15 @@ import java.io.OutputStream;
 import java.util.List;
 import java.util.function.LongConsumer;
 
-import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
+import org.apache.flink.core.fs.Path;
 
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ListLimit;
 import io.furrow.cli.option.CommandException;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingDeletedException;
+import io.furrow.mission.archive.MissionArchive;
 import io.furrow.mission.archive.StoredMissions;
 import io.furrow.mission.marker.Marker;
 import io.furrow.mission.marker.Markers;
@@ -30,12 +33,8 @@ public final class DirectStore implements MissionStore {
         this.missions = StoredMissions.open(mongo);
     }
 
-    public StoredMissions missions() {
-        return missions;
-    }
-
     @Override
-    public JsonNode list() {
+    public ControlApi.Page list(ListLimit limit) {
         ArrayNode stored = NgsiJson.array();
         missions.all()
                 .forEach(mission -> stored.addObject()
@@ -43,11 +42,11 @@ public final class DirectStore implements MissionStore {
                         .put("events", mission.events())
                         .put("first", mission.first().toString())
                         .put("last", mission.last().toString()));
-        return stored;
+        return limit.cut(stored);
     }
 
     /** @throws CommandException if nothing is stored of a mission */
-    public void require(String mission) {
+    private void require(String mission) {
         if (!missions.has(mission)) {
             throw new CommandException(
                     "No mission named %s is stored; ./furrow mission stored shows those that are.".formatted(mission));
@@ -67,6 +66,17 @@ public final class DirectStore implements MissionStore {
                 .open(mission)
                 .orElseThrow(
                         () -> new RecordingDeletedException("Mission %s has just been deleted".formatted(mission)));
+    }
+
+    @Override
+    public Path folder(String mission, Path root) {
+        return new MissionArchive(missions, root).folder(mission);
+    }
+
+    @Override
+    public MissionArchive.Outcome archive(String mission, Path root) throws IOException {
+        require(mission);
+        return new MissionArchive(missions, root).archive(mission);
     }
 
     @Override

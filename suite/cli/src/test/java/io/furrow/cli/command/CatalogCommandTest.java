@@ -26,4 +26,15 @@ class CatalogCommandTest {
                 .containsPattern("north / weeding +Camera +2 +7 ")
                 .contains("north/weeding/Camera\n7\n");
     }
+
+    @Test
+    void listsNoMoreTypesThanAreRequested() {
+        control.answerPage("GET /api/catalog?limit=1", "[{'type':'Camera'},{'type':'Robot'}]", "?limit=1&page=2");
+
+        assertThat(control.run("catalog", "--limit", "1", "-o", "name")).isZero();
+
+        assertThat(control.output().lines())
+                .containsExactly("-/-/Camera", "There are more than 1; --limit shows more of them.");
+        assertThat(control.run("catalog", "--limit", "0")).isEqualTo(2);
+    }
 }

@@ -58,6 +58,20 @@ class FieldsCommandGroupTest {
     }
 
     @Test
+    void listsNoMoreFieldsThanAreRequested() {
+        String feature = "{'type':'FeatureCollection','features':[{'id':'%s','geometry':null,'properties':{}}]}";
+        control.answerPage("GET /api/fields?limit=1", feature.formatted("a"), "?limit=1&page=2")
+                .answerPage("GET /api/fields?limit=2", feature.formatted("a"), "?limit=2&page=2")
+                .answer("GET /api/fields?limit=2&page=2", feature.formatted("b"));
+
+        assertThat(control.run("fields", "list", "-n", "1", "-o", "jsonpath={.features[*].id}"))
+                .isZero();
+        assertThat(control.output().lines()).containsExactly("a", "There are more than 1; --limit shows more of them.");
+        assertThat(control.run("fields", "list", "-n", "2", "-o", "name")).isZero();
+        assertThat(control.output().lines()).containsExactly("a", "b");
+    }
+
+    @Test
     void sendsTheFieldsOfAFileInOneFormAndReportsTheirChanges() {
         control.answer(SENT, """
                 {'fields':[{'id':'a','name':'Barn','domain':'north','domainBefore':'','change':'changed','mended':[]},

@@ -1,8 +1,10 @@
 package io.furrow.cli.command;
 
 import java.io.ByteArrayOutputStream;
+import java.io.InputStream;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.zip.GZIPInputStream;
 import java.util.zip.GZIPOutputStream;
 
 import org.junit.jupiter.api.AutoClose;
@@ -36,13 +38,29 @@ class RecordingCommandsTest {
     @Test
     void listsStoredMissions() {
         control.answer(
-                "GET /api/recordings", "[{'mission':'hoeing','first':1700000000000,'last':'2023-11-14T22:13:21Z'}]");
+                "GET /api/recordings",
+                "[{'mission':'hoeing','first':1700000000000,'last':'2023-11-14T22:13:21Z','events':2}]");
 
         assertThat(control.run("mission", "stored")).isZero();
 
         assertThat(control.output())
-                .containsPattern("MISSION +FIRST +LAST")
-                .containsPattern("hoeing +2023-11-14T22:13:20Z +2023-11-14T22:13:21Z");
+                .containsPattern("MISSION +EVENTS +FIRST +LAST")
+                .containsPattern("hoeing +2 +2023-11-14T22:13:20Z +2023-11-14T22:13:21Z");
+    }
+
+    @Test
+    void listsNoMoreMissionsThanAreRequested() {
+        control.answerPage("GET /api/recordings?limit=1", "[{'mission':'hoeing','events':2}]", "?limit=1&page=2");
+
+        assertThat(control.run("mission", "stored", "--limit", "1")).isZero();
+
+        assertThat(control.output().lines())
+                .satisfiesExactly(
+                        line -> assertThat(line).startsWith("MISSION"),
+                        line -> assertThat(line).startsWith("hoeing"),
+                        line -> assertThat(line).isEqualTo("There are more than 1; --limit shows more of them."));
+        assertThat(control.run("mission", "stored", "--limit", "20001")).isEqualTo(2);
+        assertThat(control.output()).contains("--limit is 1 to 20000, not 20001");
     }
 
     @Test
@@ -73,6 +91,35 @@ class RecordingCommandsTest {
 
         assertThat(control.output()).isEqualToIgnoringNewLines("there is no GET /api/recordings/typo/events (unknown)");
         assertThat(folder).isEmptyDirectory();
+    }
+
+    @Test
+    void rejectsAFileWithoutAName() {
+        assertThat(control.run("mission", "export", "hoeing", "")).isEqualTo(2);
+
+        assertThat(control.output()).contains("empty string. Check --mongo and the file's name.");
+    }
+
+    @Test
+    void addsWhatIsMissingToAnArchive() throws Exception {
+        control.answer("GET /api/recordings", "[{'mission':'hoeing'},{'mission':'_x-68'}]")
+                .answer("GET /api/recordings/_x-68/events", LINES);
+
+        assertThat(control.run("mission", "archive", folder.toString(), "hoeing", "_x-68"))
+                .isZero();
+        assertThat(control.run("mission", "archive", folder.toString(), "hoeing"))
+                .isZero();
+
+        assertThat(control.output())
+                .contains("hoeing: 2 events added in 1 file, 0 there before, in " + folder + "/mission_hoeing\n")
+                .contains("_x-68: 2 events added in 1 file, 0 there before, in " + folder + "/mission__x-68\n")
+                .contains("hoeing: 0 events added in 0 files, 2 there before, in ");
+        try (InputStream day =
+                new GZIPInputStream(Files.newInputStream(folder.resolve("mission_hoeing/2023-11-14-0001.ndjson.gz")))) {
+            assertThat(day).hasContent(LINES);
+        }
+        assertThat(control.run("mission", "archive", folder.toString(), "typo")).isEqualTo(1);
+        assertThat(control.output()).isEqualToIgnoringNewLines("there is no GET /api/recordings/typo/events (unknown)");
     }
 
     @Test

@@ -14,7 +14,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 /** Compares results through a control plane. */
 class CompareCommandTest {
     private static final String REPLAY = "data.weeding.replay.0000000a";
-    private static final String PAGE = "/records?values=true&limit=100";
+    /** A page of 1,000, which the stub leaves out at the end. */
+    private static final String PAGE = "/records?values=true";
 
     @AutoClose
     private final StubControl control = new StubControl().answer("GET /api/v1/topics", """
@@ -22,13 +23,13 @@ class CompareCommandTest {
 
     @Test
     void comparesAllPagesOfAReplayWithThoseFoundLive() {
-        answer(REPLAY + PAGE, record(REPLAY, 7, "1", average("f", 0, 20, "good")));
+        answer(REPLAY + PAGE + "&limit=100", record(REPLAY, 7, "1", average("f", 0, 20, "good")));
         control.answerPage(
                 "GET /api/v1/topics/" + REPLAY + ".collision" + PAGE,
                 "[" + record(REPLAY, 9, "1", encounter("xy", "ended", 2, 0, 10)) + "]",
-                "?values=true&limit=100&before=x");
+                "?values=true&limit=1000&before=x");
         answer(
-                REPLAY + ".collision" + PAGE + "&before=x",
+                REPLAY + ".collision" + PAGE + "&limit=1000&before=x",
                 record(REPLAY, 4, "1", encounter("ab", "ended", 3, 0, 10)),
                 record(REPLAY, 3, "0", encounter("zz", "ended", 3, 0, 10)));
         answer("data.collision" + PAGE, record("data.collision", 1, null, encounter("xy", "ended", 2, 0, 10)));
@@ -36,7 +37,7 @@ class CompareCommandTest {
         String bounded = "&from=" + (ResultRecords.T0 + 10_000);
         // The newest record of a window is the first of the answer, and counts.
         answer(
-                "data.temperature" + PAGE + bounded,
+                "data.temperature" + PAGE + "&limit=1000" + bounded,
                 record("data.temperature", 6, null, average("f", 20, 19, "good")),
                 record("data.temperature", 5, null, average("f", 20, 11, "good")));
 

@@ -176,7 +176,7 @@ class ReplayCommandGroupTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
-            list m                | GET /api/missions/m/markers
+            list m                | GET /api/missions/m/markers?limit=1000
             add m 5 hail          | POST /api/missions/m/markers {"time":5,"note":"hail"}
             remove m a1           | DELETE /api/missions/m/markers/a1
             """)

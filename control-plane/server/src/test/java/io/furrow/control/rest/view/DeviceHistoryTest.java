@@ -50,7 +50,7 @@ class DeviceHistoryTest {
     }
 
     private void hasMission(String mission, long first, long last) {
-        view.put(Topics.RECORDINGS, mission, new RecordedMission(mission, TIME + first, TIME + last).toBytes());
+        view.put(Topics.RECORDINGS, mission, new RecordedMission(mission, TIME + first, TIME + last, 5).toBytes());
     }
 
     private static void stores(String mission, long after, Object value, String unit) {

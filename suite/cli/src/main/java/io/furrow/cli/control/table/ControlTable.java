@@ -152,10 +152,13 @@ public final class ControlTable {
         };
     }
 
-    /** Returns the list that an answer is or has as its only member, or a list of the answer. */
+    /** Returns the list that an answer is or has as its only member, or its features, or a list of the answer. */
     public static JsonNode rows(JsonNode answer) {
         if (answer.isArray()) {
             return answer;
+        }
+        if (answer.path("features").isArray()) {
+            return answer.path("features");
         }
         JsonNode first = answer.iterator().hasNext() ? answer.iterator().next() : answer;
         return answer.size() == 1 && first.isArray()
