@@ -55,15 +55,15 @@ class CsvIT extends StubbedPage {
         assertThat(page.find(".running")).hasCount(1);
 
         assertThat(ReportIT.csv(page, "Running", "replays.csv"))
-                .isEqualTo("Mission,State,From,To,At,Speed\r\n"
-                        + "weeding,paused,2026-01-01T03:04:30.000Z,2026-01-01T03:05:30.000Z,2026-01-01T03:05:20.000Z,1\r\n");
+                .isEqualTo(
+                        "Mission,State,From,To,At,Speed\r\n"
+                                + "weeding,paused,2026-01-01T03:04:30.000Z,2026-01-01T03:05:30.000Z,2026-01-01T03:05:20.000Z,1\r\n");
     }
 
     @Test
     void savesTheTablesOfTheMap() throws IOException {
         long now = System.currentTimeMillis();
-        farm.answers(
-                "/api/history/data.coverage", CoverageIT.records(CoverageIT.figures("weeding", "", now, 0.31)));
+        farm.answers("/api/history/data.coverage", CoverageIT.records(CoverageIT.figures("weeding", "", now, 0.31)));
         FarmPage page = farm.open("#/map?table=1", 1440, 900);
         assertThat(page.find("table[aria-label='Worked area'] tbody tr")).hasCount(1);
 

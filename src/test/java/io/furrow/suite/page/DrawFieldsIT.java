@@ -248,7 +248,8 @@ class DrawFieldsIT extends StubbedPage {
         page.button("Undo: south was renamed").click();
         page.until(() -> farm.sent()
                 .equals(List.of(
-                        "PATCH /api/fields/south {\"name\":\"North\"}", "PATCH /api/fields/south {\"name\":\"south\"}")));
+                        "PATCH /api/fields/south {\"name\":\"North\"}",
+                        "PATCH /api/fields/south {\"name\":\"south\"}")));
 
         page.button("Delete south").click();
         page.find("dialog[open] button[type=submit]").click();
@@ -260,10 +261,12 @@ class DrawFieldsIT extends StubbedPage {
         assertThat(written.get("id").getAsString()).isEqualTo("south");
         assertThat(written.toString()).contains("[" + LONGITUDE + "," + LATITUDE + "]");
         page.until(() -> asked.stream()
-                .anyMatch(each -> each.startsWith("POST ") && each.endsWith("/api/fields?validFrom="
-                        + Instant.parse("2020-01-01T00:00:00Z").toEpochMilli())));
+                .anyMatch(each -> each.startsWith("POST ")
+                        && each.endsWith("/api/fields?validFrom="
+                                + Instant.parse("2020-01-01T00:00:00Z").toEpochMilli())));
         assertThat(page.button("Undo: south was deleted")).hasCount(0);
-        assertThat(page.find("[role=status]").filter(FarmPage.having("Undone: south was deleted."))).isVisible();
+        assertThat(page.find("[role=status]").filter(FarmPage.having("Undone: south was deleted.")))
+                .isVisible();
     }
 
     @Test

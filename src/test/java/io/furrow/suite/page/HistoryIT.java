@@ -121,12 +121,12 @@ class HistoryIT extends StubbedPage {
         FarmPage page = farm.open("#/history?select=" + ROBOT, 1440, 900);
         Locator chart = page.find(".history-panel [role=img]");
         assertThat(chart).isVisible();
-        page.until(() -> page.is("document.querySelector('furrow-history').panels[0].chart.range[0] === "
-                + (now - 4 * MINUTE)));
+        page.until(() ->
+                page.is("document.querySelector('furrow-history').panels[0].chart.range[0] === " + (now - 4 * MINUTE)));
 
         page.run("location.hash = '#/history?select=" + ROBOT + "&between=" + (now - 60 * MINUTE) + "~" + now + "'");
-        page.until(() -> page.is("document.querySelector('furrow-history').panels[0].chart.range[0] === "
-                + (now - 60 * MINUTE)));
+        page.until(() -> page.is(
+                "document.querySelector('furrow-history').panels[0].chart.range[0] === " + (now - 60 * MINUTE)));
     }
 
     @Test

@@ -94,7 +94,8 @@ class LanguageIT extends StubbedPage {
         assertThat(text).hasText("Robot 1 and Robot 2 are 11.1\u00a0m apart, closest 3.0\u00a0m");
         assertThat(text).hasAttribute("lang", "en");
 
-        farm.send("data.raw", "urn:ngsi-ld:Robot:2", StubFarm.robot(2, "Running", "farm", "weeding", 40.31262, -3.4822));
+        farm.send(
+                "data.raw", "urn:ngsi-ld:Robot:2", StubFarm.robot(2, "Running", "farm", "weeding", 40.31262, -3.4822));
         assertThat(text).hasText("Robot 1 and Robot 2 are 2.2\u00a0m apart, closest 2.2\u00a0m");
         farm.send("data.collision", "e", encounter.formatted("ended"));
         assertThat(text).hasText("Robot 1 and Robot 2 came within 3.0\u00a0m");

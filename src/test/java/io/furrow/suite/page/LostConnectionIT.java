@@ -103,8 +103,9 @@ class LostConnectionIT {
 
         farm.untilStore("lost.every((each) => each.openedAt)");
         Assertions.assertThat(
-                        (List<?>) farm.store(
-                                "lost.filter((each) => each.openedAt - Math.min(...lost.map(({ openedAt }) => openedAt)) > 2_500).map(({ name }) => name)"))
+                        (List<?>)
+                                farm.store(
+                                        "lost.filter((each) => each.openedAt - Math.min(...lost.map(({ openedAt }) => openedAt)) > 2_500).map(({ name }) => name)"))
                 .isEmpty();
     }
 

@@ -176,10 +176,9 @@ class ReportIT extends StubbedPage {
                          "late": {"value": 45000}, "Mission": {"value": "weeding"}}}""".formatted(START + 60_000, ROBOT)));
         FarmPage page = farm.open("#/report?mission=weeding", 1440, 900);
 
-        assertThat(rows(page, "runs"))
-                .hasText(new String[] {
-                    "1 Jan 2026, 04:04:301 Jan 2026, 05:04:3060 min", "1 Jan 2026, 06:04:301 Jan 2026, 06:09:305 min"
-                });
+        assertThat(rows(page, "runs")).hasText(new String[] {
+            "1 Jan 2026, 04:04:301 Jan 2026, 05:04:3060 min", "1 Jan 2026, 06:04:301 Jan 2026, 06:09:305 min"
+        });
         Locator facts = page.find(".report-facts dd");
         assertThat(facts.nth(0)).containsText("2 runs");
         assertThat(facts.nth(1)).hasText("1 h 5 min");
@@ -195,8 +194,7 @@ class ReportIT extends StubbedPage {
         farm.answers("/api/recordings", "[{\"mission\": \"weeding\", \"first\": 1000, \"last\": %d}]".formatted(END));
         FarmPage page = farm.open("#/report?mission=weeding", 1440, 900);
 
-        assertThat(page.find(".report-facts dd").nth(0))
-                .containsText("1 Jan 2026, 04:04:30 – 06:09:30");
+        assertThat(page.find(".report-facts dd").nth(0)).containsText("1 Jan 2026, 04:04:30 – 06:09:30");
         assertThat(page.find(".report-facts dd").nth(0)).containsText("the clock of a device was wrong");
         assertThat(page.find(".report-facts dd").nth(1)).hasText("2 h 5 min");
     }
@@ -208,11 +206,13 @@ class ReportIT extends StubbedPage {
         FarmPage page = farm.open("#/report?mission=weeding", width, 900);
         assertThat(page.find(".report-facts > div")).hasCount(7);
 
-        assertThat(page.run(
-                        "getComputedStyle(document.querySelector('.report-facts')).gridTemplateColumns.split(' ').length"))
+        assertThat(
+                        page.run(
+                                "getComputedStyle(document.querySelector('.report-facts')).gridTemplateColumns.split(' ').length"))
                 .isEqualTo(columns);
-        assertThat(page.number(
-                        "[...document.querySelectorAll('.report-facts > div')].filter((each, index, all) => !all.some((other) => other !== each && other.offsetTop === each.offsetTop)).length"))
+        assertThat(
+                        page.number(
+                                "[...document.querySelectorAll('.report-facts > div')].filter((each, index, all) => !all.some((other) => other !== each && other.offsetTop === each.offsetTop)).length"))
                 .isLessThanOrEqualTo(columns == 2 ? 1 : 0); // the first has a row of two columns
     }
 

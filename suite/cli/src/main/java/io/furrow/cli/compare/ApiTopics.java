@@ -31,8 +31,7 @@ record ApiTopics(ControlApi api) implements ResultTopics {
     public void read(String topic, long from, Consumer<ResultRecord> reader) {
         List<ResultRecord> newestFirst = new ArrayList<>();
         api.pages(
-                path(topic, PAGE, from > 0 ? from : null),
-                page -> page.forEach(each -> newestFirst.add(record(each))));
+                path(topic, PAGE, from > 0 ? from : null), page -> page.forEach(each -> newestFirst.add(record(each))));
         Collections.reverse(newestFirst);
         newestFirst.forEach(reader);
     }

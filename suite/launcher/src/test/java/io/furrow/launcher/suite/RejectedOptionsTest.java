@@ -44,8 +44,7 @@ class RejectedOptionsTest extends CommandLineFixture {
                 "--tiles a --tiles b|--tiles a, b: give one file only",
             })
     void rejectsBaseMapsThatAreNone(String options, String sentence) {
-        assertThat(refusal(with(upOnFreePorts(directory), options.split(" "))))
-                .startsWith(sentence);
+        assertThat(refusal(with(upOnFreePorts(directory), options.split(" ")))).startsWith(sentence);
     }
 
     @ParameterizedTest
