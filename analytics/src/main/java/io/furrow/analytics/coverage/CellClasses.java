@@ -99,8 +99,14 @@ final class CellClasses {
         return is(gaps, row, column) ? GAP : 0;
     }
 
-    /** The tiles with covered cells as a raster of at most so many cells: every n-th cell of every n-th row, from the middle of the n. */
+    /**
+     * The tiles with covered cells as a raster of at most so many cells: every n-th cell of every n-th row, from the middle of the n. Null
+     * if no cell is covered: a robot may have worked less than a cell.
+     */
     Layer layer(int most) {
+        if (south >= north) {
+            return null;
+        }
         int n = (int) Math.max(1, Math.ceil(Math.sqrt((double) (north - south) * (east - west) / most)));
         int columns = count(east - west, n);
         int rows = count(north - south, n);

@@ -12,7 +12,7 @@ package io.furrow.analytics.coverage;
  * @param overlapped number of cells that are covered again
  * @param gaps number of cells in gaps; 0 for a single robot
  * @param perHour number of cells that are newly covered in an hour; NaN if unknown
- * @param layer the cells; null for a single robot
+ * @param layer the cells; null for a single robot, and if no cell is covered
  */
 public record CoverageReport(
         Swath last,

@@ -5,6 +5,7 @@ import java.util.Comparator;
 import java.util.List;
 
 import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import picocli.CommandLine.ParameterException;
@@ -98,6 +99,7 @@ class MotionJobTest {
         });
     }
 
+    @Tag("full")
     @Test
     void looksOnlyAtTheTypesThatMove() throws Exception {
         List<TopicRecord> records = new ArrayList<>();
@@ -113,6 +115,7 @@ class MotionJobTest {
                         record -> assertThat(entity(record).text("Device2_ID")).contains("t2"));
     }
 
+    @Tag("full")
     @Test
     void leavesOutWhatIsFasterThanAnyMachine() throws Exception {
         List<TopicRecord> records = new ArrayList<>();

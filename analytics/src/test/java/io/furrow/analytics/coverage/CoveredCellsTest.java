@@ -92,6 +92,14 @@ class CoveredCellsTest {
         return FieldVersions.read(drives.fields.atStart()).at("f", Drives.START).orElseThrow();
     }
 
+    /** A robot may have worked less than a cell. */
+    @Test
+    void hasNoLayerWhileNoCellIsCovered() throws Exception {
+        FieldGrid grid = FieldGrid.of(field(new Drives(7)).area(), 0.5);
+
+        assertThat(new CellClasses(grid).layer(100)).isNull();
+    }
+
     /** A robot that creeps, with an implement as wide as one may be: all that it has driven is within a working width. */
     @Test
     void retainsOnlySoManySwathsOfAWay() throws Exception {
