@@ -44,6 +44,9 @@ export const texts = {
     illuminance: 'iluminancia', voltage: 'tensión', precipitation: 'precipitación', rainfall: 'lluvia', 'solar radiation': 'radiación solar', location: 'posición', position: 'posición', state: 'estado', status: 'estado', mode: 'modo', mission: 'misión', image: 'imagen',
   },
 
+  commands: { stop: 'parar', resume: 'continuar', on: 'encender', off: 'apagar', restart: 'reiniciar' },
+  reported: { running: 'en marcha', working: 'trabajando', moving: 'en movimiento', stop: 'parado', stopped: 'parado', paused: 'en pausa', idle: 'inactivo', charging: 'cargando', on: 'encendido', off: 'apagado' },
+
   sentences: {
     'collision-many': '{affected pareja más|parejas más} de {group} {affected: está|están} demasiado cerca',
     'predicted-encounter': '{first} y {second} se acercarán a {meters}', 'predicted-encounter-many': 'Se {affected: prevé|prevén} {affected encuentro más|encuentros más} de {group}',

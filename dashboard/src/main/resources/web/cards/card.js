@@ -1,6 +1,6 @@
 /** The card of one entity: attributes, series, image, commands and details. */
 import { api } from '../core/api.js';
-import { age, bytes, temperature } from '../core/format.js';
+import { age, bytes, temperature, word } from '../core/format.js';
 import { h, replace, setText } from '../core/dom.js';
 import { openDialog } from '../core/dialog.js';
 import { icon } from '../core/icons.js';
@@ -85,7 +85,7 @@ export class Card {
     const { entity } = this;
     const facts = [];
     if (entity.word) {
-      facts.push({ label: t('cards.state'), value: entity.word, unit: '' });
+      facts.push({ label: t('cards.state'), value: word(entity.word, 'reported'), unit: '' });
     }
     facts.push(...keyAttributes(entity, 3));
     const suspect = store.suspects.get(entity.id);
@@ -137,7 +137,7 @@ export class Card {
 
   request(command) {
     const send = () => { sendCommand(this.entity, command.name, (sent) => { this.sent = sent; this.drawCommands(); }); };
-    command.risky ? openDialog({ title: t('cards.confirm', { command: command.name, name: this.entity.name }), submit: nameOf(command), danger: true, body: [], work: send }) : send();
+    command.risky ? openDialog({ title: t('cards.confirm', { command: word(command.name, 'commands'), name: this.entity.name }), submit: nameOf(command), danger: true, body: [], work: send }) : send();
   }
 
   // --- details -----------------------------------------------------------------------------------------------------
@@ -182,5 +182,6 @@ export class Card {
 Card.count = 0;
 
 function nameOf({ name }) {
-  return name.charAt(0).toUpperCase() + name.slice(1);
+  const own = word(name, 'commands');
+  return own.charAt(0).toUpperCase() + own.slice(1);
 }

@@ -1,7 +1,7 @@
 /** Commands of a device and their outcomes. */
 import { api } from '../core/api.js';
 import { isStopped } from '../core/entity.js';
-import { duration } from '../core/format.js';
+import { duration, word } from '../core/format.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 
@@ -65,7 +65,8 @@ export function outcomeOf(entity, sent, now) {
 
 /** The outcome in words. @returns {{text: string, kind: 'good'|'bad'|'warn'|''}} */
 export function outcomeWords(entity, sent) {
-  const { command, at, error } = sent;
+  const { at, error } = sent;
+  const command = word(sent.command, 'commands');
   if (error) {
     return { text: t('cards.refused', { command, reason: error }), kind: 'bad' };
   }

@@ -1,5 +1,6 @@
 /** Stops all robots of the farm: asks once, and shows the outcome of each robot. */
 import { h, replace } from '../core/dom.js';
+import { word } from '../core/format.js';
 import { icon } from '../core/icons.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
@@ -47,6 +48,6 @@ function open() {
 }
 
 function row(entity, sent) {
-  const { text, kind } = sent ? outcomeWords(entity, sent) : { text: [entity.word, entity.state === 'stale' && t('states.stale')].filter(Boolean).join(', '), kind: 'muted' };
+  const { text, kind } = sent ? outcomeWords(entity, sent) : { text: [entity.word && word(entity.word, 'reported'), entity.state === 'stale' && t('states.stale')].filter(Boolean).join(', '), kind: 'muted' };
   return h('li.row', { data: { id: entity.identity.id } }, h('strong', null, entity.name), h('span.muted.cut', null, entity.mission ?? entity.domain), h('span.spacer'), h(`span.card-outcome.numbers.${kind || 'muted'}`, null, text));
 }

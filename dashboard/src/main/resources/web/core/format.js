@@ -209,10 +209,10 @@ export function label(name) {
   return lower.charAt(0).toUpperCase() + lower.slice(1);
 }
 
-/** A word that devices or the server use, in the language of the page if it has it. */
-export function word(own) {
+/** A word that devices or the server use, in the language of the page if it has it. @param {'words'|'commands'|'reported'=} section */
+export function word(own, section = 'words') {
   const name = own.toLowerCase();
-  return texts.words && Object.hasOwn(texts.words, name) ? texts.words[name] : own;
+  return texts[section] && Object.hasOwn(texts[section], name) ? texts[section][name] : own;
 }
 
 /** "urn:ngsi-ld:Thermometer:4" → "Thermometer 4". */

@@ -31,7 +31,7 @@ class LanguageIT extends StubbedPage {
                   const flat = (section, path = '') => Object.entries(section).flatMap(([name, text]) =>
                     typeof text === 'object' ? flat(text, `${path}${name}.`) : `${path}${name} ${[...text.matchAll(/\\{(\\w+)/g)].map((hole) => hole[1]).sort()}`);
                   const english = flat((await import('/texts.js')).texts);
-                  const spanish = flat({ ...(await import('/texts.es.js')).texts, words: {}, sentences: {}, details: {}, groups: {}, refusals: {} });
+                  const spanish = flat({ ...(await import('/texts.es.js')).texts, words: {}, sentences: {}, details: {}, groups: {}, refusals: {}, commands: {}, reported: {} });
                   const without = (ours, theirs) => ours.filter((each) => !theirs.includes(each));
                   return [...without(english, spanish), ...without(spanish, english)];
                 }""")).isEmpty();
@@ -43,6 +43,7 @@ class LanguageIT extends StubbedPage {
         assertThat(page.find("html")).hasAttribute("lang", "es");
         assertThat(page.find(".rail")).containsText("Misiones");
         assertThat(page.card("urn:ngsi-ld:Robot:1")).containsText("1,50");
+        assertThat(page.card("urn:ngsi-ld:Robot:1")).containsText("en marcha");
 
         page.button("Ajustes").click();
         page.button("English").click();
