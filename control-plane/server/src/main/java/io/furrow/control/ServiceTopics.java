@@ -36,9 +36,9 @@ public final class ServiceTopics {
     private static final long POLL_INTERVAL_MILLIS = 50;
     private static final int STATUS_SEGMENT_BYTES = 16 * 1024 * 1024;
     private static final int STATUS_SEGMENT_MINUTES = 10;
-    /** Written while devices report, replays play or a fault lasts. */
-    private static final Set<String> REPEATED =
-            Set.of(Topics.DEVICES_HEALTH, Topics.DEVICES_CONNECTION, Topics.FAULTS, Topics.REPLAYS_STATUS);
+    /** Written again and again while devices report, missions are recorded, replays play or a fault lasts. */
+    private static final Set<String> REPEATED = Set.of(
+            Topics.DEVICES_HEALTH, Topics.DEVICES_CONNECTION, Topics.FAULTS, Topics.RECORDINGS, Topics.REPLAYS_STATUS);
 
     private static final String POLICY = "cleanup.policy";
     private static final String MAX_BYTES = "max.message.bytes";

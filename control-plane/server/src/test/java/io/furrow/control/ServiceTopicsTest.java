@@ -16,6 +16,10 @@ class ServiceTopicsTest {
                 .filteredOn(topic -> "600000".equals(topic.configs().get("segment.ms")))
                 .extracting(topic -> topic.name())
                 .containsExactlyInAnyOrder(
-                        Topics.DEVICES_HEALTH, Topics.DEVICES_CONNECTION, Topics.FAULTS, Topics.REPLAYS_STATUS);
+                        Topics.DEVICES_HEALTH,
+                        Topics.DEVICES_CONNECTION,
+                        Topics.FAULTS,
+                        Topics.RECORDINGS,
+                        Topics.REPLAYS_STATUS);
     }
 }
