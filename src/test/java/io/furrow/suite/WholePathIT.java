@@ -8,6 +8,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.kafka.field.FieldsTopic;
@@ -91,6 +92,7 @@ class WholePathIT {
         });
     }
 
+    @Tag("full")
     @Test
     void writesWhatTheRobotsHaveCoveredOfTheirFieldIntoTheContextBroker() {
         await().untilAsserted(() -> {

@@ -153,6 +153,7 @@ class CrowdedFarmIT extends StubbedPage {
         assertThat(page.find("furrow-missions .empty .button")).isVisible();
     }
 
+    @Tag("full")
     @Test
     void marksAReplayOnlyWhereItIsShown() {
         farm.hasAlarms(1);

@@ -11,6 +11,7 @@ import java.time.Duration;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.TimeUnit;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
@@ -36,6 +37,7 @@ class HttpLoadTest {
         }
     }
 
+    @Tag("full")
     @Test
     void sendsWhatIsDueAndNoMore() {
         try (BaselineServer server = BaselineServer.start()) {

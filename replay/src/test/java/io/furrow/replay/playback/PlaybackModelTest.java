@@ -6,6 +6,7 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.Random;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
@@ -30,6 +31,7 @@ class PlaybackModelTest {
         return new Random(20261123).longs(MISSIONS).boxed().toList();
     }
 
+    @Tag("full")
     @ParameterizedTest(name = "seed {0}")
     @MethodSource("seeds")
     void writesTheRecordsOfTheModelAtItsTimes(long seed) {
