@@ -27,8 +27,11 @@ import io.furrow.simulators.load.LoadPlan;
 public final class LoadMeasurement {
     static final Map<String, String> FETCHING =
             Map.of("isolation.level", "read_committed", "max.partition.fetch.bytes", Integer.toString(8 * 1024 * 1024));
-    /** After the last message was sent, this long without an arrival means that the rest is lost. */
-    private static final Duration QUIET = Duration.ofSeconds(60);
+    /**
+     * After the last message was sent, this long without an arrival means that the rest is lost: more than the minute that a job of a
+     * loaded cluster needs to be submitted again.
+     */
+    private static final Duration QUIET = Duration.ofSeconds(120);
 
     /** This long without a record means that the provisioning is complete. */
     private static final Duration SETTLED = Duration.ofSeconds(2);
