@@ -242,4 +242,5 @@ cp "$pages" "$logs/metrics.txt"
 for metric in $(grep -ohE '\b(flink|furrow)_[A-Za-z_]+' "$archive/docker/grafana/dashboards/furrow.json" "$archive/docker/prometheus/alerts.yml" | sort -u); do
     grep -q "^$metric[{ ]" "$pages" || fail "The dashboard of Grafana or an alert uses $metric, which no server exports: $logs/metrics.txt"
 done
+! grep -q maxAllowedWatermark "$logs/jobmanager.out" || fail "The job manager logs each alignment of partitions: $logs/jobmanager.out"
 echo "deployed: passed"

@@ -61,6 +61,7 @@ start_flink() {
     free_port && rpc=$port
     opens=$(grep -oE -- '--add-exports=java.rmi.*' "$FLINK_HOME/conf/config.yaml" | head -n 1)
     cp -r "$FLINK_HOME/conf" "$run/flink-conf"
+    cat "$home/docker/flink/log4j.properties" >>"$run/flink-conf/log4j-console.properties"
     cat >"$run/flink-conf/config.yaml" <<YAML
 env.java.opts.all: $opens
 rest.address: 127.0.0.1
