@@ -15,6 +15,8 @@ import { Sparkline } from './sparkline.js';
 
 /** Interval at which the connection of a device is read while its details are shown. */
 const REQUEST_INTERVAL = 10_000;
+/** Time in which the outcome of a command is read: longer than a missing answer is awaited, ms. */
+const OUTCOME_TIME = 60_000;
 
 export class Card {
   /** @param {import('../core/entity.js').Entity} entity */
@@ -138,6 +140,11 @@ export class Card {
   request(command) {
     const send = () => { sendCommand(this.entity, command.name, (sent) => { this.sent = sent; this.drawCommands(); }); };
     command.risky ? openDialog({ title: t('cards.confirm', { command: word(command.name, 'commands'), name: this.entity.name }), submit: nameOf(command), danger: true, body: [], work: send }) : send();
+  }
+
+  /** Whether a command was sent recently. */
+  isCommanded() {
+    return this.sent !== null && Date.now() - this.sent.at < OUTCOME_TIME;
   }
 
   // --- details -----------------------------------------------------------------------------------------------------

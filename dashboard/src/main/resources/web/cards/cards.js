@@ -82,7 +82,7 @@ class FurrowCards extends HTMLElement {
     this.drawing = null;
     for (const id of this.dirty) {
       const card = this.cards.get(id);
-      card && this.visible.has(card) && card.draw();
+      card && (this.visible.has(card) || card.isCommanded()) && card.draw();
     }
     this.dirty.clear();
   }
@@ -95,7 +95,7 @@ class FurrowCards extends HTMLElement {
   order(now) {
     const found = this.matching();
     this.found = found.length;
-    const matching = this.unfolded(found);
+    const matching = this.withCommanded(this.unfolded(found), found);
     const shown = this.withSelected(matching.slice(0, this.limit));
     if (!now && isHeld(this.list) && this.cards.size) {
       // Appended cards do not move others.
@@ -140,6 +140,15 @@ class FurrowCards extends HTMLElement {
   withSelected(shown) {
     const selected = store.entities.get(store.selection);
     return !selected || shown.includes(selected) || !store.inScope(selected) ? shown : [...shown, selected];
+  }
+
+  /** Keeps devices with a recent command at their places, where their outcomes are read. */
+  withCommanded(matching, found) {
+    const kept = [...this.list.children].map(({ card }, index) => ({ entity: card.entity, index, isCommanded: card.isCommanded() }))
+      .filter(({ entity, isCommanded }) => isCommanded && found.includes(entity));
+    const arranged = matching.filter((each) => !kept.some(({ entity }) => entity === each));
+    kept.forEach(({ entity, index }) => arranged.splice(index, 0, entity));
+    return arranged;
   }
 
   toggleFold() {

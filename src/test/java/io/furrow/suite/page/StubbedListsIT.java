@@ -115,4 +115,19 @@ class StubbedListsIT extends StubbedPage {
 
         assertThat(page.find(".audit-table td.about")).hasText("weeding · duration 90 min");
     }
+
+    /** Else it would be folded with its outcome. */
+    @Test
+    void leavesADeviceWithACommandAtItsPlace() {
+        farm.hasRobot(1).hasRobot(2);
+        FarmPage page = farm.open("", 1440, 900);
+        Locator names = page.find("furrow-cards .card-name");
+        page.button("Stop: Robot 1").click();
+        page.page().mouse().move(720, 450);
+
+        farm.send("data.raw", "urn:ngsi-ld:Robot:1", StubFarm.robot(1, "off"));
+        farm.send("data.raw", "urn:ngsi-ld:Robot:3", StubFarm.robot(3, "Running"));
+        assertThat(names).hasText(new String[] {"Robot 1", "Robot 2", "Robot 3"});
+        assertThat(names.first().locator("xpath=ancestor::li").locator(".card-mark")).hasText("off");
+    }
 }
