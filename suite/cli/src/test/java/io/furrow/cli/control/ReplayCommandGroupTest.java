@@ -208,7 +208,13 @@ class ReplayCommandGroupTest {
 
         assertThat(run("template", "export", "t", "/dev/full")).isEqualTo(1);
 
-        assertThat(output.toString()).contains("cannot read or write").doesNotContain("exported");
+        assertThat(run("template", "export", "t", "/nowhere/t.json")).isEqualTo(1);
+
+        assertThat(output.toString())
+                .contains(
+                        "cannot read or write",
+                        "/nowhere/t.json cannot be read or written: there is no such file or folder")
+                .doesNotContain("exported");
     }
 
     private int run(String... arguments) {

@@ -4,6 +4,7 @@ import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.UncheckedIOException;
 import java.net.URI;
+import java.nio.file.FileSystemException;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
@@ -25,6 +26,7 @@ import io.furrow.cli.control.table.CredentialList;
 import io.furrow.cli.option.Contexts;
 import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.cli.option.OutputOptions;
+import io.furrow.model.file.FileProblem;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
@@ -223,6 +225,10 @@ public final class ControlOptions {
             return 0;
         } catch (ControlPlaneException e) {
             spec.commandLine().getErr().println(reason(e));
+        } catch (FileSystemException e) {
+            spec.commandLine()
+                    .getErr()
+                    .println("%s cannot be read or written: %s".formatted(e.getFile(), FileProblem.of(e)));
         } catch (IOException e) {
             spec.commandLine().getErr().println("cannot read or write: " + FailureText.of(e));
         }
