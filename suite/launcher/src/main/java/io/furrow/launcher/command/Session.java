@@ -1,6 +1,5 @@
 package io.furrow.launcher.command;
 
-import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;
 import java.nio.file.Path;
@@ -29,7 +28,7 @@ final class Session {
 
     private final PrintWriter out;
     private final ClockWatch clock = new ClockWatch();
-    private final CountDownLatch stopRequested = new CountDownLatch(1);
+    private final UntilStopped shown = new UntilStopped();
     private final CountDownLatch stopped = new CountDownLatch(1);
     private volatile boolean started;
     private volatile StatusScreen screen;
@@ -66,12 +65,12 @@ final class Session {
         return 0;
     }
 
-    private void show(Suite suite) throws IOException, InterruptedException {
+    private void show(Suite suite) throws Exception {
         StringWriter addresses = new StringWriter();
         UrlTable.print(new PrintWriter(addresses), suite);
         out.print(addresses);
         out.flush();
-        Status.Shown shown = new Status.Shown(
+        Status.Shown content = new Status.Shown(
                 suite.kafka().admin(),
                 suite.kafka().clientProperties(),
                 suite.flink(),
@@ -79,13 +78,13 @@ final class Session {
                 suite::notices,
                 addresses.toString().strip().lines().map(String::strip).toList());
         try (StatusScreen drawn = StatusScreen.open();
-                Status status = new Status(out, drawn, shown)) {
+                Status status = new Status(out, drawn, content)) {
             screen = drawn;
             status.start();
-            do {
+            shown.repeat(() -> {
                 clock.check();
                 status.tick();
-            } while (!stopRequested.await(1, TimeUnit.SECONDS));
+            });
         }
     }
 
@@ -94,7 +93,7 @@ final class Session {
      * the JVM; stored files survive that as they survive a power cut.
      */
     private void stopFromOutside(RunDirectory directory) {
-        stopRequested.countDown();
+        shown.stop();
         StatusScreen drawn = screen;
         if (drawn != null) {
             drawn.close();
