@@ -83,15 +83,25 @@ public final class UpProcess implements AutoCloseable {
                 .redirectOutput(ProcessBuilder.Redirect.appendTo(
                         folder.resolve("up.out").toFile()))
                 .start();
-        Until.isTrue("up is ready", START_TIMEOUT, () -> !process.isAlive() || isReady());
-        if (!process.isAlive()) {
-            throw new IOException("up ended while it started: " + Files.readString(folder.resolve("up.out")));
+        boolean isAnswered = Until.within(START_TIMEOUT, () -> !process.isAlive() || isReady());
+        if (!isAnswered || !process.isAlive()) {
+            throw new IOException("up %s: %s%n%s"
+                    .formatted(
+                            isAnswered
+                                    ? "ended while it started"
+                                    : "is not ready within " + START_TIMEOUT.toSeconds() + " s",
+                            readiness(),
+                            Files.readString(folder.resolve("up.out"))));
         }
     }
 
     private boolean isReady() {
-        URI ready = URI.create("http://127.0.0.1:" + ports.get("health") + "/ready");
-        return Http.get(ready).body().path("status").asText().equals("ready");
+        return readiness().path("status").asText().equals("ready");
+    }
+
+    private JsonNode readiness() {
+        return Http.get(URI.create("http://127.0.0.1:" + ports.get("health") + "/ready"))
+                .body();
     }
 
     /** Kills the process like {@code kill -9}. */
