@@ -160,8 +160,8 @@ class RealDevicesIT {
                 .hasSize(39)
                 .allMatch(each -> each.at("/Temperature/value").asInt() == 21
                         && each.path("Humidity").isMissingNode());
-        await().until(() -> texts().anyMatch(text -> text.matches(".*Robot.* and .*Station.* apart")));
-        assertThat(texts()).noneMatch(text -> text.matches(".*Station.* and .*Station.* apart"));
+        await().until(() -> texts().anyMatch(text -> text.matches(".*Robot.* and .*Station.* came within .*")));
+        assertThat(texts()).noneMatch(text -> text.matches(".*Station.* and .*Station.* came within .*"));
         running.post("/api/missions/mixed/stop", "{}");
     }
 

@@ -101,10 +101,13 @@ class MapIT {
                         farm.number(
                                 "Math.max(0, ...document.querySelector('furrow-map').devices.clusters.map((each) => each.count))")
                 == 200); // more while the view is still moving
-        double[] spot = farm.spot("urn:ngsi-ld:Tractor:7");
-        farm.page().mouse().click(spot[0], spot[1]);
-
         Locator list = farm.find(".map-list");
+        farm.until(() -> {
+            double[] spot = farm.spot("urn:ngsi-ld:Tractor:7"); // moves while the view does
+            farm.page().mouse().click(spot[0], spot[1]);
+            return list.isVisible();
+        });
+
         assertThat(list.getByText("200 devices in one spot")).isVisible();
         farm.page().keyboard().press("Tab");
         farm.page().keyboard().press("Enter");

@@ -208,6 +208,7 @@ final class StubFarm implements AutoCloseable {
     /** Sends records in one frame. @param values by key */
     void send(String topic, Map<String, String> values) {
         long now = System.currentTimeMillis();
+        pages.get(pages.size() - 1).page().waitForCondition(() -> sockets.containsKey(topic));
         sockets.get(topic)
                 .send("{\"records\": "
                         + values.entrySet().stream()

@@ -128,6 +128,7 @@ class StubbedListsIT extends StubbedPage {
         farm.send("data.raw", "urn:ngsi-ld:Robot:1", StubFarm.robot(1, "off"));
         farm.send("data.raw", "urn:ngsi-ld:Robot:3", StubFarm.robot(3, "Running"));
         assertThat(names).hasText(new String[] {"Robot 1", "Robot 2", "Robot 3"});
-        assertThat(names.first().locator("xpath=ancestor::li").locator(".card-mark")).hasText("off");
+        assertThat(names.first().locator("xpath=ancestor::li").locator(".card-mark"))
+                .hasText("off");
     }
 }
