@@ -21,7 +21,10 @@ import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.KafkaFuture;
 import org.apache.kafka.common.config.ConfigResource;
 import org.apache.kafka.common.errors.TopicExistsException;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
+import io.furrow.kafka.HangingTransactions;
 import io.furrow.model.control.Limits;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
@@ -32,6 +35,7 @@ import io.furrow.model.topic.Topics;
  * Missing topics of data are created with the broker's number of partitions.
  */
 public final class ServiceTopics {
+    private static final Logger LOG = LoggerFactory.getLogger(ServiceTopics.class);
     private static final long TIMEOUT_SECONDS = 30;
     private static final long POLL_INTERVAL_MILLIS = 50;
     private static final int STATUS_SEGMENT_BYTES = 16 * 1024 * 1024;
@@ -95,6 +99,7 @@ public final class ServiceTopics {
      */
     public static void prepare(ControlSettings settings) throws IOException {
         try (Admin admin = Admin.create(settings.client())) {
+            abortHangingTransactions(admin);
             List<NewTopic> desired = desired(settings);
             for (KafkaFuture<Void> made : admin.createTopics(desired).values().values()) {
                 await(made, true);
@@ -112,6 +117,25 @@ public final class ServiceTopics {
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
             throw new IOException("interrupted while the topics service.* were prepared", e);
+        }
+    }
+
+    /** Else a transaction that a power cut left open would stop the restore of states. Replicas have none. */
+    private static void abortHangingTransactions(Admin admin)
+            throws InterruptedException, ExecutionException, TimeoutException {
+        if (admin.describeCluster()
+                        .nodes()
+                        .get(TIMEOUT_SECONDS, TimeUnit.SECONDS)
+                        .size()
+                > 1) {
+            return;
+        }
+        try {
+            HangingTransactions.abort(admin);
+        } catch (ExecutionException e) {
+            LOG.warn(
+                    "Kafka does not tell whether a power cut left transactions open ({}); if states are not restored, use kafka-transactions.sh find-hanging",
+                    FailureText.of(e));
         }
     }
 
