@@ -1,20 +1,25 @@
 package io.furrow.kafka;
 
 import java.util.Collection;
+import java.util.HashMap;
 import java.util.HashSet;
 import java.util.List;
+import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.ExecutionException;
 import java.util.stream.Collectors;
 
 import org.apache.kafka.clients.admin.AbortTransactionSpec;
 import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.DescribeTransactionsResult;
 import org.apache.kafka.clients.admin.ListTopicsOptions;
 import org.apache.kafka.clients.admin.ListTransactionsOptions;
 import org.apache.kafka.clients.admin.TopicDescription;
 import org.apache.kafka.clients.admin.TransactionListing;
 import org.apache.kafka.clients.admin.TransactionState;
 import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.errors.TransactionalIdNotFoundException;
+import org.apache.kafka.common.utils.Utils;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -25,8 +30,12 @@ import org.slf4j.LoggerFactory;
  */
 public final class HangingTransactions {
     private static final Logger LOG = LoggerFactory.getLogger(HangingTransactions.class);
-    private static final Set<TransactionState> UNFINISHED =
-            Set.of(TransactionState.ONGOING, TransactionState.PREPARE_COMMIT, TransactionState.PREPARE_ABORT);
+    private static final Set<TransactionState> UNFINISHED = Set.of(
+            TransactionState.ONGOING,
+            TransactionState.PREPARE_COMMIT,
+            TransactionState.PREPARE_ABORT,
+            TransactionState.PREPARE_EPOCH_FENCE);
+    private static final String COORDINATOR_LOG = "__transaction_state";
 
     private HangingTransactions() {}
 
@@ -42,14 +51,15 @@ public final class HangingTransactions {
         if (hanging.isEmpty()) {
             return 0;
         }
-        Set<Long> known =
-                admin.listTransactions(new ListTransactionsOptions().filterStates(UNFINISHED)).all().get().stream()
-                        .map(TransactionListing::producerId)
-                        .collect(Collectors.toSet());
-        hanging.removeIf(each -> known.contains(each.producer()));
-        // What is still open was open while no coordinator knew it: no ongoing transaction is, since its coordinator
-        // learns of it first.
-        hanging.retainAll(open(admin, hanging.stream().map(Open::partition).collect(Collectors.toSet())));
+        // Twice, because a single broker loses and regains its leadership at its start, and lists nothing in between.
+        for (int round = 0; round < 2; round++) {
+            awaitCoordinators(admin);
+            Set<Long> known = unfinished(admin);
+            hanging.removeIf(each -> known.contains(each.producer()));
+            // What is still open was open while no coordinator knew it: no ongoing transaction is, since its
+            // coordinator learns of it first.
+            hanging.retainAll(open(admin, hanging.stream().map(Open::partition).collect(Collectors.toSet())));
+        }
         for (Open each : hanging) {
             admin.abortTransaction(new AbortTransactionSpec(
                             each.partition(), each.producer(), (short) each.epoch(), each.coordinatorEpoch()))
@@ -62,6 +72,37 @@ public final class HangingTransactions {
                     each.start());
         }
         return hanging.size();
+    }
+
+    /** A coordinator that loads its log would list too little. Each describes a transaction, which does not exist, once it has loaded. */
+    private static void awaitCoordinators(Admin admin) throws InterruptedException, ExecutionException {
+        int coordinators = admin.describeTopics(List.of(COORDINATOR_LOG))
+                .allTopicNames()
+                .get()
+                .get(COORDINATOR_LOG)
+                .partitions()
+                .size();
+        Map<Integer, String> ids = new HashMap<>();
+        for (int number = 0; ids.size() < coordinators; number++) {
+            String id = "furrow-none-" + number;
+            ids.putIfAbsent(Utils.abs(id.hashCode()) % coordinators, id);
+        }
+        DescribeTransactionsResult described = admin.describeTransactions(ids.values());
+        for (String id : ids.values()) {
+            try {
+                described.description(id).get();
+            } catch (ExecutionException e) {
+                if (!(e.getCause() instanceof TransactionalIdNotFoundException)) {
+                    throw e;
+                }
+            }
+        }
+    }
+
+    private static Set<Long> unfinished(Admin admin) throws InterruptedException, ExecutionException {
+        return admin.listTransactions(new ListTransactionsOptions().filterStates(UNFINISHED)).all().get().stream()
+                .map(TransactionListing::producerId)
+                .collect(Collectors.toSet());
     }
 
     private static List<TopicPartition> partitions(Admin admin) throws InterruptedException, ExecutionException {

@@ -1,15 +1,19 @@
 package io.furrow.kafka;
 
 import java.io.IOException;
+import java.lang.reflect.Proxy;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
 import java.time.Duration;
 import java.util.List;
 import java.util.Properties;
+import java.util.Set;
+import java.util.concurrent.atomic.AtomicBoolean;
 import java.util.stream.Stream;
 
 import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.ListTransactionsOptions;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.admin.TransactionState;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
@@ -43,12 +47,28 @@ class HangingTransactionsTest {
             assertThat(read(consumer)).isEmpty();
 
             send(producer, "ongoing");
-            assertThat(HangingTransactions.abort(admin)).isEqualTo(1);
+            assertThat(HangingTransactions.abort(withLoadingCoordinators(admin)))
+                    .isEqualTo(1);
             producer.commitTransaction();
 
             await().untilAsserted(() -> assertThat(read(consumer)).isEqualTo(List.of("after", "ongoing")));
             assertThat(HangingTransactions.abort(admin)).isZero();
         }
+    }
+
+    /** Coordinators that list no transaction before they have described one, which they do as soon as they have loaded their log. */
+    private static Admin withLoadingCoordinators(Admin admin) {
+        AtomicBoolean loaded = new AtomicBoolean();
+        return (Admin) Proxy.newProxyInstance(
+                Admin.class.getClassLoader(), new Class<?>[] {Admin.class}, (proxy, method, arguments) -> {
+                    if (method.getName().equals("listTransactions") && !loaded.get()) {
+                        return admin.listTransactions(new ListTransactionsOptions().filterProducerIds(Set.of(-1L)));
+                    }
+                    if (method.getName().equals("describeTransactions")) {
+                        loaded.set(true);
+                    }
+                    return method.invoke(admin, arguments);
+                });
     }
 
     /** @return the files of a broker whose partition has the transaction's record, but not its end, which the coordinator knows */
