@@ -113,9 +113,9 @@ class ArchiveIT {
 
     @Test
     void hasWhatItsPagesLeadTo() throws IOException {
-        List<Path> pages =
-                Folders.walk(home).stream().filter(file -> file.toString().endsWith(".md") && !file.startsWith(home.resolve("plugins")))
-                        .toList();
+        List<Path> pages = Folders.walk(home).stream()
+                .filter(file -> file.toString().endsWith(".md") && !file.startsWith(home.resolve("plugins")))
+                .toList();
         assertThat(pages).hasSizeGreaterThan(50);
         for (Path page : pages) {
             assertThat(LINK.matcher(Files.readString(page)).results().map(found -> found.group(1)))
@@ -127,8 +127,13 @@ class ArchiveIT {
 
     @ParameterizedTest
     @CsvSource({
-        "ingest, ingest", "ingest, normalize", "analytics, temperature",
-        "analytics, collision", "analytics, presence", "analytics, coverage", "replay, replay"
+        "ingest, ingest",
+        "ingest, normalize",
+        "analytics, temperature",
+        "analytics, collision",
+        "analytics, presence",
+        "analytics, coverage",
+        "replay, replay"
     })
     void rejectsWrongOptionsOfAJobInASentence(String module, String job) throws Exception {
         String jar = home.resolve("jobs/furrow-%s-%s-job.jar".formatted(module, VERSION))
@@ -155,7 +160,8 @@ class ArchiveIT {
     }
 
     private static Set<String> jars(String folder, String ending) throws IOException {
-        return Folders.list(home.resolve(folder)).stream().map(file -> file.getFileName().toString())
+        return Folders.list(home.resolve(folder)).stream()
+                .map(file -> file.getFileName().toString())
                 .filter(name -> name.endsWith(ending))
                 .collect(Collectors.toSet());
     }
