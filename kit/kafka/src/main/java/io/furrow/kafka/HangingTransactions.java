@@ -23,6 +23,8 @@ import org.apache.kafka.common.utils.Utils;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.text.FailureText;
+
 /**
  * Aborts the transactions that are open in a partition although no coordinator knows them. A power cut leaves them on a single broker,
  * where the partition and the coordinator's log are as they were at different moments. Whoever reads committed records would wait for
@@ -60,18 +62,29 @@ public final class HangingTransactions {
             // coordinator learns of it first.
             hanging.retainAll(open(admin, hanging.stream().map(Open::partition).collect(Collectors.toSet())));
         }
+        int aborted = 0;
         for (Open each : hanging) {
-            admin.abortTransaction(new AbortTransactionSpec(
-                            each.partition(), each.producer(), (short) each.epoch(), each.coordinatorEpoch()))
-                    .all()
-                    .get();
-            LOG.warn(
-                    "aborted a transaction of producer {} in {} from offset {}, which no coordinator knows, as after a power cut",
-                    each.producer(),
-                    each.partition(),
-                    each.start());
+            try {
+                admin.abortTransaction(new AbortTransactionSpec(
+                                each.partition(), each.producer(), (short) each.epoch(), each.coordinatorEpoch()))
+                        .all()
+                        .get();
+                aborted++;
+                LOG.warn(
+                        "aborted a transaction of producer {} in {} from offset {}, which no coordinator knows, as after a power cut",
+                        each.producer(),
+                        each.partition(),
+                        each.start());
+            } catch (ExecutionException e) {
+                LOG.warn(
+                        "the transaction of producer {} in {} from offset {}, which no coordinator knows, cannot be aborted ({}); if it stays, use kafka-transactions.sh abort",
+                        each.producer(),
+                        each.partition(),
+                        each.start(),
+                        FailureText.of(e));
+            }
         }
-        return hanging.size();
+        return aborted;
     }
 
     /** A coordinator that loads its log would list too little. Each describes a transaction, which does not exist, once it has loaded. */
