@@ -28,13 +28,13 @@ command -v python3 >/dev/null || fail "Python 3 is missing. Install python3."
 [[ -x /usr/sbin/mosquitto ]] || command -v mosquitto >/dev/null || fail "Mosquitto is missing. Install the packages mosquitto and mosquitto-clients."
 
 prepare
-mkdir "$run/secrets" "$run/accounts" "$run/mosquitto-data" "$run/mosquitto-log"
+mkdir "$run/accounts" "$run/mosquitto-data" "$run/mosquitto-log"
 
 tar xzf "$home"/suite/distribution/target/furrow-*.tar.gz -C "$run"
 archive=$(echo "$run"/furrow-*)
 # As the Dockerfile does.
 (cd "$archive/jobs" && for job in ingest analytics replay; do mv furrow-$job-*-job.jar $job.jar; done)
-"$archive/bin/furrow" init "$run/.env" >/dev/null
+"$archive/bin/furrow" init "$run/secrets" >/dev/null
 class_path=$(sed "s|^|$archive/lib/|" "$archive/lib/class-path" | paste -sd:)
 test_path=$home/src/target/test-classes:$class_path
 snakeyaml=$(find "${MAVEN_REPOSITORY:-$HOME/.m2/repository}/org/yaml/snakeyaml" -name 'snakeyaml-*.jar' | sort -V | tail -n 1)
@@ -50,7 +50,7 @@ here() {
         -e "s|mosquitto:1883|127.0.0.1:$mqtt|g; s|orion:1026|127.0.0.1:$orion|g; s|iot-agent:4041|127.0.0.1:$agent|g" \
         -e "s|hdfs://namenode:8020|file://$run/hdfs|g" \
         -e "s|control-plane:8085|127.0.0.1:$control|g; s|jobmanager:8081|${rest:-127.0.0.1}|g; s|http://http|http|g" \
-        -e "s|connect:8083|127.0.0.1:$worker1|g; s|connect:{port}|127.0.0.1:$retries/{port}|g; s|0\.0\.0\.0|127.0.0.1|g; s|\"8090\"|\"$notify\"|g" \
+        -e "s|connect:8083|127.0.0.1:$worker1|g; s|connect:{port}|127.0.0.1:$retries/127.0.0.1:{port}|g; s|0\.0\.0\.0|127.0.0.1|g; s|\"8090\"|\"$notify\"|g" \
         -e "s|9249-9250|$metrics-$((metrics + 9))|g" \
         -e "s|/opt/furrow|$archive|g; s|/run/secrets|$run/secrets|g; s|/mosquitto/config|$run/accounts|g; s|/mosquitto/data|$run/mosquitto-data|g; s|/mosquitto/log|$run/mosquitto-log|g" \
         -e "s|/var/lib/furrow/journal|$run/journal|g; s|/var/lib/kafka/data|$run/kafka|g; s#/connectors/\(ngsi-[a-z]*\.json\)#$run/\1#g"
@@ -59,7 +59,7 @@ here() {
 # words SERVICE PART: reads a part of the service into the array words.
 words() {
     local text
-    text=$("$java" -Xmx128m -cp "$test_path:$snakeyaml" io.furrow.deployment.ComposeCommand "$archive/docker/compose.yaml" "$run/.env" "$1" "$2" | here)
+    text=$("$java" -Xmx128m -cp "$test_path:$snakeyaml" io.furrow.deployment.ComposeCommand "$archive/docker/compose.yaml" "$1" "$2" | here)
     mapfile -t words <<<"$text"
 }
 
@@ -72,14 +72,9 @@ start() {
 }
 
 say "Mosquitto, Kafka, stand-ins"
-# shellcheck source=/dev/null
-MQTT_PASSWORD=$(sed -n 's/^MQTT_PASSWORD=//p' "$run/.env") && export MQTT_PASSWORD
-sed -n 's/^FARM_SECRET=//p' "$run/.env" >"$run/secrets/farm-secret"
-sed -n 's/^API_TOKENS="\(.*\)"/\1/p' "$run/.env" >"$run/secrets/api-tokens"
-echo "mongodb://127.0.0.1:$mongo" >"$run/secrets/mongo-uri"
-chmod 600 "$run"/secrets/*
+echo "mongodb://127.0.0.1:$mongo" >"$run/secrets/mongo/uri"
 here <"$archive/docker/mosquitto/mosquitto.conf" | sed "s|listener 1883|listener $mqtt 127.0.0.1\nuser $(id -un)|" >"$run/mosquitto.conf"
-XDG_CONFIG_HOME=$run PATH=$PATH:/usr/sbin start mosquitto "$archive/docker/mosquitto/run" "$run/mosquitto.conf" "$run/accounts"
+XDG_CONFIG_HOME=$run PATH=$PATH:/usr/sbin start mosquitto "$archive/docker/mosquitto/run" "$run/mosquitto.conf" "$run/accounts" "$run/secrets/mqtt/password"
 
 words kafka environment
 # The image of Kafka derives its properties in the same way.
@@ -92,7 +87,7 @@ done | sed 's|,HOST:[^,]*||; /^heap/d' >"$run/kafka.properties"
 start kafka "$java" -Xmx512m -Dfurrow.log="$logs/kafka.log" -cp "$class_path" kafka.Kafka "$run/kafka.properties"
 until_true 60 "Kafka" open_port "$kafka"
 until_true 60 "Mosquitto" open_port "$mqtt"
-start stand-ins "$java" -Xmx512m -cp "$test_path" io.furrow.deployment.StandIns "$run/mongo" "$orion" "$agent" "$mongo" "$retries" "tcp://127.0.0.1:$mqtt" iot-agent "$MQTT_PASSWORD" "127.0.0.1:$kafka"
+start stand-ins "$java" -Xmx512m -cp "$test_path" io.furrow.deployment.StandIns "$run/mongo" "$orion" "$agent" "$mongo" "$retries" "tcp://127.0.0.1:$mqtt" iot-agent "$(cat "$run/secrets/mqtt/password")" "127.0.0.1:$kafka"
 until_true 60 "The context broker's stand-in" open_port "$orion"
 
 # start_worker NUMBER: sets worker_NUMBER to its process.
@@ -137,7 +132,7 @@ start dashboard env FURROW_OPTS="-Xms128m -Xmx384m" "$archive/bin/furrow" "${wor
 until_true 60 "The dashboard" curl -fs "http://127.0.0.1:$dashboard/"
 
 say "jobs by flink run"
-export FLINK_HOME CHECKPOINTS=$run/checkpoints
+export FLINK_HOME CHECKPOINTS=$run/checkpoints INTERVAL=0
 # submit JOB
 submit() {
     words "job-$1" command
@@ -162,7 +157,7 @@ upgrade() {
 restored() { curl -fs "$rest/jobs/$1/checkpoints" | grep -q "\"restored\":{[^}]*/${2##*/}\""; }
 
 say "a mission"
-export FURROW_API=http://127.0.0.1:$control FURROW_TOKEN_FILE=$run/secrets/api-tokens
+export FURROW_API=http://127.0.0.1:$control FURROW_TOKEN_FILE=$run/secrets/api/tokens
 furrow() { FURROW_OPTS="-Xms64m -Xmx256m" "$archive/bin/furrow" "$@"; }
 demo=$home/simulators/devices/src/main/resources/io/furrow/simulators/demo
 python3 -c 'import json,sys; print(json.dumps(json.load(open(sys.argv[1]))["templates"][0]["devices"]))' "$demo/missions.json" >"$run/devices.json"
@@ -198,9 +193,8 @@ measured() { grep -q "\"devices\":$1," "$logs/load.jsonl"; }
 sending() { tail -n 1 "$logs/load.log" | grep -q "[1-9][0-9]* of $1 sent"; }
 
 say "a load, while a task manager, a control plane and both workers are killed, and two jobs are stopped with a savepoint"
-sed -n 's/^MQTT_PASSWORD=//p' "$run/.env" >"$run/secrets/mqtt"
 start load env FURROW_OPTS="-Xms256m -Xmx512m" "$archive/bin/furrow" bench evaluate --against "127.0.0.1:$kafka" --orion "http://127.0.0.1:$orion" --iot-agent "http://127.0.0.1:$agent" \
-    --mqtt "tcp://127.0.0.1:$mqtt" --mqtt-user iot-agent --mqtt-password-file "$run/secrets/mqtt" --sweeps DEVICES --seconds 30 --no-knee --results "$logs/load.jsonl" --report "$logs/load"
+    --mqtt "tcp://127.0.0.1:$mqtt" --mqtt-user iot-agent --mqtt-password-file "$run/secrets/mqtt/password" --sweeps DEVICES --seconds 30 --no-knee --results "$logs/load.jsonl" --report "$logs/load"
 load=$!
 until_true 180 "The messages of one device" measured 1
 kill -9 "$task_manager" && start_task_manager

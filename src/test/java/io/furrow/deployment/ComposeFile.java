@@ -21,7 +21,7 @@ import org.yaml.snakeyaml.Yaml;
 /** A parsed compose file, by default {@code docker/compose.yaml}, with its anchors resolved. */
 record ComposeFile(JsonNode root) {
     static final Path FOLDER = Path.of("..", "docker");
-    static final Pattern VARIABLE = Pattern.compile("\\$\\{(\\w+)[^}]*}");
+    private static final Pattern SECRET = Pattern.compile("/run/secrets/(\\w+/\\w+)");
 
     static ComposeFile read() throws IOException {
         return read(FOLDER.resolve("compose.yaml"));
@@ -47,21 +47,17 @@ record ComposeFile(JsonNode root) {
                 .collect(Collectors.toMap(Map.Entry::getKey, service -> arguments(service.getValue())));
     }
 
-    /** Variables and secrets that the file reads from the environment. */
-    Set<String> variables() {
-        Set<String> variables = new TreeSet<>();
-        root.path("secrets")
-                .forEach(secret -> variables.add(secret.path("environment").asText()));
-        VARIABLE.matcher(root.toString())
+    /** Paths below {@code /run/secrets} that a service reads. */
+    static Set<String> secrets(JsonNode service) {
+        return SECRET.matcher(service.toString())
                 .results()
                 .map((MatchResult found) -> found.group(1))
-                .forEach(variables::add);
-        return variables;
+                .collect(Collectors.toCollection(TreeSet::new));
     }
 
     private static List<String> arguments(JsonNode service) {
         return StreamSupport.stream(service.path("command").spliterator(), false)
-                .map(argument -> VARIABLE.matcher(argument.asText()).replaceAll("secret"))
+                .map(JsonNode::asText)
                 .toList();
     }
 }

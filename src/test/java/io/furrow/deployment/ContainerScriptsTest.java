@@ -2,6 +2,9 @@ package io.furrow.deployment;
 
 import java.io.IOException;
 import java.io.RandomAccessFile;
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
@@ -10,8 +13,13 @@ import java.nio.file.attribute.PosixFilePermissions;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
+import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.TimeUnit;
+import java.util.stream.Collectors;
 
+import com.sun.net.httpserver.HttpServer;
+import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -23,23 +31,48 @@ import io.furrow.process.TestProcess;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** Runs the scripts of the containers with a real Mosquitto, and with a stub of Flink that prints its arguments. */
+/** Runs the scripts of the containers with a real Mosquitto, and with a stub of Flink's command that prints its arguments. */
 class ContainerScriptsTest {
     private static final String PATHS = "/usr/sbin:/usr/bin:/bin";
 
     @TempDir
     Path directory;
 
+    private final Map<String, String> states =
+            new ConcurrentHashMap<>(Map.of("collision", "RUNNING", "presence", "FAILED"));
     private Path checkpoints;
+    private HttpServer cluster;
 
     @BeforeEach
-    void writeFlinkStubWithOneJob() throws IOException {
+    void startCluster() throws IOException {
+        cluster = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
+        cluster.createContext("/jobs/overview", exchange -> {
+            byte[] body = "{\"jobs\":[%s]}"
+                    .formatted(states.entrySet().stream()
+                            .map(job ->
+                                    "{\"jid\":\"0a1b\",\"name\":\"%s\",\"start-time\":1,\"state\":\"%s\",\"tasks\":{\"total\":1}}"
+                                            .formatted(job.getKey(), job.getValue()))
+                            .collect(Collectors.joining(",")))
+                    .getBytes(StandardCharsets.UTF_8);
+            exchange.sendResponseHeaders(200, body.length);
+            exchange.getResponseBody().write(body);
+            exchange.close();
+        });
+        cluster.start();
+    }
+
+    @AfterEach
+    void stopCluster() {
+        cluster.stop(0);
+    }
+
+    @BeforeEach
+    void writeFlinkStub() throws IOException {
         checkpoints = directory.resolve("checkpoints");
         Path flink = Files.createDirectories(directory.resolve("flink/bin")).resolve("flink");
         Files.writeString(flink, """
             #!/bin/sh
-            [ "$1" = list ] || { echo "$@"; exit; }
-            echo '25.11.2026 12:00:00 : 0123456789abcdef0123456789abcdef : collision (RUNNING)'
+            echo "$@"
             """);
         Files.setPosixFilePermissions(flink, PosixFilePermissions.fromString("rwxr-xr-x"));
     }
@@ -76,7 +109,23 @@ class ContainerScriptsTest {
 
     @Test
     void submitsNoRunningJobTwice() throws Exception {
-        assertThat(submit("jobs/analytics.jar", "collision")).isEqualTo("collision runs already.\n");
+        assertThat(submit("jobs/analytics.jar", "collision")).isEmpty();
+    }
+
+    @Test
+    void submitsAJobAgainThatTheClusterHasLost() throws Exception {
+        Process submit = start(submitCommand("jobs/analytics.jar", "collision"), "1");
+        try {
+            Thread.sleep(1_500);
+            assertThat(directory.resolve("out")).isEmptyFile();
+
+            states.remove("collision");
+
+            await().untilAsserted(() ->
+                    assertThat(directory.resolve("out")).content().startsWith("run -d jobs/analytics.jar collision "));
+        } finally {
+            submit.destroy();
+        }
     }
 
     @Tag("full")
@@ -93,11 +142,14 @@ class ContainerScriptsTest {
                 .replace("/mosquitto/data", directory.resolve("data").toString())
                 .replace("/mosquitto/log", directory.toString());
         Path file = Files.writeString(directory.resolve("mosquitto.conf"), settings);
-        Process broker = start("mosquitto/run", file.toString(), accounts.toString());
+        Files.writeString(accounts.resolve("passwords"), "iot-agent:$7$101$ZWFybGllcg==$ZWFybGllcg==\n# of others\n");
+        Path password = Files.writeString(directory.resolve("mqtt-password"), "plough\n");
+        Process broker = start("mosquitto/run", file.toString(), accounts.toString(), password.toString());
         try {
             await().until(() -> publishes(port, "iot-agent", "plough"));
             assertThat(publishes(port, "iot-agent", "wrong")).isFalse();
             assertThat(start(probe(port)).waitFor()).isZero();
+            assertThat(accounts.resolve("passwords")).content().endsWith("\n# of others\n");
             assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(accounts.resolve("passwords"))))
                     .isEqualTo("rw-------");
 
@@ -179,9 +231,17 @@ class ContainerScriptsTest {
     }
 
     private String submit(String... arguments) throws Exception {
-        assertThat(start("flink/submit", arguments).waitFor(1, TimeUnit.MINUTES))
+        assertThat(start(submitCommand(arguments), "0").waitFor(1, TimeUnit.MINUTES))
                 .isTrue();
         return Files.readString(directory.resolve("out"));
+    }
+
+    private List<String> submitCommand(String... arguments) {
+        List<String> command = new ArrayList<>(List.of(
+                ComposeFile.FOLDER.resolve("flink/submit").toString(),
+                "http://127.0.0.1:" + cluster.getAddress().getPort()));
+        command.addAll(List.of(arguments));
+        return command;
     }
 
     private Process start(String script, String... arguments) throws IOException {
@@ -192,13 +252,17 @@ class ContainerScriptsTest {
     }
 
     private Process start(List<String> command) throws IOException {
+        return start(command, "0");
+    }
+
+    private Process start(List<String> command, String interval) throws IOException {
         ProcessBuilder builder = new ProcessBuilder(command)
                 .redirectErrorStream(true)
                 .redirectOutput(directory.resolve("out").toFile());
         builder.environment().put("PATH", PATHS);
         builder.environment().put("FLINK_HOME", directory.resolve("flink").toString());
+        builder.environment().put("INTERVAL", interval);
         builder.environment().put("CHECKPOINTS", checkpoints.toString());
-        builder.environment().put("MQTT_PASSWORD", "plough");
         builder.environment().put("XDG_CONFIG_HOME", directory.toString());
         return builder.start();
     }

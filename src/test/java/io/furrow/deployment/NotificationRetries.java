@@ -18,7 +18,7 @@ import com.sun.net.httpserver.HttpExchange;
 import com.sun.net.httpserver.HttpServer;
 
 /**
- * Forwards a notification posted to {@code /<port>/…} to that port until it is acknowledged with a 2xx, and prints other status codes. A
+ * Forwards a notification posted to {@code /<host>:<port>/…} to that server until it is acknowledged with a 2xx, and prints other status codes. A
  * context broker sends each notification once: with these retries, a notification that is missing in Kafka at the end was acknowledged. The
  * broker gets a response before it counts a failure, because too many failures end a subscription.
  */
@@ -49,8 +49,7 @@ final class NotificationRetries {
     private static void forward(HttpExchange exchange) throws IOException {
         try (exchange) {
             String[] path = exchange.getRequestURI().getPath().split("/", 3);
-            HttpRequest.Builder request = HttpRequest.newBuilder(
-                            URI.create("http://127.0.0.1:" + path[1] + "/" + path[2]))
+            HttpRequest.Builder request = HttpRequest.newBuilder(URI.create("http://" + path[1] + "/" + path[2]))
                     .timeout(TIMEOUT)
                     .POST(HttpRequest.BodyPublishers.ofByteArray(
                             exchange.getRequestBody().readAllBytes()));

@@ -2,7 +2,9 @@ package io.furrow.launcher.command;
 
 import java.io.IOException;
 import java.nio.file.FileAlreadyExistsException;
+import java.nio.file.Files;
 import java.nio.file.Path;
+import java.nio.file.attribute.PosixFilePermissions;
 import java.security.SecureRandom;
 import java.util.Base64;
 import java.util.HexFormat;
@@ -23,9 +25,8 @@ import io.furrow.model.file.PrivateFile;
 @Command(
         name = "init",
         description = {
-            "Generates the secrets of a farm in containers: a file of environment variables for "
-                    + "docker/compose.yaml.",
-            "Only its owner may read it; an existing file is not changed."
+            "Generates the secrets of a farm in containers: a folder of files for docker/compose.yaml.",
+            "Only its owner may enter it; an existing folder is not changed."
         })
 public final class InitCommand implements Callable<Integer> {
     private static final SecureRandom RANDOM = new SecureRandom();
@@ -36,11 +37,11 @@ public final class InitCommand implements Callable<Integer> {
     private CommandSpec spec;
 
     @Parameters(
-            paramLabel = "FILE",
+            paramLabel = "FOLDER",
             arity = "0..1",
-            defaultValue = ".env",
-            description = "The file. Default: ${DEFAULT-VALUE}.")
-    private Path file;
+            defaultValue = "secrets",
+            description = "The folder. Default: ${DEFAULT-VALUE}.")
+    private Path folder;
 
     @Mixin
     private HelpOption help;
@@ -48,31 +49,43 @@ public final class InitCommand implements Callable<Integer> {
     @Override
     public Integer call() {
         try {
-            PrivateFile.create(file, variables());
+            Files.createDirectory(folder);
+            permit(folder, "rwx------");
+            String mongo = password();
+            write("api/tokens", "admin %s admin".formatted(password()));
+            write("farm/secret", Base64.getEncoder().encodeToString(bytes(SECRET_BYTES)));
+            write("mongo/password", mongo);
+            write("mongo/uri", "mongodb://furrow:%s@mongo:27017/?authSource=admin".formatted(mongo));
+            write("mqtt/password", password());
         } catch (FileAlreadyExistsException e) {
             throw new CommandException(
-                    file + " is there already and stays as it is: running containers have its secrets.", e);
+                    folder + " is there already and stays as it is: running containers have its secrets.", e);
         } catch (IOException e) {
-            throw new CommandException("%s cannot be written (%s)".formatted(file, FileProblem.of(e)), e);
+            throw new CommandException("%s cannot be written (%s)".formatted(folder, FileProblem.of(e)), e);
         }
         spec.commandLine()
                 .getOut()
-                .printf("%s holds new secrets. Keep a copy in a safe place: FARM_SECRET is in every device.%n", file);
+                .printf("%s holds new secrets. Keep a copy in a safe place: farm/secret is in every device.%n", folder);
         spec.commandLine().getOut().flush();
         return 0;
     }
 
-    /** Passwords consist of digits and letters only, so that they need no quotes in a URI. */
-    private static String variables() {
-        return """
-                FARM_SECRET=%s
-                MONGO_PASSWORD=%s
-                MQTT_PASSWORD=%s
-                API_TOKENS="admin %s admin"
-                """.formatted(
-                        Base64.getEncoder().encodeToString(bytes(SECRET_BYTES)), password(), password(), password());
+    /** Containers have other users, who may read what is mounted from the folder. */
+    private void write(String name, String text) throws IOException {
+        Path file = folder.resolve(name);
+        Files.createDirectories(file.getParent());
+        permit(file.getParent(), "rwxr-xr-x");
+        PrivateFile.create(file, text + "\n");
+        permit(file, "rw-r--r--");
     }
 
+    private static void permit(Path path, String permissions) throws IOException {
+        if (path.getFileSystem().supportedFileAttributeViews().contains("posix")) {
+            Files.setPosixFilePermissions(path, PosixFilePermissions.fromString(permissions));
+        }
+    }
+
+    /** Consists of digits and letters only, so that it needs no quotes in a URI. */
     private static String password() {
         return HexFormat.of().formatHex(bytes(PASSWORD_BYTES));
     }

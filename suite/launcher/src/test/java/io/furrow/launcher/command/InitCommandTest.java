@@ -22,40 +22,31 @@ class InitCommandTest {
             Furrow.commandLine().setOut(new PrintWriter(out)).setErr(new PrintWriter(err));
 
     @Test
-    void makesSecretsThatOnlyTheirOwnerMayRead(@TempDir Path directory) throws Exception {
-        Path file = directory.resolve(".env");
+    void makesSecretsInAFolderThatOnlyItsOwnerMayEnter(@TempDir Path directory) throws Exception {
+        Path folder = directory.resolve("secrets");
 
-        assertThat(furrow.execute("init", file.toString())).as(err.toString()).isZero();
+        assertThat(furrow.execute("init", folder.toString())).as(err.toString()).isZero();
 
-        assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(file)))
-                .isEqualTo("rw-------");
-        assertThat(Files.readString(file)).matches("""
-                FARM_SECRET=[A-Za-z0-9+/]{43}=
-                MONGO_PASSWORD=\\p{XDigit}{48}
-                MQTT_PASSWORD=\\p{XDigit}{48}
-                API_TOKENS="admin \\p{XDigit}{48} admin"
-                """);
-        assertThat(Files.readAllLines(file).stream().map(line -> line.replaceFirst("^\\w+=", "")))
-                .doesNotHaveDuplicates();
+        assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(folder)))
+                .isEqualTo("rwx------");
+        assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(folder.resolve("mqtt/password"))))
+                .as("users of containers")
+                .isEqualTo("rw-r--r--");
+        assertThat(folder.resolve("api/tokens")).content().matches("admin \\p{XDigit}{48} admin\n");
+        assertThat(folder.resolve("mqtt/password")).content().matches("\\p{XDigit}{48}\n");
+        String password = Files.readString(folder.resolve("mongo/password"));
+        assertThat(password).matches("\\p{XDigit}{48}\n");
+        assertThat(folder.resolve("mongo/uri"))
+                .hasContent("mongodb://furrow:%s@mongo:27017/?authSource=admin".formatted(password.strip()));
+        assertThat(password).isNotEqualTo(Files.readString(folder.resolve("mqtt/password")));
+        assertThat(FarmSecret.read(folder.resolve("farm/secret")).newestKey()).isEqualTo(1);
     }
 
     @Test
-    void makesASecretOfAFarm(@TempDir Path directory) throws Exception {
-        furrow.execute("init", directory.resolve(".env").toString());
-        String secret = Files.readAllLines(directory.resolve(".env")).get(0).replaceFirst("FARM_SECRET=", "");
+    void leavesAFolderThatIsThereAsItIs(@TempDir Path folder) {
+        assertThat(furrow.execute("init", folder.toString())).isNotZero();
 
-        assertThat(FarmSecret.read(Files.writeString(directory.resolve("farm-secret"), secret))
-                        .newestKey())
-                .isEqualTo(1);
-    }
-
-    @Test
-    void leavesAFileThatIsThereAsItIs(@TempDir Path directory) throws Exception {
-        Path file = Files.writeString(directory.resolve(".env"), "FARM_SECRET=of running containers\n");
-
-        assertThat(furrow.execute("init", file.toString())).isNotZero();
-
-        assertThat(file).hasContent("FARM_SECRET=of running containers\n");
-        assertThat(err.toString()).contains(file + " is there already").hasLineCount(1);
+        assertThat(folder).isEmptyDirectory();
+        assertThat(err.toString()).contains(folder + " is there already").hasLineCount(1);
     }
 }
