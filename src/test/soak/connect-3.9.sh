@@ -9,6 +9,8 @@ java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 . "$soak/parts/machine.sh"
 # shellcheck source=parts/kafka.sh
 . "$soak/parts/kafka.sh"
+# shellcheck source=parts/jars.sh
+. "$soak/parts/jars.sh"
 
 version=3.9.2
 zip=
@@ -32,24 +34,6 @@ prepare
 libs=$home/target/soak/kafka-$version
 classes=$run/conf:$libs/*
 mkdir "$run/conf" "$run/plugins"
-
-fetch() {
-    [[ -f $libs/complete ]] && return
-    say "fetching Kafka and Connect $version"
-    cat >"$run/pom.xml" <<POM
-<project xmlns="http://maven.apache.org/POM/4.0.0"><modelVersion>4.0.0</modelVersion>
-  <groupId>io.furrow</groupId><artifactId>soak</artifactId><version>1</version><packaging>pom</packaging>
-  <dependencies>
-    <dependency><groupId>org.apache.kafka</groupId><artifactId>connect-runtime</artifactId><version>$version</version></dependency>
-    <dependency><groupId>org.apache.kafka</groupId><artifactId>kafka_2.13</artifactId><version>$version</version></dependency>
-    <dependency><groupId>org.slf4j</groupId><artifactId>slf4j-reload4j</artifactId><version>1.7.36</version></dependency>
-  </dependencies>
-</project>
-POM
-    (cd "$home" && ./mvnw -B -ntp -q -f "$run/pom.xml" org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies \
-        -DincludeScope=runtime -DoutputDirectory="$libs") >"$logs/fetch.log" 2>&1 || fail "Cannot fetch Kafka $version: $logs/fetch.log"
-    touch "$libs/complete"
-}
 
 build() {
     say "building the plugin"
@@ -110,7 +94,7 @@ PROPERTIES
 [[ -n $zip ]] || build
 [[ -f $zip ]] || fail "There is no file $zip."
 zip=$(cd "$(dirname "$zip")" && pwd)/$(basename "$zip")
-fetch
+fetch_jars "$libs" "org.apache.kafka:"{connect-runtime,kafka_2.13}":$version" org.slf4j:slf4j-reload4j:1.7.36
 (cd "$run/plugins" && "${java%java}jar" xf "$zip")
 say "starting Kafka $version"
 start_kafka
