@@ -78,6 +78,12 @@ class ControlApiTest {
             ControlApi.Page all = new ControlApi(server.uri(""), null).list("/api/dead-letters?limit=3", 3);
             assertThat(all.elements()).hasToString("[3,4]");
             assertThat(all.hasMore()).isFalse();
+
+            requested.clear();
+            ControlApi.Page two = new ControlApi(server.uri(""), null).list("/api/dead-letters?limit=3", 2);
+            assertThat(two.elements()).hasToString("[1,2]");
+            assertThat(two.hasMore()).isTrue();
+            assertThat(requested).hasSize(2);
         }
     }
 
