@@ -21,6 +21,7 @@ import io.furrow.cli.field.FieldList;
 import io.furrow.cli.option.CommandGroup;
 import io.furrow.cli.option.Confirmation;
 import io.furrow.cli.option.KafkaOptions;
+import io.furrow.cli.time.Times;
 import io.furrow.kafka.field.FieldChange;
 import io.furrow.kafka.field.FieldsTopic;
 import io.furrow.model.field.FieldVersion;
@@ -101,11 +102,10 @@ public final class FieldsCommandGroup extends CommandGroup {
                             paramLabel = "TIME",
                             description = "Event time of its end, for instance 2026-10-01T00:00:00Z. Default: now.")
                     Instant at) {
-        String time =
-                (at == null ? Instant.now() : at).truncatedTo(ChronoUnit.MILLIS).toString();
+        Instant end = (at == null ? Instant.now() : at).truncatedTo(ChronoUnit.MILLIS);
         return control.run(api -> control.answered(
-                api.send("PATCH", path(id), NgsiJson.mapper().createObjectNode().put("validTo", time)),
-                "Field %s ends at %s.".formatted(id, time)));
+                api.send("PATCH", path(id), NgsiJson.mapper().createObjectNode().put("validTo", end.toString())),
+                "Field %s ends at %s.".formatted(id, Times.of(end.toEpochMilli()))));
     }
 
     @Command(

@@ -37,6 +37,18 @@ class FieldsCommandGroupTest {
     }
 
     @Test
+    void saysWhenAFieldEndsAsTablesHaveTimes() {
+        control.answer("POST /api/fields/a", "{'status':'ended'}");
+
+        assertThat(control.run("fields", "end", "a", "--at", "2026-10-01T02:00:00.500+02:00"))
+                .isZero();
+
+        assertThat(control.output()).isEqualToIgnoringNewLines("Field a ends at 2026-10-01T00:00:00Z.");
+        assertThat(control.requested())
+                .containsExactly("POST /api/fields/a {\"validTo\":\"2026-10-01T00:00:00.500Z\"}");
+    }
+
+    @Test
     void listsTheFieldsOfTheControlPlane() {
         String fields = """
                 {'type':'FeatureCollection','features':[
