@@ -41,7 +41,7 @@ public final class ClusterJobs {
 
         JsonNode options = get("/jobs/" + id + "/config").at("/execution-config/user-config");
         System.out.println("    options: " + NgsiJson.mapper().writeValueAsString(options));
-        expect(options.has("--bootstrap-servers"), name + " does not show its options");
+        expect(options.has("--kafka"), name + " does not show its options");
 
         for (JsonNode vertex : job.path("vertices")) {
             String vertexName = vertex.path("name").asText();

@@ -42,7 +42,7 @@ public abstract class JobOptions {
     private String name;
 
     @Option(
-            names = "--bootstrap-servers",
+            names = {"--kafka", "--bootstrap-servers"},
             paramLabel = "HOST:PORT,…",
             defaultValue = "127.0.0.1:9092",
             description = "Kafka brokers to start from. Default: ${DEFAULT-VALUE}.")
@@ -277,7 +277,7 @@ public abstract class JobOptions {
                 List<String> given = option.originalStringValues();
                 String text = given.isEmpty() ? option.defaultValueString() : String.join(",", given);
                 if (text != null) { // null: a repeatable option without a value
-                    values.put(option.longestName(), masked(text));
+                    values.put(option.names()[0], masked(text));
                 }
             }
         }

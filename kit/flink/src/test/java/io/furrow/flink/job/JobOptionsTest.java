@@ -46,7 +46,7 @@ class JobOptionsTest {
         Path file = Files.writeString(directory.resolve("kafka.properties"), "security.protocol=SSL\n");
 
         JobOptions options = parsed(
-                ("copy --name north.copy --from 2026-05-01T06:00:00Z --bootstrap-servers a:1,b:2 --input x,y --delivery Exactly-Once --out-of-orderness 0s"
+                ("copy --name north.copy --from 2026-05-01T06:00:00Z --kafka a:1,b:2 --input x,y --delivery Exactly-Once --out-of-orderness 0s"
                                 + " --idle-timeout 1min --checkpoint-interval 500ms --checkpoint-dir file:///c"
                                 + " --parallelism 3 --kafka-properties " + file)
                         .split(" "));
@@ -63,7 +63,10 @@ class JobOptionsTest {
         assertThat(options.checkpointDir()).contains("file:///c");
         assertThat(options.parallelism()).contains(3);
         assertThat(options.kafkaProperties()).containsEntry("security.protocol", "SSL");
-        assertThat(options.effective()).containsEntry("--parallelism", "3").doesNotContainKey("--help");
+        assertThat(options.effective())
+                .containsEntry("--kafka", "a:1,b:2")
+                .containsEntry("--parallelism", "3")
+                .doesNotContainKey("--help");
     }
 
     @Test
@@ -120,7 +123,7 @@ class JobOptionsTest {
         assertThat(outcome.exitCode()).isZero();
         assertThat(outcome.err()).isEmpty();
         assertThat(outcome.out().replaceAll("\\s+", " "))
-                .contains("--bootstrap-servers=HOST:PORT,…", "Default: 127.0.0.1:9092.")
+                .contains("--kafka, --bootstrap-servers=HOST:PORT,…", "Default: 127.0.0.1:9092.")
                 .contains("--input=TOPIC,…", "Default: data.raw.")
                 .contains("--delivery=MODE", "exactly-once: visible after each checkpoint", "Default: at-least-once.")
                 .contains("--out-of-orderness=DURATION", "Default: 2s.")

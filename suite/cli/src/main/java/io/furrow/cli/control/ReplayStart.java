@@ -62,7 +62,7 @@ final class ReplayStart {
     private String range;
 
     @Option(
-            names = "--devices",
+            names = {"--device", "--devices"},
             paramLabel = "ID",
             split = ",",
             description = "Ids of the entities to play back, separated by commas. Default: all.")
@@ -178,9 +178,7 @@ final class ReplayStart {
                 .flatMap(one -> analytics.stream().map(job -> new ReplayAnalyticsJob(job, one)))
                 .map(job -> "flink run -d furrow-analytics-*-job.jar %s %s%s"
                         .formatted(
-                                job.job(),
-                                String.join(" ", job.options()),
-                                kafka == null ? "" : " --bootstrap-servers " + kafka))
+                                job.job(), String.join(" ", job.options()), kafka == null ? "" : " --kafka " + kafka))
                 .toList();
     }
 

@@ -134,7 +134,7 @@ class ReplayCommandGroupTest {
     @Test
     void requestsAllThatAReplayCanBe() {
         run(
-                ("replay start m --topic data.m.replay.0a1b2c3d --from 5 --to 2026-05-01T00:00:00Z --speed max --loop --devices a,b --max-gap 30s "
+                ("replay start m --topic data.m.replay.0a1b2c3d --from 5 --to 2026-05-01T00:00:00Z --speed max --loop --device a --devices b --max-gap 30s "
                                 + "--stamps now --at 7 --analytics collision,presence --source-file f.jsonl")
                         .split(" "));
 
@@ -154,7 +154,7 @@ class ReplayCommandGroupTest {
 
         assertThat(requested).containsExactly("POST /api/replays {\"mission\":\"m\",\"analytics\":[\"collision\"]}");
         assertThat(output.toString())
-                .contains("--input data.m.replay.0a1b2c3d --bootstrap-servers kafka:9092")
+                .contains("--input data.m.replay.0a1b2c3d --kafka kafka:9092")
                 .doesNotContain("127.0.0.1:9092");
     }
 
