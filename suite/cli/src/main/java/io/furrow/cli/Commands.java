@@ -18,6 +18,7 @@ import io.furrow.cli.command.FieldsCommandGroup;
 import io.furrow.cli.command.ImagesCommand;
 import io.furrow.cli.command.MissionCommandGroup;
 import io.furrow.cli.control.AlarmCommandGroup;
+import io.furrow.cli.control.ApplyCommand;
 import io.furrow.cli.control.AuditCommand;
 import io.furrow.cli.control.DeadLetterCommandGroup;
 import io.furrow.cli.control.DeviceCommandGroup;
@@ -37,6 +38,7 @@ public final class Commands {
             StatusCommand.class,
             DomainCommandGroup.class,
             MissionCommandGroup.class,
+            ApplyCommand.class,
             TemplateCommandGroup.class,
             DeviceCommandGroup.class,
             AlarmCommandGroup.class,

@@ -120,7 +120,7 @@ public class MissionControl extends CommandGroup {
     }
 
     /** Splits a list that is too long for one request. */
-    private static JsonNode create(ControlApi api, ObjectNode plan) {
+    static JsonNode create(ControlApi api, ObjectNode plan) {
         List<ObjectNode> parts = DeviceListParts.requests(plan);
         if (parts.size() == 1) {
             return api.send("POST", MISSIONS, plan);
