@@ -6,8 +6,14 @@ import java.util.stream.Stream;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.annotation.Priority;
+import jakarta.ws.rs.HttpMethod;
+import jakarta.ws.rs.Priorities;
 import jakarta.ws.rs.container.ContainerRequestContext;
+import jakarta.ws.rs.container.ContainerResponseContext;
+import jakarta.ws.rs.container.ContainerResponseFilter;
 import jakarta.ws.rs.core.EntityTag;
+import jakarta.ws.rs.core.HttpHeaders;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 import jakarta.ws.rs.core.UriBuilder;
@@ -71,5 +77,16 @@ final class JsonResponses {
     static URI location(ContainerRequestContext request, String path, String name) {
         boolean inside = request.getUriInfo().getRequestUri().getRawPath().endsWith("/");
         return UriBuilder.fromPath(inside ? "../" + path : path).segment(name).build();
+    }
+
+    /** Gives answers to HEAD the length of those to GET; else the HTTP server adds that of an empty one. */
+    @Priority(Priorities.AUTHENTICATION) // after all that changes answers
+    static final class HeadLength implements ContainerResponseFilter {
+        @Override
+        public void filter(ContainerRequestContext request, ContainerResponseContext response) {
+            if (HttpMethod.HEAD.equals(request.getMethod()) && response.getEntity() instanceof byte[] answer) {
+                response.getHeaders().putSingle(HttpHeaders.CONTENT_LENGTH, answer.length);
+            }
+        }
     }
 }

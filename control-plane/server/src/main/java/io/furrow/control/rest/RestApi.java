@@ -189,6 +189,7 @@ public final class RestApi implements AutoCloseable {
         config.register(new PageFilter(description));
         config.register(new IsoTimeFilter(description));
         config.register(new JsonBodyReader.Drain());
+        config.register(new JsonResponses.HeadLength());
         config.register(new JsonExceptionMapper());
         if (tokens != null) {
             config.register(tokens);

@@ -53,6 +53,17 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
         return running;
     }
 
+    @Test
+    void answersHeadWithTheLengthOfTheAnswerToGet() throws Exception {
+        client.send("POST", "/api/domains", "{\"domain\":\"measured\"}");
+        for (String path : List.of("/openapi.json", "/api/v1/domains/measured", "/api/v1/domains?limit=1")) {
+            HttpResponse<byte[]> head = client.send("HEAD", path, null, false);
+            assertThat(head.headers().firstValueAsLong("Content-Length"))
+                    .as(path)
+                    .hasValue(client.send("GET", path, null).body().length);
+        }
+    }
+
     /** Further cases are in separate tests. */
     @Test
     void describesTheCallerAndMissingResources() throws Exception {
