@@ -5,6 +5,7 @@ import java.net.URI;
 import java.time.Clock;
 import java.time.Duration;
 import java.util.List;
+import java.util.Locale;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.eclipse.jetty.ee10.servlet.ServletContextHandler;
@@ -12,6 +13,7 @@ import org.eclipse.jetty.ee10.servlet.ServletHolder;
 import org.eclipse.jetty.ee10.websocket.server.JettyServerUpgradeRequest;
 import org.eclipse.jetty.ee10.websocket.server.JettyServerUpgradeResponse;
 import org.eclipse.jetty.ee10.websocket.server.config.JettyWebSocketServletContainerInitializer;
+import org.eclipse.jetty.http.HttpStatus;
 import org.eclipse.jetty.http.pathmap.ServletPathSpec;
 import org.eclipse.jetty.server.Handler;
 import org.eclipse.jetty.server.HttpConfiguration;
@@ -126,6 +128,7 @@ public final class Dashboard implements AutoCloseable {
         connector.setPort(settings.port());
         server.addConnector(connector);
         server.setStopTimeout(STOP_TIMEOUT_MILLIS);
+        server.setErrorHandler(Dashboard::reject);
         threads.setName("dashboard");
         PathMappingsHandler paths = new PathMappingsHandler();
         Handler servlets = servlets(settings);
@@ -165,6 +168,15 @@ public final class Dashboard implements AutoCloseable {
                             .formatted(settings.host(), settings.port(), FailureText.of(e)),
                     e);
         }
+    }
+
+    /** Answers requests that the HTTP server itself rejects, such as those for a file that does not exist. */
+    private static boolean reject(Request request, Response response, Callback callback) {
+        String reason = HttpStatus.getMessage(response.getStatus());
+        String error = reason.toLowerCase(Locale.ROOT).replace(' ', '-');
+        new Problem(response.getStatus(), error, reason + ": " + Request.getPathInContext(request))
+                .answer(response, callback);
+        return true;
     }
 
     /** Adds security headers to every response. */

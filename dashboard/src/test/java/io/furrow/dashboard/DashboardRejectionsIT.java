@@ -37,6 +37,7 @@ class DashboardRejectionsIT extends DashboardFixture {
 
         assertThat(error("/api/register/" + TOPIC, null)).isEqualTo("401 unauthorized");
         assertThat(error("/api/register/" + TOPIC, "a-token-of-nobody-0001")).isEqualTo("401 unauthorized");
+        assertThat(error("/tiles/base.pmtiles", null)).isEqualTo("404 not-found");
         assertThat(error("/api/topics", null)).isEqualTo("401 unauthorized");
         assertThat(error("/api/stream/" + TOPIC, null)).isEqualTo("401 unauthorized");
         assertThat(error("/api/register/service.audit", OLGA)).isEqualTo("403 topic-not-allowed");
