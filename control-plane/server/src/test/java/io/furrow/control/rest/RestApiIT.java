@@ -159,6 +159,8 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
     @Test
     void answersListsInPages() throws Exception {
         client.send("POST", "/api/domains", "{\"domain\":\"paged\"}");
+        client.send("POST", "/api/domains", "{\"domain\":\"other\"}");
+        client.send("POST", "/api/missions", "{\"mission\":\"p0\",\"domain\":\"other\"}");
         for (String mission : List.of("p1", "p2", "p3")) {
             client.send("POST", "/api/missions", "{\"mission\":\"%s\",\"domain\":\"paged\"}".formatted(mission));
         }
@@ -185,7 +187,7 @@ class RestApiIT implements DeviceRoutes, FieldRoutes, ReplayRoutes {
         }
         running.write("data.catalog", "|north|c3|T", null);
         running.write("data.catalog", "other", "not an entry".getBytes(UTF_8));
-        running.write("data.catalog", "another", "{\"mission\":5}".getBytes(UTF_8));
+        running.write("data.catalog", "another", "{\"mission\":5,\"type\":\"T\"}".getBytes(UTF_8));
         await().until(() -> running.get("/api/catalog?mission=c3").isEmpty());
 
         assertThat(missionsOf(client.send("GET", "/api/catalog", null))).containsExactlyInAnyOrder("c1", "c2");
