@@ -9,6 +9,8 @@ import org.locationtech.jts.geom.Geometry;
 import org.locationtech.jts.geom.LinearRing;
 import org.locationtech.jts.geom.Polygon;
 import org.locationtech.jts.geom.util.AffineTransformation;
+import org.locationtech.jts.operation.overlayng.OverlayNG;
+import org.locationtech.jts.operation.overlayng.OverlayNGRobust;
 
 /**
  * Handles areas that cross longitude 180: unrolls them for processing and cuts them for output (RFC 7946, section
@@ -54,7 +56,8 @@ final class Antimeridian {
         for (int shift = -2; shift <= 2; shift++) {
             Envelope side = new Envelope(shift * ROUND - 180, shift * ROUND + 180, -90, 90);
             if (side.intersects(reach)) {
-                Geometry inside = area.intersection(area.getFactory().toGeometry(side));
+                Geometry inside = OverlayNGRobust.overlay(
+                        area, area.getFactory().toGeometry(side), OverlayNG.INTERSECTION);
                 add(AffineTransformation.translationInstance(-shift * ROUND, 0).transform(inside), parts);
             }
         }

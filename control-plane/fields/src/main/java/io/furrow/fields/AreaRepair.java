@@ -4,13 +4,16 @@ import java.util.ArrayList;
 import java.util.List;
 
 import org.locationtech.jts.geom.Coordinate;
+import org.locationtech.jts.geom.Envelope;
 import org.locationtech.jts.geom.Geometry;
 import org.locationtech.jts.geom.GeometryFactory;
 import org.locationtech.jts.geom.LinearRing;
 import org.locationtech.jts.geom.Polygon;
+import org.locationtech.jts.geom.PrecisionModel;
 import org.locationtech.jts.geom.util.GeometryFixer;
 import org.locationtech.jts.operation.valid.IsValidOp;
 import org.locationtech.jts.operation.valid.TopologyValidationError;
+import org.locationtech.jts.precision.GeometryPrecisionReducer;
 
 import io.furrow.model.text.Counts;
 
@@ -21,6 +24,8 @@ import io.furrow.model.text.Counts;
  */
 final class AreaRepair {
     private static final GeometryFactory SHAPES = new GeometryFactory();
+    private static final Envelope EARTH = new Envelope(-180, 180, -90, 90);
+    private static final PrecisionModel NANODEGREES = new PrecisionModel(1e9);
     private static final double METERS_PER_DEGREE = 6_371_000 * Math.PI / 180;
 
     private final Georeference georeference;
@@ -59,7 +64,7 @@ final class AreaRepair {
         Geometry area =
                 polygons.size() == 1 ? polygons.get(0) : SHAPES.createMultiPolygon(polygons.toArray(Polygon[]::new));
         noteCounts();
-        Geometry valid = cut(fixed(area));
+        Geometry valid = rounded(cut(fixed(area)));
         List<String> all = new ArrayList<>(outline.notes());
         all.addAll(notes);
         return new RepairedArea(valid, all, edgeError);
@@ -159,6 +164,18 @@ final class AreaRepair {
 
     private static String describe(TopologyValidationError error) {
         return error.getMessage() + " at " + Phrases.place(error.getCoordinate().x, error.getCoordinate().y);
+    }
+
+    /** Rounds to 0.1 mm if computed corners are too close to each other, or just beyond longitude 180. */
+    private static Geometry rounded(Geometry area) throws RejectedFeatureException {
+        if (area.isValid() && EARTH.contains(area.getEnvelopeInternal())) {
+            return area;
+        }
+        Geometry rounded = GeometryPrecisionReducer.reduce(area, NANODEGREES);
+        if (rounded.isEmpty()) {
+            throw new RejectedFeatureException("encloses no area");
+        }
+        return rounded;
     }
 
     private Geometry cut(Geometry area) {
