@@ -56,8 +56,8 @@ final class Antimeridian {
         for (int shift = -2; shift <= 2; shift++) {
             Envelope side = new Envelope(shift * ROUND - 180, shift * ROUND + 180, -90, 90);
             if (side.intersects(reach)) {
-                Geometry inside = OverlayNGRobust.overlay(
-                        area, area.getFactory().toGeometry(side), OverlayNG.INTERSECTION);
+                Geometry inside =
+                        OverlayNGRobust.overlay(area, area.getFactory().toGeometry(side), OverlayNG.INTERSECTION);
                 add(AffineTransformation.translationInstance(-shift * ROUND, 0).transform(inside), parts);
             }
         }

@@ -168,14 +168,22 @@ final class AreaRepair {
 
     /** Rounds to 0.1 mm if computed corners are too close to each other, or just beyond longitude 180. */
     private static Geometry rounded(Geometry area) throws RejectedFeatureException {
-        if (area.isValid() && EARTH.contains(area.getEnvelopeInternal())) {
+        if (isUsable(area)) {
             return area;
         }
-        Geometry rounded = GeometryPrecisionReducer.reduce(area, NANODEGREES);
-        if (rounded.isEmpty()) {
-            throw new RejectedFeatureException("encloses no area");
+        try {
+            Geometry rounded = GeometryPrecisionReducer.reduce(area, NANODEGREES);
+            if (!isUsable(rounded)) {
+                throw new IllegalArgumentException("it is still not valid");
+            }
+            return rounded;
+        } catch (IllegalArgumentException e) {
+            throw new RejectedFeatureException("crosses itself in a way that cannot be repaired; redraw its border");
         }
-        return rounded;
+    }
+
+    private static boolean isUsable(Geometry area) {
+        return !area.isEmpty() && area.isValid() && EARTH.contains(area.getEnvelopeInternal());
     }
 
     private Geometry cut(Geometry area) {

@@ -69,8 +69,17 @@ record Georeference(String name, MathTransform transform, boolean northFirst, do
         if (code == WGS84) {
             return new Georeference("WGS 84", IdentityTransform.create(2), false, 0);
         }
-        CoordinateReferenceSystem crs = CRS.getHorizontalCRS(CRS.decode("EPSG:" + code, true));
+        CoordinateReferenceSystem crs = horizontal(CRS.decode("EPSG:" + code, true));
         return toWgs84(crs.getName().getCode(), crs);
+    }
+
+    /** Returns the horizontal part, which vertical and geocentric systems do not have. */
+    private static CoordinateReferenceSystem horizontal(CoordinateReferenceSystem crs) throws FactoryException {
+        CoordinateReferenceSystem horizontal = CRS.getHorizontalCRS(crs);
+        if (horizontal == null) {
+            throw new FactoryException("it has neither longitude and latitude nor easting and northing");
+        }
+        return horizontal;
     }
 
     /**
@@ -78,7 +87,7 @@ record Georeference(String name, MathTransform transform, boolean northFirst, do
      * therefore the base geographic system is looked up in the EPSG database.
      */
     private static Georeference ofDefinition(String text) throws FactoryException, TransformException {
-        CoordinateReferenceSystem crs = CRS.getHorizontalCRS(CRS.parseWKT(text));
+        CoordinateReferenceSystem crs = horizontal(CRS.parseWKT(text));
         boolean northFirst = CRS.getAxisOrder(crs) == CRS.AxisOrder.NORTH_EAST;
         if (crs instanceof ProjectedCRS projected) {
             GeographicCRS base = projected.getBaseCRS();
@@ -117,7 +126,7 @@ record Georeference(String name, MathTransform transform, boolean northFirst, do
         double[] position = northFirst ? new double[] {from.y, from.x} : new double[] {from.x, from.y};
         try {
             transform.transform(position, 0, position, 0, 1);
-        } catch (TransformException e) {
+        } catch (TransformException | IllegalArgumentException e) { // the latter for angles of millions of turns
             throw outside(from);
         }
         if (!Double.isFinite(position[0]) || !(Math.abs(position[1]) <= 90)) {

@@ -76,7 +76,7 @@ final class ShapefileFields {
             for (Object[] row = reader.nextRecord(); row != null; row = reader.nextRecord()) {
                 rows.add(Boolean.TRUE.equals(row[0]) ? null : attributes(reader, row));
             }
-        } catch (DBFException e) {
+        } catch (DBFException | NegativeArraySizeException e) { // the latter for a column of negative length
             throw new InvalidFileException(dbf.get() + " cannot be read (" + FailureText.of(e) + ")", e);
         }
         return rows;

@@ -84,7 +84,8 @@ record ShapefileReader(Path file, ByteBuffer bytes) {
         starts[parts] = points;
         List<List<Coordinate>> rings = new ArrayList<>();
         for (int part = 0; part < parts; part++) {
-            if (starts[part] < 0 || starts[part + 1] < starts[part] || (part == 0 && starts[0] != 0)) {
+            boolean isInOrder = starts[part] <= starts[part + 1] && starts[part + 1] <= points;
+            if (!isInOrder || starts[0] != 0) {
                 return new Shape(null, "has rings whose start indices are not in order");
             }
             rings.add(ring(content, starts[part + 1] - starts[part]));

@@ -48,7 +48,8 @@ class AreaRepairTest {
         } else {
             assertThat(field.notes()).anySatisfy(one -> assertThat(one).startsWith(note));
         }
-        assertThat(FieldArea.read(field.version().geometry(), "as the jobs read it").isEmpty())
+        assertThat(FieldArea.read(field.version().geometry(), "as the jobs read it")
+                        .isEmpty())
                 .isFalse();
     }
 

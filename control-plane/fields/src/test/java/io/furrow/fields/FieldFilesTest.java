@@ -22,6 +22,7 @@ import io.furrow.model.field.FieldFile;
 import io.furrow.model.field.ImportOptions;
 import io.furrow.model.field.ImportedField;
 import io.furrow.model.field.InvalidFileException;
+import io.furrow.model.field.RejectedFeature;
 import io.furrow.model.ngsi.NgsiJson;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
@@ -172,6 +173,8 @@ public class FieldFilesTest {
     @CsvSource(delimiter = '|', textBlock = """
         PROJCS["x",GEOGCS["g",DATUM["D_Nowhere",SPHEROID["s",6377000,300]],PRIMEM["Greenwich",0],UNIT["Degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["Central_Meridian",-3],UNIT["Meter",1]]
         LOCAL_CS["somewhere"]
+        VERT_CS["sea level",VERT_DATUM["sea level",2005],UNIT["Meter",1]]
+        EPSG:4978
         nonsense
         """)
     void rejectsACoordinateSystemWithoutTransformation(String prj) throws Exception {
@@ -220,6 +223,29 @@ public class FieldFilesTest {
                 folder.resolve("broken.gpkg"),
                 Arrays.copyOf(Files.readAllBytes(resource("geopackage-25830.gpkg")), 3000));
         assertUnusable(gpkg, PLAIN, "is not a readable GeoPackage");
+    }
+
+    @Test
+    void explainsWhatIsDamagedInAShapefile() throws Exception {
+        Path shp = copy("damaged");
+        ImportOptions options = new ImportOptions(null, "EPSG:25830", "code", null, null, Instant.EPOCH);
+        overwrite(shp, 156, 0xff, 0xff, 0xff, 0x7f); // the start of the second ring
+
+        assertThat(FieldFiles.read(shp, options).refused())
+                .singleElement()
+                .extracting(RejectedFeature::reason)
+                .isEqualTo("has rings whose start indices are not in order");
+
+        overwrite(folder.resolve("damaged.dbf"), 49, 0xff); // the length of a column
+        assertUnusable(shp, options, "damaged.dbf cannot be read");
+    }
+
+    private static void overwrite(Path file, int at, int... bytes) throws IOException {
+        byte[] content = Files.readAllBytes(file);
+        for (int i = 0; i < bytes.length; i++) {
+            content[at + i] = (byte) bytes[i];
+        }
+        Files.write(file, content);
     }
 
     private void assertUnusable(String content, String message) throws IOException {
