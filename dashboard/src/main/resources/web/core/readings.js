@@ -5,6 +5,8 @@
 
 const DECIMAL = /^[+-]?(\d{1,40}(\.\d{0,40})?|\.\d{1,40})([eE][+-]?\d{1,3})?$/;
 const SPACE = 0x20;
+/** Java's white space, which excludes spaces that do not break a line. */
+const BLANK = /^[\t-\r\x1c- \u1680\u2000-\u2006\u2008-\u200a\u2028\u2029\u205f\u3000]*$/;
 const PAIRS = [['Latitude', 'Longitude'], ['latitude', 'longitude']];
 const POSITIONS = ['location', 'gnss', 'pose', ...PAIRS.flat()];
 const BATTERIES = ['battery', 'batteryLevel'];
@@ -22,9 +24,12 @@ const QUANTITIES = {
 /** Codes of UN/CEFACT by spellings in lower case. */
 const SPELLINGS = {
   __proto__: null,
-  'm/s': 'MTS', 'km/h': 'KMH', mph: 'HM', kn: 'KNT', kt: 'KNT', '°': 'DD', deg: 'DD', rad: 'C81', c: 'CEL', '°c': 'CEL', celsius: 'CEL', f: 'FAH', '°f': 'FAH', fahrenheit: 'FAH',
-  k: 'KEL', kelvin: 'KEL', '%': 'P1', percent: 'P1', m: 'MTR', cm: 'CMT', mm: 'MMT', ft: 'FOT', in: 'INH',
+  'm/s': 'MTS', 'km/h': 'KMH', kph: 'KMH', mph: 'HM', kn: 'KNT', kt: 'KNT', kts: 'KNT', knots: 'KNT', '°': 'DD', deg: 'DD', degree: 'DD', degrees: 'DD', rad: 'C81',
+  c: 'CEL', '℃': 'CEL', celsius: 'CEL', f: 'FAH', '℉': 'FAH', fahrenheit: 'FAH', k: 'KEL', kelvin: 'KEL', '%': 'P1', percent: 'P1',
+  m: 'MTR', meter: 'MTR', meters: 'MTR', metre: 'MTR', metres: 'MTR', cm: 'CMT', mm: 'MMT', ft: 'FOT', feet: 'FOT', in: 'INH',
 };
+/** Spellings such as `°C`, `degF`, `degrees Celsius`, and QUDT's `…/unit/DEG_F`. */
+const DEGREES = /^(?:.*[/:])?(?:[°º]|deg(?:rees?)?)[ _]?([cfk])[a-z]*$/;
 
 /** A finite number, also given as text or as a FIROS message with one number; null for everything else. */
 export function finite(value) {
@@ -60,7 +65,8 @@ export function unitOf(attribute) {
 /** The code of a unit given as a code or as a common spelling. */
 export function codeOf(unit) {
   const name = trimmed(unit);
-  return SPELLINGS[name.toLowerCase()] ?? name.toUpperCase();
+  const lower = name.toLowerCase();
+  return SPELLINGS[DEGREES.exec(lower)?.[1] ?? lower] ?? name.toUpperCase();
 }
 
 /**
@@ -179,5 +185,5 @@ function isPresent(value) {
 }
 
 function isBlank(value) {
-  return typeof value === 'string' && value.trim() === '';
+  return typeof value === 'string' && BLANK.test(value);
 }

@@ -18,8 +18,8 @@ import io.furrow.model.ngsi.NgsiJson;
  * @param objectId the member of a message
  * @param name of the attribute
  * @param type NGSI type of its value
- * @param unit code of UN/CEFACT Recommendation 20, such as {@code CEL}, for the metadata {@code unitCode}; null for
- * none
+ * @param unit code of UN/CEFACT Recommendation 20, such as {@code CEL}, or a spelling that {@code Quantity} knows, for
+ * the metadata {@code unitCode}; null for none
  */
 public record MeasuredAttribute(String objectId, String name, String type, String unit) {
     /** Maximum attributes of a group. */
@@ -32,7 +32,8 @@ public record MeasuredAttribute(String objectId, String name, String type, Strin
     private static final Pattern NAME = Pattern.compile("[A-Za-z][A-Za-z0-9_.:-]{0,99}");
 
     private static final Pattern OBJECT_ID = Pattern.compile("[!-~&&[^<>\"'=;()]]{1,100}");
-    private static final Pattern UNIT = Pattern.compile("[A-Z0-9]{1,3}");
+    /** Texts that the context broker accepts. */
+    private static final Pattern UNIT = Pattern.compile("[^<>\"'=;()\\p{Cntrl}]{1,40}");
 
     private static final List<MeasuredAttribute> COMMON = List.of(
             of("stat", "Status", "Boolean"),
@@ -118,7 +119,7 @@ public record MeasuredAttribute(String objectId, String name, String type, Strin
                     !fits,
                     "attributes",
                     "a list of objects with 'object_id' (the member of a message), 'name' (of the attribute), and perhaps 'type' (Number)"
-                            + " and 'unit' (a code of UN/CEFACT, as CEL)");
+                            + " and 'unit' (a code of UN/CEFACT as CEL, or a spelling as °C)");
         }
     }
 }

@@ -4,6 +4,8 @@ import java.util.Locale;
 import java.util.Map;
 import java.util.Optional;
 import java.util.function.DoubleUnaryOperator;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
@@ -42,26 +44,39 @@ public enum Quantity {
             Map.entry("m/s", "MTS"),
             Map.entry("km/h", "KMH"),
             Map.entry("mph", "HM"),
+            Map.entry("kph", "KMH"),
             Map.entry("kn", "KNT"),
             Map.entry("kt", "KNT"),
+            Map.entry("kts", "KNT"),
+            Map.entry("knots", "KNT"),
             Map.entry("°", "DD"),
             Map.entry("deg", "DD"),
+            Map.entry("degree", "DD"),
+            Map.entry("degrees", "DD"),
             Map.entry("rad", "C81"),
             Map.entry("c", "CEL"),
-            Map.entry("°c", "CEL"),
+            Map.entry("℃", "CEL"),
             Map.entry("celsius", "CEL"),
             Map.entry("f", "FAH"),
-            Map.entry("°f", "FAH"),
+            Map.entry("℉", "FAH"),
             Map.entry("fahrenheit", "FAH"),
             Map.entry("k", "KEL"),
             Map.entry("kelvin", "KEL"),
             Map.entry("%", "P1"),
             Map.entry("percent", "P1"),
             Map.entry("m", "MTR"),
+            Map.entry("meter", "MTR"),
+            Map.entry("meters", "MTR"),
+            Map.entry("metre", "MTR"),
+            Map.entry("metres", "MTR"),
             Map.entry("cm", "CMT"),
             Map.entry("mm", "MMT"),
             Map.entry("ft", "FOT"),
+            Map.entry("feet", "FOT"),
             Map.entry("in", "INH"));
+
+    /** Spellings such as {@code °C}, {@code degF}, {@code degrees Celsius}, and QUDT's {@code …/unit/DEG_F}. */
+    private static final Pattern DEGREES = Pattern.compile("(?:.*[/:])?(?:[°º]|deg(?:rees?)?)[ _]?([cfk])[a-z]*");
 
     private final Map<String, DoubleUnaryOperator> units;
     private final DoubleUnaryOperator other;
@@ -84,7 +99,9 @@ public enum Quantity {
 
     private static String codeOf(String unit) {
         String trimmed = unit.trim();
-        return SPELLINGS.getOrDefault(trimmed.toLowerCase(Locale.ROOT), trimmed.toUpperCase(Locale.ROOT));
+        String name = trimmed.toLowerCase(Locale.ROOT);
+        Matcher degrees = DEGREES.matcher(name);
+        return SPELLINGS.getOrDefault(degrees.matches() ? degrees.group(1) : name, trimmed.toUpperCase(Locale.ROOT));
     }
 
     /** Reads an attribute as this quantity; empty if it is missing, not a finite number, or in an unknown unit. */

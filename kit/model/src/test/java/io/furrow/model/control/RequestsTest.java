@@ -6,6 +6,8 @@ import java.util.List;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -76,6 +78,21 @@ class RequestsTest {
 
         assertThat(Requests.mission(json(request.formatted(4000)))).isInstanceOf(ParsedRequest.Request.class);
         assertThat(refusal(Requests.mission(json(request.formatted(5000))))).isEqualTo("too-large");
+    }
+
+    @ParameterizedTest
+    @CsvSource({"CEL, ", "°F, ", "km/h, ", "degrees Fahrenheit, ", "<b>, wrong-member", "a;b, wrong-member"})
+    void acceptsUnitsAsCodesAndAsTheyAreSpelled(String unit, String refusal) {
+        ParsedRequest<MissionCommand> request = Requests.mission(json(
+                ("{'type':'request','command':'create','mission':'m','domain':'d','devices':[{'type':'Probe','attributes':"
+                                + "[{'name':'Temperature','unit':'%s'}]}]}")
+                        .formatted(unit)));
+
+        if (refusal == null) {
+            assertThat(request).isInstanceOf(ParsedRequest.Request.class);
+        } else {
+            assertThat(refusal(request)).isEqualTo(refusal);
+        }
     }
 
     @Test
