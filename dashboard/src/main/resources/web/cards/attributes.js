@@ -1,5 +1,6 @@
 /** Selects the attributes that a card shows. */
 import { dateTime, plain, quantity } from '../core/format.js';
+import { isOfCommand } from '../core/readings.js';
 
 /** Id, positions, times and states, which the card shows elsewhere. */
 const SHOWN_ELSEWHERE = new Set([
@@ -11,7 +12,6 @@ const FIRST = [
 ];
 /** Larger numbers are times, epoch ms. */
 const FIRST_TIME = 1e11;
-const COMMAND = /_(status|info)$/;
 
 /**
  * The most important attributes.
@@ -22,7 +22,7 @@ const COMMAND = /_(status|info)$/;
 export function keyAttributes(entity, max = 3) {
   const found = [];
   for (const [name, attribute] of Object.entries(entity.attributes)) {
-    if (SHOWN_ELSEWHERE.has(name) || COMMAND.test(name) || attribute.value === '' || attribute.value === null || typeof attribute.value === 'object') {
+    if (SHOWN_ELSEWHERE.has(name) || isOfCommand(name, attribute) || attribute.value === '' || attribute.value === null || typeof attribute.value === 'object') {
       continue;
     }
     found.push({ name, rank: rankOf(name, attribute), ...quantity(name, attribute) });

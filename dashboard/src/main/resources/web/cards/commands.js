@@ -2,6 +2,7 @@
 import { api } from '../core/api.js';
 import { isStopped } from '../core/entity.js';
 import { duration, word } from '../core/format.js';
+import { isOfCommand } from '../core/readings.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 
@@ -11,6 +12,8 @@ const DEVICE = ['on', 'off', 'restart'];
 const RISKY = new Set(['restart', 'off', 'Running']);
 /** Time after which a missing answer is reported, ms. */
 const ANSWER_TIMEOUT = 30_000;
+/** Characters of a result that are shown. */
+const MAX_INFO = 120;
 
 /**
  * The commands of a device, at most 6.
@@ -26,8 +29,8 @@ export function commandsOf(entity) {
     const off = entity.word === 'off';
     [off ? 'on' : 'off', 'restart'].forEach((each) => names.add(each));
   }
-  for (const name of Object.keys(entity.attributes)) {
-    const command = /^([A-Za-z][\w-]{0,63})_(status|info)$/.exec(name)?.[1];
+  for (const [name, attribute] of Object.entries(entity.attributes)) {
+    const command = isOfCommand(name, attribute) && /^([A-Za-z][\w-]{0,63})_(status|info)$/.exec(name)?.[1];
     if (command && command !== 'cmd' && !DEVICE.includes(command)) {
       names.add(command);
     }
@@ -44,21 +47,21 @@ export function isPointless(entity, command) {
  * The outcome of a command sent from this page. The status may stay PENDING although the info has the answer.
  *
  * @param {import('../core/entity.js').Entity} entity
- * @param {{command: string, at: number, info: *, waiting: boolean}} sent `info`: the attribute's previous value; `waiting`: for the server's response
+ * @param {{command: string, at: number, info: string|null, waiting: boolean}} sent `info`: the attribute's previous value as text; `waiting`: for the server's response
  * @param {number} now epoch ms of the clock, also in a replay
  * @returns {{state: 'pending'|'ok'|'failed'|'unanswered', info: string|null}}
  */
 export function outcomeOf(entity, sent, now) {
   const prefix = `${sent.command}_status` in entity.attributes ? sent.command : 'cmd';
   const status = String(entity.attributes[`${prefix}_status`]?.value ?? '').toUpperCase();
-  const info = entity.attributes[`${prefix}_info`]?.value;
+  const info = text(entity.attributes[`${prefix}_info`]?.value);
   const reported = !sent.waiting && entity.heard >= sent.at;
   if (reported && (status === 'ERROR' || status === 'EXPIRED' || status === 'FAILED')) {
-    return { state: 'failed', info: text(info) };
+    return { state: 'failed', info };
   }
-  const answered = reported && (status === 'OK' || status === 'DELIVERED' || status === 'FINISHED' || (info !== undefined && info !== '' && info !== sent.info));
+  const answered = reported && (status === 'OK' || status === 'DELIVERED' || status === 'FINISHED' || (info !== null && info !== sent.info));
   if (answered) {
-    return { state: 'ok', info: text(info) };
+    return { state: 'ok', info };
   }
   return now - sent.at > ANSWER_TIMEOUT ? { state: 'unanswered', info: null } : { state: 'pending', info: null };
 }
@@ -72,7 +75,7 @@ export function outcomeWords(entity, sent) {
   }
   const { state, info } = outcomeOf(entity, sent, Date.now());
   const ago = t('format.ago', { duration: duration(Date.now() - at) });
-  return { text: t(`cards.outcomes.${state}`, { command, ago, info: info ?? '' }), kind: { ok: 'good', failed: 'bad', unanswered: 'warn', pending: '' }[state] };
+  return { text: t(`cards.outcomes.${state}`, { command, ago, info: info?.slice(0, MAX_INFO) ?? '' }), kind: { ok: 'good', failed: 'bad', unanswered: 'warn', pending: '' }[state] };
 }
 
 /**
@@ -101,9 +104,9 @@ export function deviceAt({ type, identity: { id, service, servicePath } }, comma
 
 /** The current info, to detect a new one. */
 function infoOf(entity, command) {
-  return (entity.attributes[`${command}_info`] ?? entity.attributes.cmd_info)?.value;
+  return text((entity.attributes[`${command}_info`] ?? entity.attributes.cmd_info)?.value);
 }
 
 function text(info) {
-  return info === undefined || info === null || info === '' ? null : String(info).slice(0, 120);
+  return info === undefined || info === null || info === '' ? null : typeof info === 'object' ? JSON.stringify(info) : String(info);
 }

@@ -3,7 +3,7 @@ import { hasUnit, shortId } from './format.js';
 import { withDifference } from './identities.js';
 import { parse } from './json.js';
 import { Line } from './line.js';
-import { finite, isPercent, jsonOf, positionOf, quantityOf } from './readings.js';
+import { finite, isOfCommand, isPercent, jsonOf, positionOf, quantityOf } from './readings.js';
 
 /** Points stored of a trail or a series. */
 const POINTS = 120;
@@ -17,8 +17,6 @@ const STALE_AFTER = 60_000;
 const FRAME = new Set(['id', 'type']);
 const NOT_A_SERIES = new Set(['Time', 'TimeInstant', 'Latitude', 'Longitude', 'latitude', 'longitude']);
 const OFF_WORDS = new Set(['off', 'standby', 'sleeping']);
-/** Command states: the context broker may stamp them with another clock than the device its reports. */
-const COMMAND_STATE = /_(status|info)$/;
 const ATTENTION_WORDS = new Set(['error', 'fault', 'faulty', 'failed', 'blocked', 'emergency', 'alarm']);
 
 /**
@@ -79,8 +77,11 @@ export function applyReport(entity, record) {
     }
     if (!(name in entity.attributes) && ++count > MAX_ATTRIBUTES) {
       omitted++;
-    } else if (!(entity.attributes[name]?.time > record.time) || COMMAND_STATE.test(name)) {
-      const attribute = readAttribute(name, reported[name]);
+      continue;
+    }
+    const attribute = readAttribute(name, reported[name]);
+    // the context broker may stamp the state of a command with another clock than the device its reports
+    if (!(entity.attributes[name]?.time > record.time) || isOfCommand(name, attribute)) {
       entity.attributes[name] = { ...attribute, percent: isPercent(attribute) || Boolean(entity.attributes[name]?.percent), time: record.time };
     }
   }

@@ -1,6 +1,6 @@
 /**
- * Reads positions, numbers and units exactly as the jobs do: `PositionReading`, `Numbers` and `Quantity` of the model, `Battery` of the control
- * plane. The tables of cases in the tests of the model apply to this file too.
+ * Reads positions, numbers, units and commands exactly as the jobs do: `PositionReading`, `Numbers`, `Quantity` and `Entity` of the model, `Battery`
+ * of the control plane. The tables of cases in the tests of the model apply to this file too.
  */
 
 const DECIMAL = /^[+-]?(\d{1,40}(\.\d{0,40})?|\.\d{1,40})([eE][+-]?\d{1,3})?$/;
@@ -11,6 +11,10 @@ const PAIRS = [['Latitude', 'Longitude'], ['latitude', 'longitude']];
 const POSITIONS = ['location', 'gnss', 'pose', ...PAIRS.flat()];
 const BATTERIES = ['battery', 'batteryLevel'];
 const QUOTE = '%27';
+const COMMAND_TYPE = /^command(Status|Result)?$/;
+const COMMAND_OF_ROBOTS = /^cmd(_(status|info))?$/;
+/** Words of the IoT Agent for a command without a result. */
+const PROGRESS = new Set(['PENDING', 'SENT', 'DELIVERED', 'EXPIRED']);
 
 /** Conversions to the unit of each quantity; other units are rejected, except for temperatures. */
 const QUANTITIES = {
@@ -84,6 +88,15 @@ export function quantityOf(attribute, quantity) {
   }
   const read = QUANTITIES[quantity][code];
   return read ? read(number) : quantity === 'TEMPERATURE' ? number : null;
+}
+
+/**
+ * Whether an attribute is a command or its state, which others than the device write.
+ *
+ * @param {{type: string, value: *}} attribute
+ */
+export function isOfCommand(name, { type, value }) {
+  return COMMAND_TYPE.test(type) || COMMAND_OF_ROBOTS.test(name) || (name.endsWith('_status') && PROGRESS.has(value));
 }
 
 /** Whether the value of a share shows that the device reports percent without naming a unit. */

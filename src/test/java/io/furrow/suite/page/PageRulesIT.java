@@ -73,6 +73,32 @@ class PageRulesIT {
     }
 
     @Test
+    void recognizesCommandsAsTheControlPlaneDoes() throws IOException {
+        assertThat(differences("ngsi/commands.csv", """
+                const { isOfCommand } = await import('/core/readings.js');
+                return rows.filter(([name, attribute, expected]) => String(isOfCommand(name, JSON.parse(attribute))) !== expected);""")).isEmpty();
+    }
+
+    /** A tractor reports the state of its engine, and an object as the result of each command. */
+    @Test
+    void takesNeitherAMeasureForACommandNorAnOldResultForANewOne() {
+        assertThat(run(REPORT + """
+                const { keyAttributes } = await import('/cards/attributes.js');
+                const { commandsOf, outcomeOf } = await import('/cards/commands.js');
+                const reply = (status, code) => report('tractor', 'Tractor', '', { engine_status: { type: 'Text', value: 'running' },
+                  plow_status: { type: 'commandStatus', value: status }, plow_info: { type: 'commandResult', value: { code } } });
+                reply('OK', 0);
+                const entity = store.entities.get('tractor');
+                const sent = { command: 'plow', at: 0, info: '{"code":0}', waiting: false };
+                reply('PENDING', 0);
+                const pending = outcomeOf(entity, sent, 0).state;
+                reply('PENDING', 1);
+                const { state, info } = outcomeOf(entity, sent, 0);
+                store.applyEntity({ key: 'tractor', kind: 'event', time: time - 9000, headers: { 'fiware-service': '', 'fiware-servicepath': '/' }, value: { id: 'tractor', type: 'Tractor', engine_status: { type: 'Text', value: 'off' } } });
+                return [pending, `${state} ${info}`, ...commandsOf(entity).map(({ name }) => name), ...keyAttributes(entity).map(({ name, value }) => `${name}=${value}`)];""")).containsExactly("pending", "ok {\"code\":1}", "plow", "engine_status=running");
+    }
+
+    @Test
     void readsBatteriesAsTheControlPlaneDoes() throws IOException {
         assertThat(differences("ngsi/batteries.csv", REPORT + """
                 const { chargeOf } = await import('/core/readings.js');

@@ -39,8 +39,8 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
     private static final int MAX_DEVICES = 10_000;
     private static final int MAX_TYPES = 10;
     private static final int CATCHES_UP = 2;
-    /** Attributes that others than the device write; commands also have types of their own. */
-    private static final Pattern NOT_MEASURED = Pattern.compile("TimeInstant|Domain|Mission|cmd|.+_(status|info)");
+    /** Attributes that others than the device write, beside commands. */
+    private static final Pattern NOT_MEASURED = Pattern.compile("TimeInstant|Domain|Mission");
 
     private final ReceiptTime receiptTime;
     private final long maxBehindMillis;
@@ -128,7 +128,7 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
         entity.attributes().forEach(each -> values.put(each.getKey(), each.getValue()));
         values.keySet().removeAll(Entity.BUILT_INS);
         values.keySet().removeIf(NOT_MEASURED.asMatchPredicate());
-        values.values().removeIf(each -> each.path("type").asText().startsWith("command"));
+        values.entrySet().removeIf(each -> Entity.isOfCommand(each.getKey(), each.getValue()));
         values.replaceAll((name, each) -> each.path("value"));
         return values.hashCode();
     }

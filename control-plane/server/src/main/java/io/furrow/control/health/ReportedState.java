@@ -3,11 +3,8 @@ package io.furrow.control.health;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Map;
-import java.util.Set;
 import java.util.function.Predicate;
-import java.util.regex.Matcher;
 import java.util.regex.Pattern;
-import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
@@ -20,9 +17,6 @@ import io.furrow.model.ngsi.Entity;
 final class ReportedState {
     /** Attributes that are assigned to a device, not measured by it; they may exist before its first report. */
     private static final Pattern ASSIGNED = Pattern.compile("Domain|Mission|TimeInstant");
-
-    private static final Pattern COMMAND = Pattern.compile("(.+)_(?:status|info)");
-    private static final Pattern COMMAND_TYPES = Pattern.compile("command(Status|Result)?");
 
     private final int[] measured;
     private final int[] commands;
@@ -37,17 +31,9 @@ final class ReportedState {
 
     static ReportedState of(Entity entity) {
         List<Map.Entry<String, JsonNode>> attributes = entity.attributes();
-        Set<String> sent = attributes.stream()
-                .map(each -> COMMAND.matcher(each.getKey()))
-                .filter(Matcher::matches)
-                .map(name -> name.group(1))
-                .collect(Collectors.toSet());
-        Predicate<Map.Entry<String, JsonNode>> isCommand = each -> sent.contains(each.getKey())
-                || COMMAND.matcher(each.getKey()).matches()
-                || COMMAND_TYPES.matcher(each.getValue().path("type").asText()).matches();
         return new ReportedState(
-                hashes(attributes, isCommand.negate().and(each -> isMeasured(each.getKey()))),
-                hashes(attributes, isCommand),
+                hashes(attributes, ReportedState::isMeasured),
+                hashes(attributes, each -> Entity.isOfCommand(each.getKey(), each.getValue())),
                 entity.value("TimeInstant").hashCode());
     }
 
@@ -62,9 +48,10 @@ final class ReportedState {
     }
 
     /** Whether the attribute may come from the device itself. */
-    static boolean isMeasured(String name) {
+    static boolean isMeasured(Map.Entry<String, JsonNode> attribute) {
+        String name = attribute.getKey();
         return !ASSIGNED.matcher(name).matches()
-                && !COMMAND.matcher(name).matches()
+                && !Entity.isOfCommand(name, attribute.getValue())
                 && !Entity.BUILT_INS.contains(name);
     }
 

@@ -163,9 +163,8 @@ final class SilenceDetector {
         List<Map.Entry<String, JsonNode>> attributes = entity.attributes();
         return attributes.isEmpty()
                 || attributes.stream()
-                        .map(Map.Entry::getKey)
                         .filter(ReportedState::isMeasured)
-                        .anyMatch(name -> entity.value(name)
+                        .anyMatch(each -> entity.value(each.getKey())
                                 .filter(value ->
                                         !value.isTextual() || !value.textValue().isBlank())
                                 .isPresent());

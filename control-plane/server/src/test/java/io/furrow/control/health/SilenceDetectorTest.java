@@ -168,6 +168,17 @@ class SilenceDetectorTest {
         assertThat(signs).extracting(Heartbeat::silent).containsExactly(false, true, false);
     }
 
+    /** For instance a gate that reports nothing else. */
+    @Test
+    void acceptsAMeasureThatIsNamedLikeTheStateOfACommand() {
+        addDesired(PERIOD);
+        for (int i = 0; i < 10; i++) {
+            process(i, "gate_status", i % 2 == 0 ? "open" : "shut");
+            passTenSeconds();
+        }
+        assertThat(signs).isNotEmpty().noneMatch(Heartbeat::silent);
+    }
+
     @Test
     void detectsNoSilenceOfADeviceThatIsOff() {
         addDesired(PERIOD);

@@ -6,6 +6,7 @@ import java.util.Map;
 import java.util.Objects;
 import java.util.Optional;
 import java.util.Set;
+import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -24,6 +25,10 @@ public record Entity(ObjectNode json) {
             Set.of("dateCreated", MODIFIED, "dateExpires", "servicePath", "alterationType", "deletedAt");
 
     private static final Set<String> NOT_ATTRIBUTES = Set.of("id", "type");
+    private static final Pattern COMMAND_TYPE = Pattern.compile("command(Status|Result)?");
+    private static final Pattern COMMAND_OF_ROBOTS = Pattern.compile("cmd(_(status|info))?");
+    /** Words of the IoT Agent for a command without a result. */
+    private static final Set<String> PROGRESS = Set.of("PENDING", "SENT", "DELIVERED", "EXPIRED");
 
     public Entity {
         Objects.requireNonNull(json);
@@ -104,6 +109,17 @@ public record Entity(ObjectNode json) {
             }
         }
         return attributes;
+    }
+
+    /**
+     * Returns whether an attribute is a command or its state, which others than the device write: not each {@code
+     * engine_status} is. The dashboard's page follows the same rule, and its tests use the same table of cases.
+     */
+    public static boolean isOfCommand(String name, JsonNode attribute) {
+        return COMMAND_TYPE.matcher(attribute.path("type").asText()).matches()
+                || COMMAND_OF_ROBOTS.matcher(name).matches()
+                || name.endsWith("_status")
+                        && PROGRESS.contains(attribute.path("value").asText());
     }
 
     /**

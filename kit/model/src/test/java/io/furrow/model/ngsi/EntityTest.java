@@ -4,6 +4,7 @@ import java.util.List;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvFileSource;
 import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
@@ -44,6 +45,14 @@ class EntityTest {
         assertThat(entity.value("type")).isEmpty();
         assertThat(entity.text("blank")).isEmpty();
         assertThat(entity.text("x")).isEmpty();
+    }
+
+    /** The tests of the dashboard's page use the same table. */
+    @ParameterizedTest
+    @CsvFileSource(resources = "commands.csv", delimiter = '|', quoteCharacter = '\u0001')
+    void recognizesCommands(String name, String attribute, boolean isOfCommand) throws Exception {
+        assertThat(Entity.isOfCommand(name, NgsiJson.read(attribute.getBytes(UTF_8))))
+                .isEqualTo(isOfCommand);
     }
 
     @Test
