@@ -1,6 +1,6 @@
 /** The card of one entity: attributes, series, image, commands and details. */
 import { api } from '../core/api.js';
-import { age, bytes, temperature, word } from '../core/format.js';
+import { age, bytes, displayOf, label, temperature, word } from '../core/format.js';
 import { h, replace, setText } from '../core/dom.js';
 import { openDialog } from '../core/dialog.js';
 import { icon } from '../core/icons.js';
@@ -62,8 +62,7 @@ export class Card {
     this.history.href = linkTo('history', { select: entity.id });
     this.drawFacts(now);
     const line = lineOf(entity);
-    const fact = line && keyAttributes(entity, 50).find((each) => each.name === line.name);
-    this.spark.draw(line, fact?.label ?? line?.name, fact?.unit ?? '');
+    this.spark.draw(line, line && { label: label(line.name), ...displayOf(line.name, entity.attributes[line.name]) });
     this.picture.draw(entity);
     this.drawCommands();
     this.open && this.drawDetails();

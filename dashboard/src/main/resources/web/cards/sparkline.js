@@ -18,14 +18,18 @@ export class Sparkline {
     this.svg.addEventListener('pointerleave', () => store.setCursor(null));
   }
 
-  /** @param {{name: string, points: import('../core/line.js').Line}|null} line */
-  draw(line, label, unit) {
+  /**
+   * @param {{name: string, points: import('../core/line.js').Line}|null} line
+   * @param {{label: string, factor: number, words: string}|null} shown how its numbers are shown
+   */
+  draw(line, shown) {
     this.element.hidden = line === null;
     if (!line) {
       return;
     }
     const times = line.points.of('times');
-    const values = line.points.of('values');
+    const { label, factor, words: unit } = shown;
+    const values = line.points.of('values').map((value) => value * factor);
     const [min, max] = [Math.min(...values), Math.max(...values)];
     const height = Math.max(max - min, Math.abs(max) * 0.02, 1e-9);
     const from = times[0];

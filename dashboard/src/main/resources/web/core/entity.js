@@ -3,7 +3,7 @@ import { hasUnit, shortId } from './format.js';
 import { withDifference } from './identities.js';
 import { parse } from './json.js';
 import { Line } from './line.js';
-import { finite, isOfCommand, isPercent, jsonOf, positionOf, quantityOf } from './readings.js';
+import { codeOf, finite, isOfCommand, isPercent, jsonOf, positionOf, quantityOf, unitOf } from './readings.js';
 
 /** Points stored of a trail or a series. */
 const POINTS = 120;
@@ -201,9 +201,9 @@ function appendPoints(entity, reported, time) {
     addPlace(entity, ...entity.position, time);
   }
   for (const name in reported) {
-    const value = entity.attributes[name]?.value;
-    if (typeof value === 'number' && Number.isFinite(value) && !NOT_A_SERIES.has(name)) {
-      addNumber(entity.series, name, time, value);
+    const attribute = entity.attributes[name];
+    if (Number.isFinite(attribute?.value) && !NOT_A_SERIES.has(name)) {
+      addNumber(entity.series, name, time, attribute);
     }
   }
 }
@@ -224,12 +224,14 @@ function addPlace(entity, lon, lat, time) {
   entity.trail.push(lon, lat, time, NaN, NaN);
 }
 
-function addNumber(series, name, time, value) {
+/** Adds a number to its series, which begins anew with another unit. */
+function addNumber(series, name, time, attribute) {
+  const unit = codeOf(unitOf(attribute));
   let line = series.get(name);
-  if (!line && series.size < MAX_SERIES) {
-    series.set(name, (line = new Line(['times', 'values'], POINTS)));
+  if (line ? line.unit !== unit : series.size < MAX_SERIES) {
+    series.set(name, (line = Object.assign(new Line(['times', 'values'], POINTS), { unit })));
   }
-  line?.push(time, value);
+  line?.push(time, attribute.value);
 }
 
 /**
@@ -255,7 +257,8 @@ export function applyPast(entity, records) {
   }
   entity.trail === NO_TRAIL ? (entity.trail = past.trail) : entity.trail.prepend(past.trail, 'time');
   for (const [name, line] of past.series) {
-    entity.series.has(name) ? entity.series.get(name).prepend(line, 'times') : entity.series.set(name, line);
+    const existing = entity.series.get(name);
+    existing?.unit === line.unit ? existing.prepend(line, 'times') : existing ?? entity.series.set(name, line);
   }
   if (entity.period === null && records.length > 1) {
     entity.period = (records.at(-1).time - records[0].time) / (records.length - 1);

@@ -99,6 +99,24 @@ class PageRulesIT {
     }
 
     @Test
+    void drawsALineInTheUnitThatIsShown() {
+        assertThat(run(REPORT + """
+                const { lineOf } = await import('/cards/attributes.js');
+                const { displayOf } = await import('/core/format.js');
+                const { Sparkline } = await import('/cards/sparkline.js');
+                const words = (id) => {
+                  const entity = store.entities.get(id);
+                  const line = lineOf(entity);
+                  const spark = new Sparkline();
+                  spark.draw(line, line && { label: 'x', ...displayOf(line.name, entity.attributes[line.name]) });
+                  return line && [...spark.shown.values].map((value) => Math.round(value * 10) / 10).join() + spark.shown.unit;
+                };
+                [0.5, 0.55, 0.6].forEach((value) => report('leaf', 'Leaf', '', { relativeHumidity: { value } }));
+                [[20, 'CEL'], [21, 'CEL'], [70, 'FAH'], [71, '°F'], [72, 'FAH']].forEach(([value, unit]) => report('soil', 'Soil', '', { temperature: { value, metadata: { unitCode: { value: unit } } } }));
+                return [words('leaf'), words('soil')];""")).containsExactly("50,55,60%", "70,71,72FAH");
+    }
+
+    @Test
     void readsBatteriesAsTheControlPlaneDoes() throws IOException {
         assertThat(differences("ngsi/batteries.csv", REPORT + """
                 const { chargeOf } = await import('/core/readings.js');
