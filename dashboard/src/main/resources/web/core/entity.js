@@ -16,6 +16,8 @@ const MAX_VALUE = 4_000;
 const STALE_AFTER = 60_000;
 const FRAME = new Set(['id', 'type']);
 const NOT_A_SERIES = new Set(['Time', 'TimeInstant', 'Latitude', 'Longitude', 'latitude', 'longitude']);
+/** Values of `Status` of a device that is switched off. */
+const OFF_STATUS = new Set(['false', '0', 'off']);
 const OFF_WORDS = new Set(['off', 'standby', 'sleeping']);
 const ATTENTION_WORDS = new Set(['error', 'fault', 'faulty', 'failed', 'blocked', 'emergency', 'alarm']);
 
@@ -146,8 +148,8 @@ function describe(entity, { value: reported, headers, time }) {
   const attributes = entity.attributes;
   entity.name = nameOf(entity);
   entity.kind = kindOf(entity);
-  entity.domain = text(attributes.Domain?.value) || null;
-  entity.mission = text(attributes.Mission?.value) || null;
+  entity.domain = nameIn(attributes.Domain);
+  entity.mission = nameIn(attributes.Mission);
   entity.speed = within(quantityOf(attributes.speed, 'SPEED'), Infinity);
   entity.heading = within(quantityOf(attributes.heading, 'HEADING'), 360);
   entity.word = wordOf(attributes);
@@ -157,6 +159,11 @@ function describe(entity, { value: reported, headers, time }) {
     entity.positionFault = found.fault ?? null;
     entity.positionTime = time;
   }
+}
+
+/** A name, which may be a whole number. */
+function nameIn(attribute) {
+  return text(attribute?.value) || (Number.isSafeInteger(attribute?.value) ? String(attribute.value) : null);
 }
 
 function within(number, max) {
@@ -186,6 +193,9 @@ function kindOf(entity) {
 function wordOf(attributes) {
   for (const name of ['state', 'status', 'State', 'Status']) {
     const value = attributes[name]?.value;
+    if (name === 'Status' && OFF_STATUS.has(String(value).toLowerCase())) {
+      return 'off';
+    }
     if (typeof value === 'boolean') {
       return value ? 'on' : 'off';
     }

@@ -98,6 +98,18 @@ class PageRulesIT {
                 return [pending, `${state} ${info}`, ...commandsOf(entity).map(({ name }) => name), ...keyAttributes(entity).map(({ name, value }) => `${name}=${value}`)];""")).containsExactly("pending", "ok {\"code\":1}", "plow", "engine_status=running");
     }
 
+    /** As the control plane does, which reports no silence of such a device. */
+    @Test
+    void recognizesThatADeviceIsSwitchedOff() {
+        assertThat(run(REPORT + """
+                return [false, 0, '0', 'Off', true, 1, 'on', null].map((value, index) => {
+                  report(`switch ${index}`, 'Switch', '', { Status: { value }, Mission: { value: index } });
+                  const { state, mission } = store.entities.get(`switch ${index}`);
+                  return `${mission} ${state}`;
+                });"""))
+                .containsExactly("0 off", "1 off", "2 off", "3 off", "4 stale", "5 stale", "6 stale", "7 stale");
+    }
+
     @Test
     void drawsALineInTheUnitThatIsShown() {
         assertThat(run(REPORT + """

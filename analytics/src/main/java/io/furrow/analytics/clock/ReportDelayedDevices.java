@@ -116,7 +116,7 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
         LagStreak lag = LagStreak.after(before == null ? null : before.lag, position);
         boolean catchesUp = record.timestamp() - lag.first() > CATCHES_UP * (received - lag.since());
         if (!catchesUp && lag.isDue(MIN_RECORDS)) {
-            String mission = entity.text("Mission").orElse("");
+            String mission = entity.name("Mission").orElse("");
             out.collect(ClockReport.delayed(position, entity.type(), mission, lag));
             lag = lag.afterReport();
         }

@@ -105,7 +105,7 @@ final class ReadWork extends ReadEntities<WorkReport> {
         FiwareScope scope = FiwareScope.of(record.headers());
         Position position = reading.usable().orElse(new Position(Double.NaN, Double.NaN));
         Device device = new Device(record.topic(), scope.identity(entity.type(), entity.id()));
-        String mission = entity.text("Mission").orElse("");
+        String mission = entity.name("Mission").orElse("");
         return new PositionFix(
                 DeviceInfo.of(device, entity.id(), entity.type(), mission, ""),
                 position.latitude(),

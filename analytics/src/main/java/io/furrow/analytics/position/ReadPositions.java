@@ -64,7 +64,7 @@ public final class ReadPositions extends ReadEntities<PositionFix> {
                 scope.identity(entity.type(), entity.id()),
                 entity.id(),
                 entity.type(),
-                entity.text("Mission").orElse(""),
+                entity.name("Mission").orElse(""),
                 carrier.isEmpty() ? "" : scope.identity(carrier),
                 position.latitude(),
                 position.longitude(),

@@ -105,8 +105,8 @@ public final class ParseEvents extends ProcessFunction<TopicRecord, ReportedEven
                 scope.identity(entity.id()),
                 entity.id(),
                 entity.type(),
-                entity.text("Domain").orElse(""),
-                entity.text("Mission").orElse(""),
+                entity.name("Domain").orElse(""),
+                entity.name("Mission").orElse(""),
                 known == null ? record.with(HeaderNames.CE_ID, id) : record);
     }
 

@@ -43,6 +43,18 @@ class ParseEventsTest {
         assertThat(id(null, empty)).isNotBlank().isNotEqualTo(first);
     }
 
+    /** A device may write the name of a mission as a number. */
+    @Test
+    void readsNamesThatAreNumbers() throws Exception {
+        String named = "{\"id\":\"r\",\"Domain\":{\"value\":%s},\"Mission\":{\"value\":%s}}";
+        ReportedEvent event = ParseEvents.recognize(record(named.formatted("\"north\"", "7"), Map.of()));
+        ReportedEvent other =
+                ParseEvents.recognize(record(named.formatted("2.026e3", "7.5"), Map.of(HeaderNames.CE_ID, "a")));
+
+        assertThat(event.domain() + "/" + event.mission()).isEqualTo("north/7");
+        assertThat(other.domain() + "/" + other.mission()).isEqualTo("2026/");
+    }
+
     @Test
     void saysWhatIsNoEvent() {
         TopicRecord nothing = TopicRecord.of(Topics.RAW, 1_700_000_000_000L, "", null, Map.of());

@@ -4,8 +4,10 @@ import java.time.Duration;
 import java.time.Instant;
 import java.util.HashMap;
 import java.util.List;
+import java.util.Locale;
 import java.util.Map;
 import java.util.Optional;
+import java.util.Set;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
@@ -26,8 +28,9 @@ import io.furrow.model.time.Elapsed;
 final class SilenceDetector {
     static final Duration HEARTBEAT_INTERVAL = Duration.ofSeconds(30);
 
-    /** Boolean; false if the device is switched off. */
     static final String STATUS = "Status";
+    /** Its values if the device is switched off; the dashboard's page has the same. */
+    private static final Set<String> OFF = Set.of("false", "0", "off");
 
     private static final Duration MAX_TICK = Duration.ofSeconds(2);
     private static final Duration LOOKUP_INTERVAL = Duration.ofSeconds(5);
@@ -129,7 +132,9 @@ final class SilenceDetector {
         tracked.percent = Battery.isPercent(entity) || !first && tracked.percent;
         Double battery = Battery.levelOf(entity, tracked.percent);
         boolean off = entity.value(STATUS)
-                .filter(status -> status.isBoolean() && !status.booleanValue())
+                .filter(status -> status.isNumber()
+                        ? status.doubleValue() == 0
+                        : OFF.contains(status.asText().toLowerCase(Locale.ROOT)))
                 .isPresent();
         boolean switched = !first && off != tracked.newest.off();
         boolean isAbsent = battery == null && !first;

@@ -191,6 +191,10 @@ class SilenceDetectorTest {
         pass(30_000);
         pass(1000);
         assertThat(signs).extracting(Heartbeat::silent).containsExactly(false, false, false, true);
+        process(8, "Status", "Off");
+        process(9, "Status", "on");
+        process(10, "Status", 0);
+        assertThat(signs).extracting(Heartbeat::off).endsWith(true, false, true);
     }
 
     /** The context broker notifies about these before the device has sent anything. */

@@ -95,6 +95,11 @@ public record Entity(ObjectNode json) {
                 .filter(text -> !text.isBlank());
     }
 
+    /** Returns the value of an attribute as a name, of a mission for instance: its text, or the digits of a whole number. */
+    public Optional<String> name(String attribute) {
+        return text(attribute).or(() -> number(attribute).flatMap(Numbers::digits));
+    }
+
     /** Returns the value of an attribute as a finite number, also if it was sent as text; otherwise empty. */
     public Optional<Double> number(String attribute) {
         return value(attribute).flatMap(Numbers::finite);

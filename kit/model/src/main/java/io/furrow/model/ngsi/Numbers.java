@@ -21,6 +21,13 @@ public final class Numbers {
         return Double.isNaN(number) ? Optional.empty() : Optional.of(number);
     }
 
+    /** Returns the digits of a whole number up to 2^53; empty for others. */
+    public static Optional<String> digits(double number) {
+        return number == Math.rint(number) && Math.abs(number) < 1L << 53
+                ? Optional.of(Long.toString((long) number))
+                : Optional.empty();
+    }
+
     /** Returns the finite number of a text; NaN for any other text. */
     public static double finite(String untrimmed) {
         String text = untrimmed.trim();

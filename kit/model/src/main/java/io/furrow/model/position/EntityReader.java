@@ -11,6 +11,7 @@ import com.fasterxml.jackson.core.JsonToken;
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.Numbers;
 import io.furrow.model.ngsi.Quantity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.Utf8;
@@ -169,6 +170,11 @@ public final class EntityReader {
         return tree == null
                 ? Optional.ofNullable(value(attribute).textOrNull()).filter(text -> !text.isBlank())
                 : tree.text(attribute);
+    }
+
+    /** Returns the value of a desired attribute as a name: its text, or the digits of a whole number. */
+    public Optional<String> name(String attribute) {
+        return text(attribute).or(() -> Numbers.digits(number(attribute)));
     }
 
     /** Returns the value of a desired attribute as a truth value; empty if it is missing or none. */
