@@ -7,7 +7,7 @@ export function scopeOf(headers) {
 
 /** @returns {{service: string, servicePath: string}} normalized as on the server */
 export function scope(service, servicePath) {
-  return { service: (service ?? '').trim().toLowerCase(), servicePath: (servicePath ?? '').trim() || '/' };
+  return { service: (service ?? '').trim().toLowerCase(), servicePath: (servicePath ?? '').trim().replace(/(?<=.)\/+$/, '') || '/' };
 }
 
 /**

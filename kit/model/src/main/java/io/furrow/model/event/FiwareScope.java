@@ -12,10 +12,13 @@ import java.util.Map;
 public record FiwareScope(String service, String servicePath) {
     public static final FiwareScope DEFAULT = new FiwareScope("", "/");
 
-    /** Returns the scope of two headers; each may be null or blank. */
+    /** Returns the scope of two headers; each may be null or blank. {@code /farm/} is the same path as {@code /farm}. */
     public static FiwareScope of(String service, String servicePath) {
         String tenant = service == null ? "" : service.trim().toLowerCase(java.util.Locale.ROOT);
         String path = servicePath == null || servicePath.isBlank() ? "/" : servicePath.trim();
+        while (path.length() > 1 && path.endsWith("/")) {
+            path = path.substring(0, path.length() - 1);
+        }
         return new FiwareScope(tenant, path);
     }
 

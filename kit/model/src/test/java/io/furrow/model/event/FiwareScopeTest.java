@@ -10,6 +10,8 @@ class FiwareScopeTest {
     @Test
     void readsHeadersAsTheContextBrokerDoes() {
         assertThat(FiwareScope.of(" Agri ", " /plot1 ")).isEqualTo(new FiwareScope("agri", "/plot1"));
+        assertThat(FiwareScope.of("agri", "/farm/north/")).isEqualTo(new FiwareScope("agri", "/farm/north"));
+        assertThat(FiwareScope.of("agri", "//")).isEqualTo(new FiwareScope("agri", "/"));
         assertThat(FiwareScope.of(null, null)).isEqualTo(FiwareScope.DEFAULT);
         assertThat(FiwareScope.of("", " ")).isEqualTo(FiwareScope.DEFAULT);
     }
