@@ -5,6 +5,7 @@ import { feeds, loadUser } from './core/feeds.js';
 import { clock, day, duration, zone } from './core/format.js';
 import { h, replace, setText } from './core/dom.js';
 import { icon } from './core/icons.js';
+import { nameFromTopic } from './core/identities.js';
 import { amendAddress, linkTo, navigate, onRoute, route } from './core/router.js';
 import { store } from './core/store.js';
 import { arrange } from './alarms/order.js';
@@ -160,7 +161,7 @@ class App extends HTMLElement {
   }
 
   showScope() {
-    const { domain, mission } = store.scope;
+    const [domain, mission] = [store.scope.domain, store.scope.mission].map((name) => name && nameFromTopic(name));
     replace(this.crumbs,
       h('a.cut', { href: linkTo('missions', { tab: 'domains' }), 'aria-current': mission ? null : 'true' }, domain ?? t('app.allDomains')),
       mission && [h('span.muted', { 'aria-hidden': 'true' }, '›'), h('span.cut', { 'aria-current': 'true' }, mission)],

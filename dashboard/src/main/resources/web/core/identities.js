@@ -101,6 +101,20 @@ export function fullKey({ service, servicePath }, type, id) {
   return [service, servicePath, type, id].join('|');
 }
 
+/** The name of a domain or mission from its part of a topic, see `TopicName` of the model; a hash stays. */
+export function nameFromTopic(part) {
+  try {
+    return part?.startsWith('_x-') ? decodeURIComponent(part.slice(3).replaceAll('-', '%')) : part;
+  } catch { // a topic of another program
+    return part;
+  }
+}
+
+/** Whether two names of a domain or mission, as reported or in topics, are the same. @param {string|null|undefined} one @param {string} other */
+export function isSameName(one, other) {
+  return one === other || nameFromTopic(one) === nameFromTopic(other);
+}
+
 /** Robots of FIROS write their type in upper case. */
 export function isSameType(one, other) {
   return one.toLowerCase() === other.toLowerCase();

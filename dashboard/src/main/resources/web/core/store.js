@@ -1,7 +1,7 @@
 /** The state of the page. Feeds write it, elements subscribe to its changes. */
 import { Coverages } from './coverage.js';
 import { stateOf } from './entity.js';
-import { Identities, isSameType, scope } from './identities.js';
+import { Identities, isSameName, isSameType, scope } from './identities.js';
 import { Reducers } from './reducers.js';
 
 /** Time for which an encounter that ended is shown, in the page's time, ms. */
@@ -197,7 +197,7 @@ class Store extends Reducers(Object) {
   /** Whether an entity belongs to the chosen domain and mission, if any. */
   inScope(entity) {
     const { domain, mission } = this.scope;
-    return (domain === null || entity.domain === domain) && (mission === null || entity.mission === mission);
+    return (domain === null || isSameName(entity.domain, domain)) && (mission === null || isSameName(entity.mission, mission));
   }
 
   /** Whether something that is about these entities is shown: one of them is in the scope, or none is known. */
@@ -209,7 +209,7 @@ class Store extends Reducers(Object) {
   /** Whether something of a mission, and of a domain if that is known, is shown. */
   hasInScope(mission, domain) {
     const { scope } = this;
-    return scope.domain === null || ((scope.mission === null || scope.mission === mission) && (domain ?? scope.domain) === scope.domain);
+    return scope.domain === null || ((scope.mission === null || isSameName(mission, scope.mission)) && isSameName(domain ?? scope.domain, scope.domain));
   }
 
   /** What was worked in the chosen domain and mission, the newest last. */

@@ -4,6 +4,7 @@ import { resource } from '../core/resource.js';
 import { decimal, number } from '../core/format.js';
 import { h, replace, setText } from '../core/dom.js';
 import { icon } from '../core/icons.js';
+import { nameFromTopic } from '../core/identities.js';
 import { navigate, parameter } from '../core/router.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
@@ -94,8 +95,8 @@ class FurrowTopics extends HTMLElement {
 
   domain({ domain, topic, missions }) {
     return h('li.topic-domain', null,
-      this.row(topic, domain, { domain }),
-      missions.length > 0 && h('ul', null, missions.map((each) => h('li', null, this.row(each.topic, each.mission, { domain, mission: each.mission })))));
+      this.row(topic, nameFromTopic(domain), { domain }),
+      missions.length > 0 && h('ul', null, missions.map((each) => h('li', null, this.row(each.topic, nameFromTopic(each.mission), { domain, mission: each.mission })))));
   }
 
   /** @param {string|null} topic null if there are no records yet */

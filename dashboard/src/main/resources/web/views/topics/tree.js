@@ -1,4 +1,5 @@
 /** Arranges topics by use: all reports, results, domains with their missions, replays, control topics, others. */
+import { nameFromTopic } from '../../core/identities.js';
 import { store } from '../../core/store.js';
 
 const RESULTS = ['data.clocks', 'data.images', 'data.context', 'data.catalog'];
@@ -40,13 +41,14 @@ function domainsOf(names, domains, missions, claimed) {
     return byName.get(domain);
   };
   [...domains, CANARY].forEach(of);
-  const missing = new Map([...missions].map((each) => [`data.${each.domain}.realtime.${each.mission}`, each]));
+  const keyOf = (domain, mission) => [domain, mission].map(nameFromTopic).join('\n');
+  const missing = new Map([...missions].map((each) => [keyOf(each.domain, each.mission), each]));
   for (const name of names) {
     const [, domain, mission] = /^data\.([^.]+)\.realtime(?:\.([^.]+))?$/.exec(name) ?? [];
     if (domain) {
       claimed.add(name);
       mission ? of(domain).missions.push({ mission, topic: name }) : (of(domain).topic = name);
-      missing.delete(name);
+      mission && missing.delete(keyOf(domain, mission));
     }
   }
   // a mission without reports has no topic yet

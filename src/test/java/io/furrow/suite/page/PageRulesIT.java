@@ -245,6 +245,22 @@ class PageRulesIT {
                         "__proto__=7", "constructor=5", "toString=8", "5", "7", "8 valueOf", "states.constructor");
     }
 
+    /** A device may name a domain and a mission, of which topics have an encoding. */
+    @Test
+    void findsTheDevicesOfADomainThatIsEncodedInTopics() {
+        assertThat(run(REPORT + """
+                const { arrange } = await import('/views/topics/tree.js');
+                const { scopeName } = await import('/core/scope.js');
+                report('sown', 'Robot', '', { Domain: { value: 'Höfe.7' }, Mission: { value: 'Feld 3' } });
+                const tree = arrange([{ name: 'data._x-H-C3-B6fe-2E7.realtime' }, { name: 'data._x-H-C3-B6fe-2E7.realtime._x-Feld-203' }, { name: 'data.north.realtime._x-day-5Fdead' }], [],
+                  [{ domain: 'north', mission: 'day_dead' }]).domains;
+                const { domain, missions: [{ mission }] } = tree.find((each) => each.domain.startsWith('_x-'));
+                store.setScope({ domain, mission });
+                const shown = [scopeName(), store.inScope(store.entities.get('sown')), store.hasInScope('Feld 4', domain)];
+                store.setScope({});
+                return [...shown.map(String), ...tree.find((each) => each.domain === 'north').missions.map((each) => each.mission)];""")).containsExactly("Höfe.7 › Feld 3", "true", "false", "_x-day-5Fdead");
+    }
+
     /** Tenant and type are not part of the id. */
     @Test
     void distinguishesEntitiesWithTheSameId() {
