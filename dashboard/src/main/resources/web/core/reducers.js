@@ -25,7 +25,6 @@ export const Reducers = (Base) => class extends Base {
       entity = newEntity(identity);
       this.entities.set(key, entity);
       this.nameAll(identity);
-      this.entities.size > MAX_ENTITIES && this.forgetOldest();
     }
     if (record.cut) {
       entity.cut = record.cut;
@@ -38,6 +37,7 @@ export const Reducers = (Base) => class extends Base {
     entity.suspect = this.suspects.has(key);
     entity.state = this.stateOf(entity);
     this.notify('entities', key);
+    this.entities.size > MAX_ENTITIES && this.forgetOldest();
     return [key];
   }
 

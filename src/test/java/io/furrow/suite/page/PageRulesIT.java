@@ -230,6 +230,18 @@ class PageRulesIT {
                         "2026-10-25T01:20:00.000Z");
     }
 
+    @Test
+    void showsANewDeviceInsteadOfTheOneThatWasSilentLongestIfThereAreTooMany() {
+        assertThat(run(REPORT + """
+                store.clearShown();
+                for (let i = 0; i <= 5_000; i++) {
+                  report(`of many ${i}`, 'Device', '', {});
+                }
+                const shown = [0, 1, 5_000].map((i) => String(store.entities.has(`of many ${i}`)));
+                store.clearShown();
+                return shown;""")).containsExactly("false", "true", "true");
+    }
+
     /** Attributes may have names that every JavaScript object has. */
     @Test
     void treatsNamesOfJavaScriptAsAttributeNames() {
