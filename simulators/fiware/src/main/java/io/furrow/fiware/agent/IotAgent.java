@@ -1,6 +1,8 @@
 package io.furrow.fiware.agent;
 
+import java.util.ArrayList;
 import java.util.LinkedHashMap;
+import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
@@ -67,20 +69,34 @@ public final class IotAgent implements ContextBroker.Commands {
         return refused.sum();
     }
 
-    /** Processes a message of a device: one measure, or an array of them. */
+    /** Processes a message of a device: one measure, or an array of them, of which a wrong one harms no other. */
     void measured(String apikey, String deviceId, byte[] payload) {
         received("measure", apikey, deviceId, payload, (device, json) -> {
-            for (JsonNode measure :
-                    json.isArray() ? json : JsonNodeFactory.instance.arrayNode().add(json)) {
-                if (!(measure instanceof ObjectNode object)) {
-                    throw NgsiError.badRequest("a measure is a JSON object or an array of them");
+            JsonNode all =
+                    json.isArray() ? json : JsonNodeFactory.instance.arrayNode().add(json);
+            List<NgsiError> errors = new ArrayList<>();
+            for (JsonNode measure : all) {
+                try {
+                    measured(device, measure);
+                } catch (NgsiError e) {
+                    errors.add(e);
                 }
-                String now = NgsiTime.format(broker.now());
-                update(device, device.mapping().attributes(object, now));
             }
-            measures.increment();
-            history.measured(apikey, deviceId);
+            if (errors.isEmpty() || errors.size() < all.size()) {
+                measures.increment();
+                history.measured(apikey, deviceId);
+            }
+            if (!errors.isEmpty()) {
+                throw errors.get(0);
+            }
         });
+    }
+
+    private void measured(ProvisionedDevice device, JsonNode measure) throws NgsiError {
+        if (!(measure instanceof ObjectNode object)) {
+            throw NgsiError.badRequest("a measure is a JSON object or an array of them");
+        }
+        update(device, device.mapping().attributes(object, NgsiTime.format(broker.now())));
     }
 
     /** Processes the answer of a device to a command: {@code {"<command>": result}}. */

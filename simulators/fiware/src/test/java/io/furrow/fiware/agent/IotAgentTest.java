@@ -115,18 +115,24 @@ class IotAgentTest {
     }
 
     @Test
-    void takesEachMeasureOfAnArrayAndThePrefixedTopic() throws MqttException {
+    void takesEachGoodMeasureOfAnArrayAndThePrefixedTopic() throws MqttException {
         try (NotificationReceiver receiver = new NotificationReceiver()) {
             broker.post("/v2/subscriptions", """
                     {"subject": {"entities": [{"idPattern": ".*", "type": "Thermometer"}]}, "notification": {
                         "http": {"url": "%s"}, "attrs": ["Temperature"], "attrsFormat": "values"}}""".formatted(receiver.url("/notify")));
 
-            publish("/json/k1/t1/attrs", "[{\"temp\": 1}, {\"temp\": 2}, {\"temp\": 3}]");
+            publish("/json/k1/t1/attrs", "[17, {\"temp\": 1}, {\"a b\": 1}, {\"temp\": 2}, {\"temp\": 3}]");
 
             await().until(() -> receiver.received().size() == 3);
             assertThat(receiver.received())
                     .extracting(one -> one.json().path("data").get(0).get(0).intValue())
                     .containsExactly(1, 2, 3);
+            await().untilAsserted(() -> assertThat(standIn.history().of("k1", "t1"))
+                    .hasValueSatisfying(history -> {
+                        assertThat(history.measured()).isNotNull();
+                        assertThat(history.ignored().reason())
+                                .isEqualTo("a measure is a JSON object or an array of them");
+                    }));
         }
     }
 
