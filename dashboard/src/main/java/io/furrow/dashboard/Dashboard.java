@@ -16,7 +16,6 @@ import org.eclipse.jetty.ee10.websocket.server.config.JettyWebSocketServletConta
 import org.eclipse.jetty.http.HttpStatus;
 import org.eclipse.jetty.http.pathmap.ServletPathSpec;
 import org.eclipse.jetty.server.Handler;
-import org.eclipse.jetty.server.HttpConfiguration;
 import org.eclipse.jetty.server.HttpConnectionFactory;
 import org.eclipse.jetty.server.Request;
 import org.eclipse.jetty.server.Response;
@@ -121,9 +120,8 @@ public final class Dashboard implements AutoCloseable {
     }
 
     private void listen(DashboardSettings settings) throws IOException {
-        HttpConfiguration http = new HttpConfiguration();
-        http.setSendServerVersion(false);
-        ServerConnector connector = new ServerConnector(server, new HttpConnectionFactory(http));
+        ServerConnector connector =
+                new ServerConnector(server, new HttpConnectionFactory(AccessHandler.configuration()));
         connector.setHost(settings.host());
         connector.setPort(settings.port());
         server.addConnector(connector);
@@ -203,6 +201,7 @@ public final class Dashboard implements AutoCloseable {
 
     private Handler servlets(DashboardSettings settings) {
         ServletContextHandler context = new ServletContextHandler("/");
+        context.getServletHandler().setDecodeAmbiguousURIs(true);
         context.addServlet(new ServletHolder(new RegisterServlet(streams)), "/api/register/*");
         context.addServlet(new ServletHolder(new TopicsServlet(streams)), "/api/topics");
         context.addServlet(

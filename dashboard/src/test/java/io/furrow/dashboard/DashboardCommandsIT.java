@@ -61,6 +61,7 @@ class DashboardCommandsIT extends DashboardFixture {
                 "POST /api/missions/weeding/start",
                 "DELETE /api/missions/weeding",
                 "POST /api/devices/urn:ngsi-ld:Robot:1/commands",
+                "POST /api/devices/urn:ngsi-ld:Robot:M%25C3%25BCller/commands",
                 "POST /api/replays",
                 "POST /api/alarms/mute",
                 "POST /api/fields")) {

@@ -213,8 +213,7 @@ public final class RestApi implements AutoCloseable {
     }
 
     private void listen(RestSettings rest, TlsListener tls, ResourceConfig resources) throws IOException {
-        HttpConfiguration http = new HttpConfiguration();
-        http.setSendServerVersion(false);
+        HttpConfiguration http = AccessHandler.configuration();
         ServerConnector connector = tls == null
                 ? new ServerConnector(server, new HttpConnectionFactory(http))
                 : new ServerConnector(server, tls.protocols(http));
@@ -226,6 +225,7 @@ public final class RestApi implements AutoCloseable {
         ServletHolder servlet = new ServletHolder(new ServletContainer(resources));
         servlet.setAsyncSupported(true);
         ServletContextHandler context = new ServletContextHandler("/");
+        context.getServletHandler().setDecodeAmbiguousURIs(true);
         context.addServlet(servlet, "/*");
         context.setErrorHandler(RestApi::reject);
         server.setErrorHandler(RestApi::reject);

@@ -118,6 +118,9 @@ class RestApiAccessIT {
         assertThat(client.raw("/metrics", "10.9.8.7:8085")).contains(" 403 ");
         assertThat(client.raw("/api/domains/a%2Fb", "localhost"))
                 .contains(" 400 ", "application/problem+json", "\"title\":\"Bad Request\",\"status\":400");
+        assertThat(client.error("GET", "/api/devices/M%25C3%25BCller", null, false))
+                .as("a percent sign in an id")
+                .isEqualTo("404 unknown-device");
         byte[] large = new byte[9 * 1024 * 1024];
         Arrays.fill(large, (byte) ' ');
         assertThat(client.error("POST", "/api/domains", new String(large))).isEqualTo("413 too-large");

@@ -7,8 +7,10 @@ import java.util.function.Function;
 
 import org.eclipse.jetty.http.HttpHeader;
 import org.eclipse.jetty.http.HttpStatus;
+import org.eclipse.jetty.http.UriCompliance;
 import org.eclipse.jetty.io.Content;
 import org.eclipse.jetty.server.Handler;
+import org.eclipse.jetty.server.HttpConfiguration;
 import org.eclipse.jetty.server.Request;
 import org.eclipse.jetty.server.Response;
 import org.eclipse.jetty.util.Callback;
@@ -21,6 +23,10 @@ import io.furrow.http.HttpCall;
 public final class AccessHandler extends Handler.Wrapper {
     /** A body up to this size is read first: a client that still sends may lose an answer to a closed connection. */
     private static final int MAX_DRAINED = 64 * 1024;
+
+    /** Allows {@code %25}: the id of an entity may be a URI, in which a blank is {@code %20}. */
+    private static final UriCompliance IDS_IN_PATHS =
+            UriCompliance.DEFAULT.with("ids", UriCompliance.Violation.AMBIGUOUS_PATH_ENCODING);
 
     private final AccessRule rule;
     private final String type;
@@ -37,6 +43,14 @@ public final class AccessHandler extends Handler.Wrapper {
         this.rule = rule;
         this.type = type;
         this.body = body;
+    }
+
+    /** Returns the configuration of a server that has ids of entities in its paths. */
+    public static HttpConfiguration configuration() {
+        HttpConfiguration configuration = new HttpConfiguration();
+        configuration.setSendServerVersion(false);
+        configuration.setUriCompliance(IDS_IN_PATHS);
+        return configuration;
     }
 
     @Override

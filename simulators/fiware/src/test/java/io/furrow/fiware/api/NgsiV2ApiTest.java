@@ -35,6 +35,7 @@ class NgsiV2ApiTest {
             nullValues = "-",
             value = {
                 "GET    | /v2/entities/none                  | -                        | 404 | NotFound | The requested entity has not been found. Check type and id",
+                "GET    | /v2/entities/M%25C3%25BCller       | -                        | 404 | NotFound | The requested entity has not been found. Check type and id",
                 "GET    | /v2/entities/P1?type=Other         | -                        | 404 | NotFound | The requested entity has not been found. Check type and id",
                 "DELETE | /v2/entities/none                  | -                        | 404 | NotFound | The requested entity has not been found. Check type and id",
                 "DELETE | /v2/entities/P1/attrs/none         | -                        | 404 | NotFound | The entity does not have such an attribute",
