@@ -35,7 +35,7 @@ import io.furrow.model.time.Instants;
  *     {@code modifiedAt}</td></tr>
  * </table>
  *
- * <p>If the entity has none of {@code Time}, {@code TimeInstant}, {@code dateObserved}, {@code timestamp}, the newest
+ * <p>If the entity has no time in {@code Time}, {@code TimeInstant}, {@code dateObserved}, {@code timestamp}, the newest
  * {@code observedAt} of its attributes becomes its attribute {@code TimeInstant}, as an IoT Agent sets it; not if an
  * attribute without {@code observedAt} was modified later than all that have one.
  */
@@ -166,10 +166,15 @@ final class NgsiLdEntity {
         Instant observed = modified.getOrDefault(true, Instant.MIN);
         boolean isEarlier = !observed.equals(Instant.MIN)
                 && modified.getOrDefault(false, Instant.MIN).isAfter(observed);
-        if (!isEarlier && DEVICE_TIMES.stream().noneMatch(normalized::has)) {
+        boolean isTimed = DEVICE_TIMES.stream().anyMatch(name -> Instants.of(value(name)).isPresent());
+        if (!isEarlier && !isTimed && value("TimeInstant").asText("").isBlank()) {
             newestObservation.ifPresent(time -> normalized.set(
                     "TimeInstant", NgsiLdAttribute.plain("DateTime", JsonNodeFactory.instance.textNode(time))));
         }
+    }
+
+    private JsonNode value(String attribute) {
+        return normalized.path(attribute).path("value");
     }
 
     /** Returns the features of a collection or the elements of a list; empty if it is neither. */
