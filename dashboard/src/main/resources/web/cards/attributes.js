@@ -2,11 +2,11 @@
 import { dateTime, plain, quantity } from '../core/format.js';
 import { isOfCommand } from '../core/readings.js';
 
-/** Id, positions, times and states, which the card shows elsewhere. */
-const SHOWN_ELSEWHERE = new Set([
-  'Time', 'TimeInstant', 'dateModified', 'dateCreated', 'Latitude', 'Longitude', 'latitude', 'longitude', 'location', 'gnss', 'pose',
-  'Domain', 'Mission', 'name', 'Name', 'Image', 'cmd', 'heading', 'Heading', 'state', 'status', 'State', 'Status',
-]);
+/** Names, positions, times and the command, which say as texts what is shown elsewhere. */
+export const CONTEXT = [
+  'Time', 'TimeInstant', 'dateModified', 'dateCreated', 'Latitude', 'Longitude', 'latitude', 'longitude', 'location', 'gnss', 'pose', 'Domain', 'Mission', 'name', 'Name', 'Image', 'cmd',
+];
+const SHOWN_ELSEWHERE = new Set([...CONTEXT, 'heading', 'Heading', 'state', 'status', 'State', 'Status']);
 const FIRST = [
   'speed', 'temperature', 'battery', 'humidity', 'relativehumidity', 'soilmoisture', 'windspeed', 'pressure', 'atmosphericpressure', 'illuminance', 'precipitation',
 ];

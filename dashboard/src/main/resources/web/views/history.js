@@ -1,5 +1,5 @@
 /** Shows attributes of a device over hours and days, and the pictures of a camera: live, or of the recording that a replay plays. */
-import { keyAttributes } from '../cards/attributes.js';
+import { CONTEXT, keyAttributes } from '../cards/attributes.js';
 import { deviceAt } from '../cards/commands.js';
 import { h, replace, setText } from '../core/dom.js';
 import { label, shortId, zone } from '../core/format.js';
@@ -96,12 +96,13 @@ class History extends HTMLElement {
     this.timer ??= setTimeout(() => { this.timer = null; this.load(); }, this.key ? 1_000 : 50);
   }
 
-  /** Names of the attributes of the device with numbers, flags or texts, the texts last, the most important of each first. */
+  /** Names of the attributes of the device with numbers, flags or texts of its own, the texts last, the most important of each first. */
   get names() {
     const { entity } = this;
     const important = entity ? keyAttributes(entity, MAX_ATTRIBUTES).map(({ name }) => name) : [];
     const all = [...new Set([...important, ...Object.keys(entity?.attributes ?? {}).sort()])];
-    return [['number', 'boolean'], ['string']].flatMap((types) => all.filter((name) => types.includes(typeof entity.attributes[name].value))).slice(0, MAX_ATTRIBUTES);
+    const typeOf = (name) => typeof entity.attributes[name].value;
+    return [...all.filter((name) => ['number', 'boolean'].includes(typeOf(name))), ...all.filter((name) => typeOf(name) === 'string' && !CONTEXT.includes(name))].slice(0, MAX_ATTRIBUTES);
   }
 
   /** The most important attribute when the device was chosen: a later one does not replace it under the eyes of the user. A camera has its pictures instead of a text. */

@@ -157,7 +157,8 @@ class HistoryIT extends StubbedPage {
         assertThat(panel.locator("tbody tr")).hasCount(2);
         assertThat(panel.locator("tbody tr").first()).containsText("inactivo");
         assertThat(panel.getByText("PNG")).isHidden();
-        assertThat(page.find("#history-attribute-0 option")).containsText(new String[] {"Velocidad", "Estado"});
+        assertThat(page.find("#history-attribute-0 option"))
+                .hasText(new String[] {"Velocidad", "Latitude", "Longitude", "Estado"});
         Download csv = page.page().waitForDownload(() -> page.button("CSV").click());
         assertThat(Files.readAllLines(csv.path()).get(2)).endsWith("Z,Robot 1,state,idle,");
     }
