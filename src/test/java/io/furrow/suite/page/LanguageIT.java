@@ -1,6 +1,12 @@
 package io.furrow.suite.page;
 
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
 import java.util.List;
+import java.util.Set;
+import java.util.TreeSet;
+import java.util.regex.Pattern;
 import java.util.stream.Stream;
 
 import com.deque.html.axecore.playwright.AxeBuilder;
@@ -9,6 +15,7 @@ import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.files.Folders;
 import io.furrow.model.control.ErrorCode;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
@@ -120,6 +127,32 @@ class LanguageIT extends StubbedPage {
         assertThat((List<?>) page.run("async () => Object.keys((await import('/texts.es.js')).texts.refusals)"))
                 .extracting(Object::toString)
                 .containsAll(Stream.of(ErrorCode.values()).map(ErrorCode::code).toList());
+    }
+
+    /** They are the literals of that form in the classes that say why a device is silent or what has failed. */
+    @Test
+    void hasADetailForEachCode() throws IOException {
+        Set<String> codes = new TreeSet<>();
+        for (String part : List.of("control-plane", "kit/model/src/main/java/io/furrow/model/device")) {
+            for (Path file : Folders.walk(Path.of("..", part))) {
+                String source = file.toString().matches(".*/src/main/.*\\.java") ? Files.readString(file) : "";
+                if (Pattern.compile("new (SilenceCause|Fault|MissionStatus\\.Missing)\\(|(UNKNOWN_USER|WRONG_PASSWORD) =")
+                        .matcher(source)
+                        .find()) {
+                    Pattern.compile("\"([a-z]+(-[a-z]+)+)\"")
+                            .matcher(source)
+                            .results()
+                            .forEach(code -> codes.add(code.group(1)));
+                }
+            }
+        }
+        codes.remove("connector-watch"); // a thread
+        assertThat(codes).contains("no-measure", "not-simulated", "unknown-user", "devices-retained");
+
+        assertThat((List<?>) farm.open("", 1440, 900)
+                        .run("async () => Object.keys((await import('/texts.es.js')).texts.details)"))
+                .extracting(Object::toString)
+                .containsExactlyInAnyOrderElementsOf(codes);
     }
 
     @Test
