@@ -30,17 +30,19 @@ class LanguageIT extends StubbedPage {
     }
 
     @Test
-    void hasEachTextWithTheSameValues() {
+    void hasEachTextWellFormedWithTheSameValues() {
         FarmPage page = farm.open("", 1440, 900);
 
         assertThat((List<?>) page.run("""
                 async () => {
                   const flat = (section, path = '') => Object.entries(section).flatMap(([name, text]) =>
                     typeof text === 'object' ? flat(text, `${path}${name}.`) : `${path}${name} ${[...text.matchAll(/\\{(\\w+)/g)].map((hole) => hole[1]).sort()}`);
+                  const malformed = (section, path = '') => Object.entries(section).flatMap(([name, text]) => typeof text === 'object' ? malformed(text, `${path}${name}.`)
+                    : /[{}|]/.test(text.replace(/\\{\\w+(:? [^{}|]+\\|[^{}|]+)?\\}/g, '')) ? [`${path}${name}`] : []);
                   const english = flat((await import('/texts.js')).texts);
                   const spanish = flat({ ...(await import('/texts.es.js')).texts, words: {}, sentences: {}, details: {}, groups: {}, refusals: {}, commands: {}, reported: {} });
                   const without = (ours, theirs) => ours.filter((each) => !theirs.includes(each));
-                  return [...without(english, spanish), ...without(spanish, english)];
+                  return [...without(english, spanish), ...without(spanish, english), ...malformed((await import('/texts.js')).texts), ...malformed((await import('/texts.es.js')).texts)];
                 }""")).isEmpty();
     }
 
@@ -136,7 +138,8 @@ class LanguageIT extends StubbedPage {
         for (String part : List.of("control-plane", "kit/model/src/main/java/io/furrow/model/device")) {
             for (Path file : Folders.walk(Path.of("..", part))) {
                 String source = file.toString().matches(".*/src/main/.*\\.java") ? Files.readString(file) : "";
-                if (Pattern.compile("new (SilenceCause|Fault|MissionStatus\\.Missing)\\(|(UNKNOWN_USER|WRONG_PASSWORD) =")
+                if (Pattern.compile(
+                                "new (SilenceCause|Fault|MissionStatus\\.Missing)\\(|(UNKNOWN_USER|WRONG_PASSWORD) =")
                         .matcher(source)
                         .find()) {
                     Pattern.compile("\"([a-z]+(-[a-z]+)+)\"")
