@@ -114,7 +114,7 @@ function readAttribute(name, reported) {
 }
 
 /** Parses values of FIROS: ROS messages as text with `%27` for quotes. */
-function readValue(value) {
+export function readValue(value) {
   if (typeof value !== 'string') {
     return truncated(value);
   }

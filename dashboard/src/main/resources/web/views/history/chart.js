@@ -1,5 +1,6 @@
 /** Draws one attribute over time, with a threshold. */
 import { h } from '../../core/dom.js';
+import { readValue } from '../../core/entity.js';
 import { displayOf, label, number, plain, word } from '../../core/format.js';
 import { TimeChart, uPlot } from '../../core/time-chart.js';
 
@@ -21,7 +22,7 @@ const MARGIN = 0.08;
 /** @param {Object} history of the control plane @returns {Series} */
 export function seriesOf({ attribute, kind, unit, points, changes }) {
   if (kind === 'text') {
-    return { label: label(attribute), unit: '', isFlag: false, isText: true, times: changes.map(({ time }) => time), values: changes.map(({ value }) => value) };
+    return { label: label(attribute), unit: '', isFlag: false, isText: true, times: changes.map(({ time }) => time), values: changes.map(({ value }) => plain(readValue(value), Infinity)) };
   }
   const values = points.map(({ value }) => value);
   const max = values.reduce((one, other) => Math.max(one, other), -Infinity);
@@ -32,7 +33,7 @@ export function seriesOf({ attribute, kind, unit, points, changes }) {
 
 /** "21.5 °C", "yes". */
 export function wordsOf({ unit, isFlag, isText }, value) {
-  return isText ? word(value) : isFlag ? plain(value === 1) : `${number(value)} ${unit}`.trim();
+  return isText ? word(value, 'reported') : isFlag ? plain(value === 1) : `${number(value)} ${unit}`.trim();
 }
 
 export class AttributeChart extends TimeChart {

@@ -149,16 +149,18 @@ class HistoryIT extends StubbedPage {
 
     @Test
     void listsTheChangesOfAText() throws Exception {
-        String changes = "\"changes\": [{\"time\": %d, \"value\": \"Running\"}, {\"time\": %d, \"value\": \"idle\"}],"
-                .formatted(now - 2 * MINUTE, now - MINUTE);
+        String changes =
+                "\"changes\": [{\"time\": %d, \"value\": \"{%%27data%%27: %%27stopped%%27}\"}, {\"time\": %d, \"value\": \"idle\"}],"
+                        .formatted(now - 2 * MINUTE, now - MINUTE);
         farm.isReadIn("es").answers(PATH, history("text", 0).replace("\"missions\"", changes + " \"missions\""));
         FarmPage page = farm.open("#/history?attribute=state&select=" + ROBOT, 1440, 900);
         Locator panel = page.find(".history-panel");
         assertThat(panel.locator("tbody tr")).hasCount(2);
         assertThat(panel.locator("tbody tr").first()).containsText("inactivo");
+        assertThat(panel.locator("tbody tr").last()).containsText("parado");
         assertThat(panel.getByText("PNG")).isHidden();
         assertThat(page.find("#history-attribute-0 option"))
-                .hasText(new String[] {"Velocidad", "Latitude", "Longitude", "Estado"});
+                .hasText(new String[] {"Velocidad", "Latitud", "Longitud", "Estado"});
         Download csv = page.page().waitForDownload(() -> page.button("CSV").click());
         assertThat(Files.readAllLines(csv.path()).get(2)).endsWith("Z,Robot 1,state,idle,");
     }
