@@ -41,11 +41,13 @@ export const texts = {
     running: 'en marcha', working: 'trabajando', idle: 'inactivo', charging: 'cargando', paused: 'en pausa',
     temperature: 'temperatura', 'soil temperature': 'temperatura del suelo', 'dew point': 'punto de rocío', 'wind speed': 'velocidad del viento', heading: 'rumbo', 'wind direction': 'dirección del viento',
     humidity: 'humedad', 'relative humidity': 'humedad relativa', 'soil moisture': 'humedad del suelo', battery: 'batería', 'battery level': 'batería', pressure: 'presión', 'atmospheric pressure': 'presión atmosférica', altitude: 'altitud',
-    illuminance: 'iluminancia', voltage: 'tensión', precipitation: 'precipitación', rainfall: 'lluvia', 'solar radiation': 'radiación solar', location: 'posición', position: 'posición', state: 'estado', status: 'estado', mode: 'modo', mission: 'misión', image: 'imagen',
+    illuminance: 'iluminancia', voltage: 'tensión', precipitation: 'precipitación', rainfall: 'lluvia', 'solar radiation': 'radiación solar', location: 'posición', position: 'posición', state: 'estado', status: 'estado', mode: 'modo', mission: 'misión', image: 'imagen', latitude: 'latitud', longitude: 'longitud',
+    domain: 'dominio', template: 'plantilla', description: 'descripción', version: 'versión', name: 'nombre', duration: 'duración', analytics: 'análisis', field: 'parcela', fields: 'parcelas', events: 'eventos', markers: 'marcas', from: 'desde', to: 'hasta', kind: 'clase',
+    'save-template': 'guardar plantilla', 'delete-template': 'eliminar plantilla',
   },
 
   commands: { stop: 'parar', resume: 'continuar', on: 'encender', off: 'apagar', restart: 'reiniciar' },
-  reported: { running: 'en marcha', working: 'trabajando', moving: 'en movimiento', stop: 'parado', stopped: 'parado', paused: 'en pausa', idle: 'inactivo', charging: 'cargando', on: 'encendido', off: 'apagado' },
+  reported: { running: 'en marcha', working: 'trabajando', moving: 'en movimiento', stop: 'parado', stopped: 'parado', paused: 'en pausa', idle: 'inactivo', charging: 'cargando', on: 'encendido', off: 'apagado', failed: 'fallido' },
 
   sentences: {
     'collision-many': '{affected pareja más|parejas más} de {group} {affected: está|están} demasiado cerca',
@@ -153,7 +155,7 @@ export const texts = {
 
   cards: {
     title: 'Dispositivos', silent: '{count dispositivo sin señal o apagado|dispositivos sin señal o apagados}', count: '{count} · {reporting informa|informan}', found: '{found} de {count}', unknown: '{device} nunca ha informado o fue eliminado.', filter: 'Mostrar solo', loading: 'Se leen los dispositivos',
-    state: 'Estado', fieldMean: 'Media de la parcela', suspect: 'sospechoso', noPosition: 'sin posición', details: 'Todos los atributos de {name}',
+    state: 'Estado', fieldMean: 'En la parcela', suspect: 'dudoso', noPosition: 'sin posición', details: 'Todos los atributos de {name}',
     line: '{label}: ahora {now} {unit}, entre {min} y {max} {unit}',
     lineConstant: '{label}: {now} {unit} todo el tiempo',
     tooLarge: 'Demasiado grande para mostrarlo', omitted: 'Sin mostrar: {count atributo|atributos} más.',
@@ -248,7 +250,7 @@ export const texts = {
     noneHint: 'Con MongoDB se guarda todo lo que informa una misión desde su inicio. Inicie una, y aparecerá aquí medio minuto después.',
     noneButton: 'A las misiones',
     choose: 'Elegir {mission}',
-    choice: 'Misión', when: 'Cuándo', length: 'Duración', devices: 'Dispositivos', events: 'Eventos', density: 'Eventos a lo largo del tiempo',
+    choice: 'Misión', when: 'Cuándo', length: 'Duración', devices: 'Dispositivos', events: 'Eventos', density: 'En el tiempo',
     now: 'grabándose', wrongClock: 'Más de un año: el reloj de un dispositivo estaba mal.',
     chooseOne: 'Elija una misión, o varias para reproducirlas con un mismo reloj.',
     plan: 'Reproducción nueva',

@@ -95,7 +95,7 @@ class FurrowPlatform extends HTMLElement {
 
   drawParts(parts) {
     replace(this.parts, h('h2', null, t('platform.parts')), parts.length === 0 ? h('p.muted', null, t('platform.notKnown')) : h('ul.platform-parts', null, parts.map(([name, part]) => h('li', null,
-      h('span', { class: `pill ${part.state === 'up' ? 'good' : 'bad'}` }, t(`platform.states.${part.state}`)), h('span.cut', null, nameOf(name)), h('span.small.muted.cut', null, part.detail ?? '')))));
+      h('span', { class: `pill ${part.state === 'up' ? 'good' : 'bad'}` }, t(`platform.states.${part.state}`)), h('span.cut', null, nameOf(name)), h('span.small.muted', null, part.detail ?? '')))));
   }
 
   drawGroups(groups) {

@@ -15,7 +15,7 @@ const COLUMNS = [
   { name: 'missions.auditColumns.time', value: (entry) => dateOf(entry.time) },
   { name: 'missions.auditColumns.user', value: (entry) => entry.user },
   { name: 'missions.auditColumns.command', value: (entry) => `${t(`missions.targets.${TARGETS[entry.target] ?? 'other'}`)} ${word(entry.command ?? '')}` },
-  { name: 'missions.auditColumns.about', value: ({ about }) => Object.entries(about ?? {}).map(([name, value]) => `${name} ${textOf(name, value)}`).join(', ') },
+  { name: 'missions.auditColumns.about', value: ({ about }) => wordsOf(about ?? {}) },
   { name: 'missions.auditColumns.result', value: resultOf },
 ];
 
@@ -149,12 +149,16 @@ function resultOf(entry) {
 
 function aboutOf(about = {}) {
   const { device, mission, ...rest } = about;
-  const words = Object.entries(rest).map(([name, value]) => `${name} ${textOf(name, value)}`).join(', ');
+  const words = wordsOf(rest);
   return [
     typeof mission === 'string' && h('a', { href: linkTo('missions', { mission }) }, mission),
     typeof device === 'string' && h('a', { href: linkTo('map', { select: device }) }, shortId(device)),
     words && h('span.muted', null, words.length > 160 ? `${words.slice(0, 160)}…` : words),
   ].filter(Boolean).flatMap((each, index) => (index ? [' · ', each] : [each]));
+}
+
+function wordsOf(about) {
+  return Object.entries(about).map(([name, value]) => `${word(name)} ${textOf(name, value)}`).join(', ');
 }
 
 /** Formats times of replays as event times, and lengths of missions. */

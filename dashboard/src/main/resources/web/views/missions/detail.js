@@ -2,7 +2,7 @@
 import { detailOf } from '../../alarms/sentence.js';
 import { api } from '../../core/api.js';
 import { csvButton, dateOf } from '../../core/csv.js';
-import { age, dateTime, duration, readable, shortId } from '../../core/format.js';
+import { age, dateTime, duration, readable, shortId, word } from '../../core/format.js';
 import { h, replace } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
 import { linkTo, navigate } from '../../core/router.js';
@@ -138,7 +138,7 @@ export class MissionDetail {
 
   row(device, now) {
     const health = device.health ?? {};
-    const state = device.status?.state ?? t('missions.notYet');
+    const state = device.status?.state ? word(device.status.state, 'reported') : t('missions.notYet');
     const seen = seenAt(device);
     const sound = healthOf(device, now);
     return h('tr', null,

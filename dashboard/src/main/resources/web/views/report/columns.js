@@ -46,7 +46,7 @@ const devices = [
   textColumn('report.device', ({ id }) => shortId(id)),
   { name: 'report.id', value: ({ id }) => id },
   textColumn('report.type', ({ type }) => type || '–'),
-  textColumn('report.state', ({ state }) => (state ? label(state) : '–')),
+  textColumn('report.state', ({ state }) => (state ? label(word(state, 'reported')) : '–')),
   numberColumn('report.hectares', 'hectare', ({ hectares }) => hectares, area),
   numberColumn('report.overlap', 'hectare', ({ overlap }) => overlap, area),
   { name: 'report.late', unit: 'second', value: ({ late }) => (late === null ? null : late / 1000), words: ({ late }) => (late === null ? '–' : h('span.warn', { title: t('report.lateHint') }, duration(late))), isNumber: true },
