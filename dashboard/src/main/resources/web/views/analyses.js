@@ -55,7 +55,7 @@ class Analyses extends HTMLElement {
     this.subtitle = h('p.muted');
     this.periods = h('div.segments', { role: 'group', 'aria-label': t('analyses.period') }, PERIODS.map((period) => h('button.button.small', {
       type: 'button', data: { period }, on: { click: () => this.choose(period) },
-    }, period < 60 * MINUTE ? t('analyses.quarter') : t('analyses.hours', { hours: period / 60 / MINUTE }))));
+    }, t(period < 60 * MINUTE ? 'analyses.quarter' : period === 60 * MINUTE ? 'history.hour' : 'analyses.hours', { hours: period / 60 / MINUTE }))));
     this.note = h('p.small', { role: 'status' });
     this.failed = h('div', { hidden: true });
     this.parts = Object.fromEntries(['averages', 'encounters', 'presence'].map((name) => [name, this.part(name)]));
