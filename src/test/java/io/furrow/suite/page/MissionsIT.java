@@ -1,5 +1,6 @@
 package io.furrow.suite.page;
 
+import java.util.List;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -80,6 +81,29 @@ class MissionsIT {
         detail.getByText("Stop", EXACTLY).click();
         dialog.getByText("Stop", EXACTLY).click();
         assertThat(detail.locator(".pill").first()).hasText("stopped");
+    }
+
+    /** Its robots have implements, and meet. */
+    @Tag("full")
+    @Test
+    void reportsWhatARunningMissionHasDone(PageSuite suite) {
+        FarmPage farm = suite.open("#/missions?mission=weeding");
+        farm.find(".mission-detail a[data-act=report]").click();
+        assertThat(farm.find("furrow-report h1")).hasText("Report of weeding");
+        for (String part : List.of("coverages", "encounters", "averages", "devices")) {
+            farm.until(
+                    () -> {
+                        boolean isShown =
+                                farm.find(".report-" + part + " tbody tr").count() > 0;
+                        if (!isShown && farm.button("Read again").isVisible()) {
+                            farm.button("Read again").click();
+                        }
+                        return isShown;
+                    },
+                    FarmPage.TIMEOUT);
+        }
+        assertThat(farm.find(".report-cells[data-cells=worked]").first()).isVisible();
+        assertThat(farm.find("furrow-report .error-note")).hasCount(0);
     }
 
     @Tag("full")
