@@ -1,6 +1,7 @@
 package io.furrow.suite.page;
 
 import com.microsoft.playwright.Locator;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
@@ -34,12 +35,36 @@ class FieldVersionsIT {
         farm.untilStore(KNOWN + " === 'rye'");
         farm.untilStore("store.fieldVersions.get('page-meadow').size === 2");
 
+        returnsAfterItsDeletion(farm);
         farm.button("Undo: Page meadow was changed").click();
         farm.untilStore(KNOWN + " === 'clover'");
         farm.button("Undo: Page meadow was drawn").click();
         farm.untilStore("!store.fields.has('page-meadow')");
-        farm.untilStore("store.fieldVersions.get('page-meadow').size === 4");
+        farm.untilStore("store.fieldVersions.get('page-meadow').size === 6");
         assertThat(farm.button("Undo: Page meadow was drawn")).hasCount(0);
         farm.close();
+    }
+
+    /** With all its versions, of which one is an end. */
+    private static void returnsAfterItsDeletion(FarmPage farm) {
+        farm.page().getByLabel("Change a field …").selectOption("page-meadow");
+        farm.button("End").click();
+        farm.find("dialog[open] .button.danger").click();
+        farm.button("Undo: Page meadow was ended").click();
+        farm.untilStore("store.fieldVersions.get('page-meadow').size === 4 && " + KNOWN + " === 'rye'");
+        String versions =
+                "JSON.stringify([...store.fieldVersions.get('page-meadow') ?? []].sort(([one], [other]) => one - other))";
+        Object before = farm.store(versions);
+
+        farm.go("Missions");
+        farm.page().getByText("Domains and fields").click();
+        farm.button("Delete Page meadow").click();
+        farm.find("dialog[open] button[type=submit]").click();
+        farm.untilStore("store.fieldVersions.get('page-meadow').size === 0");
+        farm.button("Undo: Page meadow was deleted").click();
+        farm.untilStore("store.fieldVersions.get('page-meadow')?.size === 4");
+        Assertions.assertThat(farm.store(versions)).isEqualTo(before);
+
+        farm.go("Map");
     }
 }
