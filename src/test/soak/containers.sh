@@ -75,9 +75,10 @@ save_logs() {
 say "starting the containers"
 compose up --detach --no-build >"$logs/up.log" 2>&1 || fail "The containers do not start: $logs/up.log"
 
-# ready: whether all jobs run and the control plane is ready.
+# ready: whether all jobs run, all containers are healthy and the control plane is ready.
 ready() {
     local jobs
+    [[ -z $(containers health=starting)$(containers health=unhealthy) ]] || return
     jobs=$(curl -fs http://127.0.0.1:8081/jobs/overview | grep -o '"state":"RUNNING"' | wc -l)
     ((jobs == 6)) && curl -fs http://127.0.0.1:8086/ready && curl -fs http://127.0.0.1:8080/
 }
@@ -97,11 +98,17 @@ until_true 180 "An average in the context broker" found Analytics:FieldTemperatu
 until_true 180 "An encounter in the context broker" found Analytics:Collision
 say "averages and encounters are in the context broker"
 
+process() { podman inspect --format '{{.State.Pid}}' "$project-$1-1"; }
+# restarted NAME PID: whether another process runs there.
+restarted() { [[ $(process "$1") != 0 && $(process "$1") != "$2" ]]; }
+
 # kill_service NAME: kills it as a crash does; the engine starts it again.
 kill_service() {
-    kill -9 "$(podman inspect --format '{{.State.Pid}}' "$project-$1-1")"
+    local pid
+    pid=$(process "$1")
+    kill -9 "$pid"
     say "$1 killed"
-    sleep 3
+    until_true 60 "Another process of $1" restarted "$1" "$pid"
     until_true 120 "The farm after the death of $1" ready
     say "everything runs again"
 }

@@ -166,7 +166,8 @@ final class NgsiLdEntity {
         Instant observed = modified.getOrDefault(true, Instant.MIN);
         boolean isEarlier = !observed.equals(Instant.MIN)
                 && modified.getOrDefault(false, Instant.MIN).isAfter(observed);
-        boolean isTimed = DEVICE_TIMES.stream().anyMatch(name -> Instants.of(value(name)).isPresent());
+        boolean isTimed =
+                DEVICE_TIMES.stream().anyMatch(name -> Instants.of(value(name)).isPresent());
         if (!isEarlier && !isTimed && value("TimeInstant").asText("").isBlank()) {
             newestObservation.ifPresent(time -> normalized.set(
                     "TimeInstant", NgsiLdAttribute.plain("DateTime", JsonNodeFactory.instance.textNode(time))));

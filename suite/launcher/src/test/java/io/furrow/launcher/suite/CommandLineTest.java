@@ -15,7 +15,7 @@ class CommandLineTest extends CommandLineFixture {
         "--help, demo",
         "help mission, watch",
         "--version, furrow",
-        "init --help, FILE",
+        "init --help, FOLDER",
         "demo --help, --kafka-port",
         "up --help, --orion",
         "demo --help, --tiles",
