@@ -63,11 +63,13 @@ public final class ApplyCommand implements Callable<Integer> {
         if (definition.has("devices")) {
             definition.remove("template"); // its devices were copied
         }
-        String name = definition.path(kind).asText();
-        String path = "/api/%ss%s".formatted(kind, ControlApi.part(name));
+        String path =
+                "/api/" + kind + "s" + ControlApi.part(definition.path(kind).asText());
         JsonNode existing = existing(api, path);
         if (definition.properties().stream().allMatch(each -> each.getValue().equals(existing.get(each.getKey())))) {
-            control.answered(definition, "unchanged: %s %s".formatted(kind, name));
+            control.answered(
+                    definition,
+                    "unchanged: %s %s".formatted(kind, definition.path(kind).asText()));
         } else if (kind.equals(MISSION)) {
             control.answered(MissionControl.create(api, definition));
         } else if (existing.isMissingNode()) {
@@ -81,10 +83,10 @@ public final class ApplyCommand implements Callable<Integer> {
         try {
             return api.get(path);
         } catch (ControlPlaneException e) {
-            if (e.isUnknown()) {
-                return MissingNode.getInstance();
+            if (!e.isUnknown()) {
+                throw e;
             }
-            throw e;
+            return MissingNode.getInstance();
         }
     }
 }
