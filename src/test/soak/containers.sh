@@ -167,4 +167,9 @@ furrow mission stop mine >>"$logs/mission.log"
 furrow replay start mine --speed max --topic data.mine.replay.0a1b2c3d >"$logs/replay.log"
 timeout 120 "$archive/bin/furrow" replay watch mine.0a1b2c3d >>"$logs/replay.log" || fail "The replay did not end: $logs/replay.log"
 tail -n 1 "$logs/replay.log"
+say "a stop"
+compose stop >"$logs/stop.log" 2>&1
+for name in $(containers); do
+    (($(podman inspect --format '{{.State.ExitCode}}' "$name") != 137)) || fail "$name did not stop within its grace period."
+done
 echo "containers: passed"
