@@ -16,7 +16,8 @@ public record FiwareScope(String service, String servicePath) {
     public static FiwareScope of(String service, String servicePath) {
         String tenant = service == null ? "" : service.trim().toLowerCase(java.util.Locale.ROOT);
         String path = servicePath == null || servicePath.isBlank() ? "/" : servicePath.trim();
-        while (path.length() > 1 && path.endsWith("/")) {
+        boolean isList = path.indexOf(',') >= 0; // of several entities, see NotificationRules
+        while (!isList && path.length() > 1 && path.endsWith("/")) {
             path = path.substring(0, path.length() - 1);
         }
         return new FiwareScope(tenant, path);

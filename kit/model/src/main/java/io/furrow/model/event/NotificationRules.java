@@ -69,7 +69,7 @@ public record NotificationRules(String name, List<Pattern> excluded, EventTimeRu
         if (paths.length == notification.size()) {
             return FiwareScope.of(headers.service(), paths[place]);
         }
-        if (Stream.of(paths).map(String::trim).distinct().count() > 1) {
+        if (Stream.of(paths).map(path -> FiwareScope.of("", path)).distinct().count() > 1) {
             throw new UnreadableException(
                     Reason.NOT_AN_ENTITY,
                     "entity %d of %d has no service path: the header Fiware-ServicePath has %d, %s"

@@ -60,6 +60,7 @@ class NotificationRulesTest {
             /,/    | {'id':'a'},{'id':'b'}                                  | / /
             /a,/b,/c | {'id':'a'},{'id':5},{'id':'b'}                       | /a /c
             /,/    | {'id':'a'}                                             | /
+            /a,/a/ | {'id':'a'}                                             | /a
             /a,/b  | {'id':'a'}                                             | -
             /a,/b  | {'id':'a'},{'id':'b'},{'id':'c'}                       | - - -
             /a,/b  | {'id':'a','servicePath':{'type':'Text','value':'/t'}},{'id':'b'} | /t /b
